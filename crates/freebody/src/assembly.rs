@@ -39,6 +39,10 @@ pub struct Assembled {
 
 /// Iterations of one attempt.
 const ITERATIONS: usize = 300;
+/// Part of the fastest rate below which what is left of a rate asked for is round-off.
+const UNMET: f64 = 1e-8;
+/// Part of a radian, or of the characteristic length, within which two configurations are the same.
+const SAME_PLACE: f64 = 1e-6;
 /// Attempts from other starts.
 const ATTEMPTS: usize = 64;
 
@@ -114,7 +118,7 @@ fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)],
         let step = workspace.damped_motion(&present, damping);
         let mut user = vec![0.0; q.len()];
         workspace.to_user(&step, &mut user);
-        let longest = (0..q.len()).map(|i| (user[i] / unit(workspace, i)).abs()).fold(1.0, f64::max);
+        let longest = user.iter().zip(workspace.units()).map(|(d, unit)| (d / unit).abs()).fold(1.0, f64::max);
         let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
         workspace.move_to(t, &trial, &still);
         let next = rows(workspace, held);
@@ -169,10 +173,11 @@ fn scattered(workspace: &Workspace, request: &AssemblyRequest, k: usize) -> Vec<
         let x = k as f64 * PRIMES[i % 12].sqrt() * (1.0 + (i / 12) as f64);
         2.0 * (x - x.floor()) - 1.0
     };
+    let units = workspace.units();
     (0..request.start.len())
         .map(|i| {
-            let reach =
-                if workspace.m.coordinate(i).dimension == "rad" { std::f64::consts::PI } else { workspace.length };
+            let is_angle = workspace.m.coordinate(i).dimension == "rad";
+            let reach = if is_angle { std::f64::consts::PI } else { units[i] };
             request.start[i] + if request.free[i] { reach * place(i) } else { 0.0 }
         })
         .collect()
@@ -204,20 +209,13 @@ fn other_assemblies(workspace: &mut Workspace, t: f64, request: &AssemblyRequest
 
 /// Whether two sets of coordinates are the same place, angles up to whole turns.
 fn same(workspace: &Workspace, a: &[f64], b: &[f64]) -> bool {
+    let units = workspace.units();
     (0..a.len()).all(|i| {
         let d = a[i] - b[i];
         let turn = std::f64::consts::TAU;
         let d = if workspace.m.coordinate(i).dimension == "rad" { d - turn * (d / turn).round() } else { d };
-        d.abs() < 1e-6 * unit(workspace, i)
+        d.abs() < SAME_PLACE * units[i]
     })
-}
-
-/// A large change of a coordinate: a radian, or the characteristic length.
-fn unit(workspace: &Workspace, i: usize) -> f64 {
-    match workspace.m.coordinate(i).dimension {
-        "m" => workspace.length,
-        _ => 1.0,
-    }
 }
 
 /// Rates that keep the loops closed and what is held, nearest to the starting rates.
@@ -233,17 +231,19 @@ fn velocities(
     }
     workspace.move_to(t, q, &u);
     workspace.update_rows();
-    let speed = u.iter().fold(1.0_f64, |m, x| m.max(x.abs()));
+    let units = workspace.units();
+    let rates = |u: &[f64]| u.iter().zip(&units).map(|(u, unit)| (u / unit).abs()).fold(0.0, f64::max);
+    let fastest = rates(&u).max(rates(&request.start_rates));
     let described = |source: Source| (source.name(workspace.m).to_string(), Some(source.path(workspace.m)));
-    let drive = workspace.rows().iter().filter_map(|r| r.rate.map(|x| (described(r.source), x)));
+    let drive =
+        workspace.rows().iter().filter_map(|r| r.rate.map(|x| (described(r.source), x, x / workspace.row_unit(r))));
     let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
-    let held = request
-        .held_rates
-        .iter()
-        .map(|(name, law, rate)| ((format!("rate of {name}"), None), jet(&going, law).d1 - rate));
-    let worst = drive.chain(held).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    match worst {
-        Some(((name, path), left)) if left.abs() > 1e-8 * speed * workspace.length.max(1.0) => {
+    let held = request.held_rates.iter().map(|(name, law, rate)| {
+        let left = jet(&going, law).d1 - rate;
+        ((format!("rate of {name}"), None), left, left / workspace.row_unit(&workspace.target_row(law, 0.0, *rate)))
+    });
+    match drive.chain(held).max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) {
+        Some(((name, path), left, over)) if over.abs() > UNMET * fastest => {
             Err(DynamicsError::InconsistentRates(name, left, path))
         }
         _ => Ok(u),

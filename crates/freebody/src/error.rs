@@ -173,7 +173,7 @@ impl DynamicsError {
             ),
             Self::LoopOpened(name, gap, at) => (
                 "branch_lost",
-                format!("the loop at `{name}` opened by {gap:.3e} m and could not be closed again"),
+                format!("the loop at `{name}` opened by {gap:.3e} (m or rad) and could not be closed again"),
                 Some(at),
             ),
             Self::CannotAssemble(gaps, at) => {

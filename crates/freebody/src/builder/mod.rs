@@ -57,9 +57,20 @@ impl Builder<'_> {
         self.m.values.len() - 1
     }
 
+    /// A new slot, of a length.
+    pub(crate) fn length(&mut self, law: ModelExpr) -> ValueId {
+        self.m.lengths.push(self.m.values.len());
+        self.value(law)
+    }
+
     pub(crate) fn number_value(&mut self, path: &str, number: &Number) -> Result<ValueId> {
         let law = self.number(path, number)?;
         Ok(self.value(law))
+    }
+
+    pub(crate) fn length_value(&mut self, path: &str, number: &Number) -> Result<ValueId> {
+        let law = self.number(path, number)?;
+        Ok(self.length(law))
     }
 }
 

@@ -21,7 +21,7 @@ impl Builder<'_> {
             over.push(self.guide(&format!("{path}.over[{i}]"), guide)?);
         }
         let length = match &string.length {
-            Some(number) => Some(self.within(&format!("{path}.length"), number, |x| x > 0.0, "a positive length")?),
+            Some(number) => Some(self.positive_length(&format!("{path}.length"), number)?),
             None => None,
         };
         let restitution = format!("{path}.restitution");
@@ -84,7 +84,7 @@ impl Builder<'_> {
     /// Centre, radius and sense of a drum or a pulley.
     fn wheel(&mut self, path: &str, centre: &str, radius: &Number, sense: i8) -> Result<(usize, ValueId, f64)> {
         let centre = self.site_named(&format!("{path}.centre"), centre)?;
-        let radius = self.within(&format!("{path}.radius"), radius, |x| x > 0.0, "a positive length")?;
+        let radius = self.positive_length(&format!("{path}.radius"), radius)?;
         if !matches!(sense, -1 | 1) {
             let what = format!("{sense} is no sense in which a string goes round");
             return Err(CompileError::new(format!("{path}.sense"), what, "write 1, counter-clockwise, or -1"));
@@ -97,6 +97,12 @@ impl Builder<'_> {
     }
 
     /// A number that, where it is written out, must be of a kind.
+    fn positive_length(&mut self, path: &str, number: &Number) -> Result<ValueId> {
+        let length = self.within(path, number, |x| x > 0.0, "a positive length")?;
+        self.m.lengths.push(length);
+        Ok(length)
+    }
+
     fn within(&mut self, path: &str, number: &Number, fits: impl Fn(f64) -> bool, kind: &str) -> Result<ValueId> {
         match number {
             Number::Literal(x) if !fits(*x) => {

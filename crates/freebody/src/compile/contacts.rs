@@ -254,7 +254,7 @@ impl Builder<'_> {
                     let hint = "give it a radius above 0, or write `point`";
                     return Err(CompileError::new(format!("{path}.radius"), "this circle has no size", hint));
                 }
-                let radius = self.number_value(&format!("{path}.radius"), radius)?;
+                let radius = self.length_value(&format!("{path}.radius"), radius)?;
                 let (centre, hollow) = (site(self, centre)?, *hollow);
                 match ends {
                     None => Shape::Circle { centre, radius, hollow },

@@ -15,21 +15,22 @@ struct Sides {
     first: Option<Marker>,
     second: Option<Marker>,
     curve: Option<usize>,
-    numbers: Vec<ModelExpr>,
+    /// Each with whether it is a length.
+    numbers: Vec<(ModelExpr, bool)>,
 }
 
 impl Sides {
     /// Reads one field into its marker, curve or numbers.
     fn read(&mut self, fields: &mut Fields, field: &Field) -> Result<()> {
-        let name = field.name;
+        let (name, is_length) = (field.name, field.dimension == Some("m"));
         let straight = |fields: &mut Fields, site| Marker { site, angle: fields.c.value(ModelExpr::constant(0.0)) };
         let marker = match (field.role, field.kind) {
             (Role::Number, FieldKind::Numbers) => {
-                self.numbers.extend(fields.numbers(name)?);
+                self.numbers.extend(fields.numbers(name)?.into_iter().map(|law| (law, is_length)));
                 return Ok(());
             }
             (Role::Number, _) => {
-                self.numbers.push(fields.number(name)?);
+                self.numbers.push((fields.number(name)?, is_length));
                 return Ok(());
             }
             (_, FieldKind::Curve) => {
@@ -44,7 +45,7 @@ impl Sides {
             (_, FieldKind::Line) => fields.line(name)?,
             (_, FieldKind::Circle) => {
                 let (site, radius) = fields.circle(name)?;
-                self.numbers.push(radius);
+                self.numbers.push((radius, true));
                 straight(fields, site)
             }
             (_, FieldKind::Points) => self.two_points(fields, name)?,
@@ -65,7 +66,7 @@ impl Sides {
         let [p, q] = fields.two_sites(name)?;
         let path = format!("{}.{name}", fields.path);
         let [dx, dy] = fields.c.offset(&path, p, q)?;
-        self.numbers.push(dx.clone().hypot(dy.clone()));
+        self.numbers.push((dx.clone().hypot(dy.clone()), true));
         Ok(Marker { site: p, angle: fields.c.value(dy.atan2(dx)) })
     }
 }
@@ -160,7 +161,8 @@ impl Builder<'_> {
             return Err(CompileError::new(&pair.path, what, "use a slot or a link, or make the particle a rigid body"));
         }
         let coordinates = self.coordinates(pair, &card, child_is_particle, reversed)?;
-        let numbers = numbers.into_iter().map(|law| self.value(law)).collect();
+        let number = |(law, is_length)| if is_length { self.length(law) } else { self.value(law) };
+        let numbers = numbers.into_iter().map(number).collect();
         let rows: Vec<usize> =
             (0..card.rows.len()).filter(|&r| !(card.rows[r].load.couple && particle.contains(&true))).collect();
         Ok(Joint {

@@ -213,14 +213,14 @@ impl Builder<'_> {
         for word in *words {
             let missing = || CompileError::new(path, format!("a {} needs its `{word}`", spec.shape), "");
             let number = spec.sizes.get(*word).ok_or_else(missing)?;
-            sizes.push(self.number_value(&format!("{path}.{word}"), number)?);
+            sizes.push(self.length_value(&format!("{path}.{word}"), number)?);
         }
         if *shape == Shape::Polygon && spec.corners.len() < 3 {
             return Err(CompileError::new(format!("{path}.corners"), "a polygon has three corners or more", ""));
         }
         for corner in &spec.corners {
             for number in corner {
-                sizes.push(self.number_value(&format!("{path}.corners"), number)?);
+                sizes.push(self.length_value(&format!("{path}.corners"), number)?);
             }
         }
         let inertia = match &spec.inertia {

@@ -18,7 +18,9 @@ use crate::solve::Matrix;
 const CLOSE: f64 = 1e-8;
 /// Part of the mechanism's own accelerations below which one is round-off.
 const NOTHING: f64 = 1e-13;
-
+/// Part of the characteristic length, and of the mechanism's own speed, up to which a gap is closed and nothing moves, at
+/// an instant by itself.
+const REST: f64 = 1e-9;
 /// Coupling of two unilateral constraints, over their own sizes, that is round-off.
 const UNCOUPLED: f64 = 1e-12;
 
@@ -227,11 +229,12 @@ impl Workspace<'_> {
         }
         let mode = self.start_contacts()?;
         self.enter(&mode);
-        let rest_speed = 1e-9 * self.length * (self.n.gravity.norm() / self.length).sqrt().max(1.0);
+        let rate = self.natural_rate();
+        let rest_speed = REST * self.length * rate;
         let mut mode = self.start_joint_friction(rest_speed)?;
         let scale = ContactTolerances {
             rest_speed,
-            acceleration: self.n.gravity.norm().max(self.length),
+            acceleration: rate * rate * self.length,
             prefer_rest: false,
             relaxed: false,
         };
@@ -251,7 +254,7 @@ impl Workspace<'_> {
     }
 
     fn modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<Mode, DynamicsError> {
-        let touching = self.touching(1e-9 * self.length);
+        let touching = self.touching(REST * self.length);
         let contacts = self.closed_contacts(touching)?;
         let staying = (0..contacts.len())
             .filter(|&i| contacts.rates[i] <= scale.rest_speed)

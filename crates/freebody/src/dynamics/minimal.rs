@@ -30,7 +30,7 @@ pub(super) enum Force {
 
 /// Share of a row in a dependence, whose size is 1, below which it is round-off.
 const PART: f64 = 1e-6;
-/// Largest contradiction of the rows, relative to what they ask for, that is put down to round-off.
+/// Largest contradiction of the rows, over the largest of their terms, that is put down to round-off.
 const CONTRADICTION: f64 = 1e-7;
 
 impl Workspace<'_> {
@@ -38,7 +38,7 @@ impl Workspace<'_> {
         let force = self.set_up()?;
         let asked: Vec<f64> = self.rows.iter().map(|row| -row.bias).collect();
         let solution = self.dense.saddle.solve(&force, &asked);
-        self.check_consistent(solution.inconsistency, &asked)?;
+        self.check_consistent(solution.inconsistency, &asked, &solution.a)?;
         self.solved.nu_dot.copy_from_slice(&solution.a);
         self.solved.lambda = solution.lambda;
         self.recover_body_motion();
@@ -154,10 +154,16 @@ impl Workspace<'_> {
         (words.join(" and "), moving.first().map(|&i| format!("bodies.{}", self.m.bodies[i].name)))
     }
 
-    fn check_consistent(&self, inconsistency: f64, asked: &[f64]) -> Result<(), DynamicsError> {
-        let columns = column_scales(self.at(), self.length);
+    fn check_consistent(&self, inconsistency: f64, asked: &[f64], found: &[f64]) -> Result<(), DynamicsError> {
+        let columns = self.units();
         let scales = row_scales(&self.dense.g, &columns);
-        let most = asked.iter().zip(&scales).map(|(r, s)| (r * s).abs()).fold(1.0, f64::max);
+        // What is asked is a difference of squares of rates, and is met by what loads and constraints accelerate.
+        let rate = self.placed.u.iter().zip(&columns).map(|(u, c)| (u / c).abs()).fold(0.0, f64::max);
+        let fall = |(load, mass): (&Wrench, &f64)| if *mass > 0.0 { load.f.norm() / (mass * self.length) } else { 0.0 };
+        let least = self.loads.iter().zip(&self.n.mass).map(fall).fold(rate * rate, f64::max);
+        let meets = |i: usize| self.dense.g.row(i).iter().zip(found).map(|(g, a)| (g * a).abs());
+        let most = |i: usize| scales[i] * meets(i).fold(asked[i].abs(), f64::max);
+        let most = (0..asked.len()).map(most).fold(least, f64::max);
         if inconsistency <= CONTRADICTION * most {
             return Ok(());
         }
@@ -186,10 +192,20 @@ impl Workspace<'_> {
     }
 }
 
-/// Unit of each coordinate: 1 for angles and curve parameters, the characteristic length for lengths.
+/// Unit of each coordinate: a radian for angles, the characteristic length for lengths, and for the parameter of a curve
+/// what shifts or turns a body by as much.
 pub(super) fn column_scales(at: StateView<'_>, length: f64) -> Vec<f64> {
-    let unit = |i: usize| if at.m.coordinate(i).dimension == "m" { length } else { 1.0 };
-    (0..at.m.freedom()).map(unit).collect()
+    let of_curve = |joint: usize, k: usize| {
+        let column = at.k.motion_subspace[at.m.joints[joint].child?][k];
+        let size = column.v.norm().max(length * column.w.abs());
+        (size > 0.0).then(|| length / size)
+    };
+    let unit = |&(joint, k): &(usize, usize)| match at.m.joints[joint].coordinates[k].dimension {
+        "m" => length,
+        "rad" => 1.0,
+        _ => of_curve(joint, k).unwrap_or(1.0),
+    };
+    at.m.coordinates.iter().map(unit).collect()
 }
 
 /// Makes every row of order one in scaled coordinates.

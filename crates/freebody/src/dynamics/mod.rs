@@ -26,6 +26,7 @@ mod projection;
 mod rank;
 mod reactions;
 mod rows;
+mod scales;
 mod term_scales;
 
 pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
@@ -119,7 +120,8 @@ pub struct Workspace<'m> {
     pub m: &'m Mechanism,
     /// Its numbers.
     n: BoundValues,
-    /// Characteristic length, for the scaling of rows and coordinates, m.
+    /// Characteristic length, for the scaling of rows and coordinates, m; where the mechanism has none of its own, that of
+    /// the first state placed.
     pub length: f64,
     /// Of every contact, how far its surfaces reach from the joint origins of its bodies, m.
     reaches: Vec<[f64; 2]>,
@@ -144,7 +146,7 @@ impl<'m> Workspace<'m> {
     pub fn new(m: &'m Mechanism, p: &[f64]) -> Self {
         let n = m.bind(p);
         let (bodies, freedom) = (m.bodies.len(), m.freedom());
-        let length = characteristic_length(&n);
+        let length = m.characteristic_length(&n).unwrap_or(0.0);
         let reaches = gaps::reaches(m, &n);
         let mut workspace = Workspace {
             m,
@@ -182,7 +184,7 @@ impl<'m> Workspace<'m> {
     /// Takes other parameters.
     pub fn rebind(&mut self, p: &[f64]) {
         self.n = self.m.bind(p);
-        self.length = characteristic_length(&self.n);
+        self.length = self.m.characteristic_length(&self.n).unwrap_or(self.length);
         self.reaches = gaps::reaches(self.m, &self.n);
     }
 
@@ -207,6 +209,10 @@ impl<'m> Workspace<'m> {
         self.placed.q.copy_from_slice(q);
         self.placed.u.copy_from_slice(u);
         self.k.forward_kinematics(self.m, &self.n, q, u);
+        if self.length == 0.0 {
+            // Where all is in one place no lever has a length: any unit will do.
+            self.length = self.extent().unwrap_or(1.0);
+        }
     }
 
     /// The mode of the present state.
@@ -317,14 +323,6 @@ impl<'m> Workspace<'m> {
         self.k.propagate_motion(self.m, nu, false, &mut bodies);
         self.k.user_rates(self.m, &self.n, &bodies, nu, out);
     }
-}
-
-/// The median distance of the mechanism's places from their bodies' joint origins, or 1 m.
-fn characteristic_length(n: &BoundValues) -> f64 {
-    let mut lengths: Vec<f64> =
-        n.arms.iter().chain(&n.centre).map(|arm| arm.norm()).filter(|&l| l.is_finite() && l > 0.0).collect();
-    lengths.sort_by(f64::total_cmp);
-    lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.

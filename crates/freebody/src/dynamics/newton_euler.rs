@@ -6,13 +6,20 @@ use super::{momentum, residual, size_of_power, DynamicsError, Row, Workspace, CA
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
+/// Part of the largest term that equations may leave: what leaves more contradicts itself.
+const CONTRADICTION: f64 = 1e-7;
+/// Condition from which a square system is solved as one that may be singular.
+const ILL_CONDITIONED: f64 = 1e12;
+/// Part of a unit vector beyond those spanned below which it lies in their span.
+const SPANNED: f64 = 1e-9;
+
 /// The unknown loads of one body's joint in the tree: directions at the body's joint origin.
 fn reaction_directions(columns: &[Twist], particle: bool) -> Vec<Wrench> {
     let size = if particle { 2 } else { 3 };
     let mut directions: Vec<[f64; 3]> = vec![];
     let mut spanned: Vec<[f64; 3]> = vec![];
     for c in columns {
-        push_orthogonal(c.parts(), &mut spanned, 1e-9);
+        push_orthogonal(c.parts(), &mut spanned, SPANNED);
     }
     // The unit loads that are farthest from what the joint leaves free come first.
     let mut units: Vec<[f64; 3]> = (0..size).map(|i| std::array::from_fn(|k| if k == i { 1.0 } else { 0.0 })).collect();
@@ -21,7 +28,7 @@ fn reaction_directions(columns: &[Twist], particle: bool) -> Vec<Wrench> {
         let left = |u: &[f64; 3]| remainder(*u, &spanned).iter().map(|x| x * x).sum::<f64>();
         let best = (0..units.len()).max_by(|&a, &b| left(&units[a]).total_cmp(&left(&units[b]))).expect("not empty");
         let unit = units.swap_remove(best);
-        push_orthogonal(unit, &mut spanned, 1e-9);
+        push_orthogonal(unit, &mut spanned, SPANNED);
         directions.push(spanned[spanned.len() - 1]);
     }
     directions.into_iter().map(Wrench::from_parts).collect()
@@ -158,7 +165,7 @@ pub(super) fn solve_any(a: &Matrix, b: &[f64], x: &mut [f64]) -> Result<(), ()> 
     let scaled = Matrix::from_fn(a.rows(), a.cols(), |i, j| a[(i, j)] * rows[i] * cols[j]);
     let side: Vec<f64> = b.iter().zip(&rows).map(|(b, r)| b * r).collect();
     let square = a.rows() == a.cols();
-    let unique = square.then(|| Lu::factor(&scaled).ok().filter(|lu| lu.condition() < 1e12)).flatten();
+    let unique = square.then(|| Lu::factor(&scaled).ok().filter(|lu| lu.condition() < ILL_CONDITIONED)).flatten();
     match unique {
         Some(lu) => x.copy_from_slice(&lu.solve(&side)),
         None => {
@@ -168,13 +175,19 @@ pub(super) fn solve_any(a: &Matrix, b: &[f64], x: &mut [f64]) -> Result<(), ()> 
             let left = left_over(&scaled, x, &side);
             least.add_solution(&left, x);
             let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-            if largest(&left_over(&scaled, x, &side)) > 1e-7 * (1.0 + largest(&side)) {
+            if largest(&left_over(&scaled, x, &side)) > CONTRADICTION * largest_term(&scaled, x, &side) {
                 return Err(());
             }
         }
     }
     x.iter_mut().zip(&cols).for_each(|(x, c)| *x *= c);
     Ok(())
+}
+
+/// The largest of the terms that balance each other in A x = b.
+fn largest_term(a: &Matrix, x: &[f64], b: &[f64]) -> f64 {
+    let terms = |i: usize| a.row(i).iter().zip(x).map(|(a, x)| (a * x).abs()).fold(b[i].abs(), f64::max);
+    (0..a.rows()).map(terms).fold(0.0, f64::max)
 }
 
 fn left_over(a: &Matrix, x: &[f64], b: &[f64]) -> Vec<f64> {

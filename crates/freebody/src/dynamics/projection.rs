@@ -1,6 +1,6 @@
 //! Back onto the closed loops: corrections of positions and velocities that change the motion least.
 
-use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
+use super::minimal::{row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
@@ -14,6 +14,8 @@ const TRIES: usize = 12;
 pub(crate) const CLOSED: f64 = 1e-14;
 /// Gap above which the closing of a loop has failed.
 pub(crate) const OPEN: f64 = 1e-9;
+/// Part of what turns make of a row below which shifts make nothing of it.
+const UNMOVED: f64 = 1e-9;
 /// Correction, over the gap that it closes, beyond which the rows all but depend on each other.
 const FAR: f64 = 1e4;
 /// Square of the independence of rows below which a gap is left rather than closed from afar.
@@ -49,14 +51,15 @@ impl Workspace<'_> {
         self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
     }
 
-    /// Unit of a row's value: the characteristic length, or 1 where it is an angle.
+    /// Unit of a row's value: what a shift by the characteristic length makes of it, or a turn by a radian where no shift
+    /// does.
     pub(crate) fn row_unit(&self, row: &Row) -> f64 {
-        let turns = row.motion.iter().map(|(_, w)| w.m.abs()).fold(0.0, f64::max);
-        let moves = row.motion.iter().map(|(_, w)| w.f.norm()).fold(0.0, f64::max);
-        if moves * self.length >= 1e-9 * turns && moves > 0.0 {
-            self.length
-        } else {
-            1.0
+        let turn = row.motion.iter().map(|(_, w)| w.m.abs()).fold(0.0, f64::max);
+        let shift = row.motion.iter().map(|(_, w)| w.f.norm()).fold(0.0, f64::max) * self.length;
+        match shift > UNMOVED * turn {
+            true => shift,
+            false if turn > 0.0 => turn,
+            false => 1.0,
         }
     }
 
@@ -90,12 +93,12 @@ impl Workspace<'_> {
             q.iter_mut().zip(&step).for_each(|(q, d)| *q += d);
         }
         self.move_to(t, q, u);
-        let gap = self.worst_gap();
-        if gap <= OPEN {
+        if self.worst_gap() <= OPEN {
             return Ok(moved);
         }
-        let open = self.largest_gap_source();
-        Err(DynamicsError::LoopOpened(open.name(self.m).to_string(), gap * self.length, open.path(self.m)))
+        let row = self.widest_row();
+        let gap = self.gap(row).map_or(0.0, f64::abs);
+        Err(DynamicsError::LoopOpened(row.source.name(self.m).to_string(), gap, row.source.path(self.m)))
     }
 
     /// Makes the velocities at (t, q) keep the loops closed in a mode: returns the size of the correction.
@@ -209,7 +212,7 @@ impl Workspace<'_> {
     fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
         rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
-        let columns = column_scales(self.at(), self.length);
+        let columns = self.units();
         let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
         (scaled, scales, columns)
@@ -234,7 +237,7 @@ impl Workspace<'_> {
     pub(crate) fn independence(&mut self) -> f64 {
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
         rows_in_coordinates(self.at(), &self.rows, self.length, &mut g, &mut b);
-        let columns = column_scales(self.at(), self.length);
+        let columns = self.units();
         let units: Vec<f64> = self.rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j]);
         if self.many_loops {
@@ -246,14 +249,14 @@ impl Workspace<'_> {
     }
 
     fn size_of(&self, user: &[f64]) -> f64 {
-        let unit = column_scales(self.at(), self.length);
+        let unit = self.units();
         user.iter().zip(&unit).map(|(x, u)| (x / u).abs()).fold(0.0, f64::max)
     }
 
-    /// The joint or motion whose row is farthest from closed.
-    fn largest_gap_source(&self) -> Source {
+    /// The row that is farthest from closed.
+    fn widest_row(&self) -> &Row {
         let open = |row: &Row| self.gap(row).map_or(0.0, f64::abs) / self.row_unit(row);
         let worst = self.rows.iter().max_by(|a, b| open(a).total_cmp(&open(b)));
-        worst.expect("only a row can be open").source
+        worst.expect("only a row can be open")
     }
 }

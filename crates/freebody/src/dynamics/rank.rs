@@ -4,7 +4,7 @@
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
 use super::contact_modes::force_on_first;
-use super::minimal::{column_scales, row_scales, rows_in_coordinates, Force};
+use super::minimal::{row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Row, Source, Workspace};
@@ -188,7 +188,7 @@ impl Workspace<'_> {
         }
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
         rows_in_coordinates(self.at(), &rows, self.length, &mut g, &mut b);
-        let columns = column_scales(self.at(), self.length);
+        let columns = self.units();
         let scales = row_scales(&g, &columns);
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
         let rank = Orthogonal::factor(&scaled).rank();

@@ -114,7 +114,7 @@ pub fn simulate(
     system.jam_by_impact = settings.jam_by_impact;
     let mut y = system.pack(start.q, start.u);
     system.freeze_branches(start.t, &y);
-    system.set_scales(start.t, &y);
+    system.set_scales(start.t, until, &y);
     crate::motion::System::project(&mut system, start.t, &mut y)?;
     system.begin(start, until, &mut y)?;
     let opening = system.energy(start.t, &y);

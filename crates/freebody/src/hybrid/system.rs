@@ -58,6 +58,8 @@ pub struct HybridSystem<'m> {
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
+    /// The time in which it moves its own length, or turns by a radian, s.
+    time: f64,
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) phases: Vec<Phase>,
@@ -97,6 +99,7 @@ impl<'m> HybridSystem<'m> {
             bounce_interval: None,
             strength: 1.0,
             speed: 1.0,
+            time: 1.0,
             set: m.overruled(p),
             phases: vec![],
             worst_gap: 0.0,
@@ -164,27 +167,34 @@ impl<'m> HybridSystem<'m> {
         }
     }
 
-    /// Learns the physical sizes of the state's components from the starting state.
-    pub fn set_scales(&mut self, t: f64, y: &[f64]) {
+    /// Learns the physical sizes of the state's components from the starting state: lengths from the mechanism, the time
+    /// from its speeds and accelerations there and from gravity, or from the end of the run where nothing moves yet.
+    pub fn set_scales(&mut self, t: f64, until: f64, y: &[f64]) {
         self.place(t, y);
         let m = self.workspace.m;
-        let (n, length) = (m.freedom(), self.workspace.length);
-        let gravity = self.workspace.at().n.gravity.norm();
-        let (q, u) = self.split(y);
-        let unit = |i: usize| if m.coordinate(i).dimension == "m" { length } else { 1.0 };
-        let fastest = (0..n).map(|i| u[i].abs() / unit(i)).fold((gravity / length).sqrt(), f64::max);
-        let rate = if fastest > 0.0 { fastest } else { 1.0 };
-        let mut scales: Vec<f64> = (0..n).map(|i| unit(i).max(q[i].abs())).collect();
-        scales.extend((0..n).map(|i| unit(i) * rate));
+        let (n, run) = (m.freedom(), (until - t).abs());
+        self.workspace.take_length_of_motion(run);
+        let (length, fastest) = (self.workspace.length, self.workspace.natural_rate());
+        let rate = match run {
+            _ if fastest > 0.0 => fastest,
+            0.0 => 1.0,
+            _ => 1.0 / run,
+        };
+        let units = self.workspace.units();
+        let q = self.split(y).0;
+        let mut scales: Vec<f64> = (0..n).map(|i| units[i].max(q[i].abs())).collect();
+        scales.extend(units.iter().map(|unit| unit * rate));
         let numbers = self.workspace.at().n;
-        let mass: f64 = numbers.mass.iter().sum::<f64>() + numbers.inertia[1..].iter().sum::<f64>();
-        let energy = (mass.max(1e-300) * length * rate * length * rate).max(self.workspace.kinetic_energy());
+        let turning = (1..m.bodies.len()).filter(|&i| !m.bodies[i].particle).map(|i| numbers.inertia[i]).sum::<f64>();
+        let inertia = numbers.mass.iter().sum::<f64>() * length * length + turning;
+        let energy = (inertia * rate * rate).max(self.workspace.kinetic_energy()).max(f64::MIN_POSITIVE);
         scales.resize(self.scales.len(), energy);
         // A gap is told to the round-off of places.
-        let far = |i: usize| if m.coordinate(i).dimension == "m" { q[i].abs() / length } else { 0.0 };
-        self.roundoff_scale = 4.0 * (0..n).map(far).fold(1.0, f64::max);
+        let shift = |i: &usize| m.coordinate(*i).dimension == "m";
+        self.roundoff_scale = 4.0 * (0..n).filter(shift).map(|i| q[i].abs() / length).fold(1.0, f64::max);
         self.scales = scales;
         self.speed = length * rate;
+        self.time = 1.0 / rate;
         self.strength = energy / length;
     }
 
@@ -328,6 +338,10 @@ impl System for HybridSystem<'_> {
 
     fn scale(&self, out: &mut [f64]) {
         out.copy_from_slice(&self.scales);
+    }
+
+    fn time_scale(&self) -> f64 {
+        self.time
     }
 
     fn switches(&self) -> usize {

@@ -34,6 +34,8 @@ pub struct Mechanism {
     pub parameter_order: Vec<usize>,
     /// Every number of the model.
     pub values: Vec<ModelExpr>,
+    /// Those that are sizes of bodies, lengths of links and strings, radii: m.
+    pub lengths: Vec<ValueId>,
     /// Functions given by points.
     pub tables: Vec<Table>,
     /// Their names.
@@ -268,6 +270,7 @@ impl Mechanism {
             parameters: vec![],
             parameter_order: vec![],
             values: vec![],
+            lengths: vec![],
             tables: vec![],
             table_names: vec![],
             gravity: [0; 2],

@@ -3,13 +3,18 @@
 use super::outcome::Outcome;
 use super::system::Role;
 
-/// Whether two times are one instant.
-pub(super) fn is_tie(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-12 * (1.0 + b.abs())
+/// Time, over the system's own and that of the run, within which events are found: nearer ones are one instant.
+const INSTANT: f64 = 1e-12;
+
+/// Whether two times are one instant of a system with its own `time`.
+pub(super) fn is_tie(a: f64, b: f64, time: f64) -> bool {
+    (a - b).abs() <= INSTANT * (time + b.abs())
 }
 
 /// How often one guard may act in one instant: an impact may call for others.
 const GUARDS: usize = 8;
+/// How many events may happen within a time over the system's own: what bounces faster goes nowhere.
+const CROWD: (usize, f64) = (10_000, 1e-9);
 
 /// Guards against events that come ever more densely.
 pub(super) struct Chatter {
@@ -17,25 +22,27 @@ pub(super) struct Chatter {
     /// Indices of the events of this instant, and their time.
     instant: (f64, Vec<usize>),
     count: usize,
+    /// The system's own time, s.
+    time: f64,
 }
 
 impl Chatter {
-    pub fn new(t: f64) -> Self {
-        Self { since: t, instant: (t, Vec::new()), count: 0 }
+    pub fn new(t: f64, time: f64) -> Self {
+        Self { since: t, instant: (t, Vec::new()), count: 0, time }
     }
 
     /// Refuses an event that happens twice in one instant, a guard that does so again and again, or too many in a short
     /// time.
     pub fn note(&mut self, index: usize, role: Role, t: f64) -> Result<(), Outcome> {
-        if !is_tie(t, self.instant.0) {
+        if !is_tie(t, self.instant.0, self.time) {
             self.instant = (t, Vec::new());
         }
-        if (t - self.since).abs() > 1e-9 {
+        if (t - self.since).abs() > CROWD.1 * self.time {
             (self.since, self.count) = (t, 0);
         }
         self.count += 1;
         let before = self.instant.1.iter().filter(|&&i| i == index).count();
-        if self.count > 10_000 || before >= if role == Role::Guard { GUARDS } else { 1 } {
+        if self.count > CROWD.0 || before >= if role == Role::Guard { GUARDS } else { 1 } {
             return Err(Outcome::Chatter { index });
         }
         self.instant.1.push(index);

@@ -48,7 +48,8 @@ impl Runner<'_> {
     pub(super) fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
         let crossings: Vec<Mark> = marks.iter().filter(|mark| mark.kind == Kind::Crossing).copied().collect();
         let first = *crossings.first().expect("the caller saw one");
-        let (hits, later): (Vec<Mark>, Vec<Mark>) = crossings.into_iter().partition(|mark| is_tie(mark.t, first.t));
+        let (hits, later): (Vec<Mark>, Vec<Mark>) =
+            crossings.into_iter().partition(|mark| is_tie(mark.t, first.t, self.norm.time));
         self.note_touches(&segment, marks, first.t);
         self.step_onto(&segment, first, later.first().map_or(segment.t1, |mark| mark.t))?;
         let has_jumped = self.act(&hits)?;

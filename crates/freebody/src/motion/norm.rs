@@ -15,6 +15,8 @@ pub(super) struct Norm {
     pub rtol: f64,
     /// Physical size of each component.
     pub scale: Vec<f64>,
+    /// Physical time of the system, s.
+    pub time: f64,
     /// Round-off of the rate, relative to the physical sizes.
     pub noise: f64,
 }
@@ -23,7 +25,7 @@ impl Norm {
     pub fn new(system: &dyn System, rtol: f64) -> Self {
         let mut scale = vec![1.0; system.dim()];
         system.scale(&mut scale);
-        Self { rtol, scale, noise: 0.0 }
+        Self { rtol, scale, time: system.time_scale(), noise: 0.0 }
     }
 
     /// Tolerated error of each component for a step between two points.
@@ -55,7 +57,15 @@ pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
     (0.5 * (sum / values.len().max(1) as f64 + top)).sqrt()
 }
 
-/// Hairer's first step (HNW I, II.4, eq. 4.14), from a rate at `from` and a rate function.
+/// Parts of the system's own time for a first step where nothing tells its length, and where nothing moves.
+pub(super) const UNTOLD: f64 = 1e-6;
+/// Size or rate, over the physical sizes and time in units of the tolerance, below which it does not tell a first step.
+const SMALL: f64 = 1e-5;
+/// Rate and its change, in the same units, below which there is none.
+const STEADY: f64 = 1e-15;
+
+/// Hairer's first step (HNW I, II.4, eq. 4.14), from a rate at `from` and a rate function; time is in units of the
+/// system's own.
 pub(super) fn first_step<E>(
     norm: &Norm,
     from: &Point,
@@ -64,16 +74,16 @@ pub(super) fn first_step<E>(
     mut rate: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
 ) -> Result<f64, E> {
     let weights = norm.physical(from);
-    let (d0, d1) = (measure(&from.y, &weights), measure(&from.dy, &weights));
-    let h0 = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
+    let (d0, d1) = (measure(&from.y, &weights), measure(&from.dy, &weights) * norm.time);
+    let h0 = norm.time * if d0 < SMALL || d1 < SMALL { UNTOLD } else { 0.01 * d0 / d1 };
     let y: Vec<f64> = from.y.iter().zip(&from.dy).map(|(y, dy)| y + sign * h0 * dy).collect();
     let mut dy = vec![0.0; y.len()];
     rate(from.t + sign * h0, &y, &mut dy)?;
     let bend: Vec<f64> = dy.iter().zip(&from.dy).map(|(b, a)| b - a).collect();
-    let steepest = d1.max(measure(&bend, &weights) / h0);
-    let h1 = match steepest <= 1e-15 {
-        true => (h0 * 1e-3).max(1e-6),
-        false => real::powf(0.01 / steepest, 1.0 / f64::from(estimate_order)),
+    let steepest = d1.max(measure(&bend, &weights) / h0 * norm.time * norm.time);
+    let h1 = match steepest <= STEADY {
+        true => (h0 * 1e-3).max(UNTOLD * norm.time),
+        false => norm.time * real::powf(0.01 / steepest, 1.0 / f64::from(estimate_order)),
     };
     Ok(sign * h1.min(100.0 * h0))
 }

@@ -107,7 +107,7 @@ impl fmt::Display for Outcome {
             }
             Self::Chatter { index } => write!(
                 out,
-                "switching function {index} came back within one instant, or 10000 events came within 1e-9: the motion chatters"
+                "switching function {index} came back within one instant, or 10000 events came in hardly any time: the motion chatters"
             ),
         }
     }

@@ -4,7 +4,7 @@ use super::chatter::Chatter;
 use super::dense::Segment;
 use super::events::{EventDetector, Kind};
 use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
-use super::norm::{first_step, Norm};
+use super::norm::{first_step, Norm, UNTOLD};
 use super::outcome::{Outcome, Run};
 use super::step_control::StepController;
 use super::system::System;
@@ -89,6 +89,7 @@ impl<'a> Runner<'a> {
         Self {
             stepper: (method.stepper)(y0.len()),
             detector: EventDetector::new(system),
+            chatter: Chatter::new(t0, system.time_scale()),
             norm: Norm::new(system, options.rtol),
             steps: StepController::new(method.estimate_order, method.growth_threshold, options.max_step),
             estimate_order: method.estimate_order,
@@ -96,7 +97,6 @@ impl<'a> Runner<'a> {
             next: now.clone(),
             t_end,
             run: Run::new(&now),
-            chatter: Chatter::new(t0),
             now,
             system: Counted { system, evaluations: 0 },
         }
@@ -145,7 +145,7 @@ impl<'a> Runner<'a> {
         let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
         // Where even the trial fails, the first steps are rejected until they fit.
         let most = self.system.system.horizon();
-        self.steps.restart(h.unwrap_or(sign * 1e-6).clamp(-most, most));
+        self.steps.restart(h.unwrap_or(sign * UNTOLD * self.norm.time).clamp(-most, most));
     }
 
     /// One accepted step, or the part of it up to an event.

@@ -97,6 +97,11 @@ pub trait System {
         out.fill(1.0);
     }
 
+    /// A physical time of the system, s; positive.
+    fn time_scale(&self) -> f64 {
+        1.0
+    }
+
     /// Number of switching functions, events and discontinuities together.
     fn switches(&self) -> usize {
         0

@@ -1,0 +1,63 @@
+//! The mechanism's own length and rate, by which it is told what is long, near, fast and small.
+
+use super::minimal::column_scales;
+use super::Workspace;
+use crate::bound_values::BoundValues;
+use crate::mechanism::Mechanism;
+
+impl Mechanism {
+    /// The median distance of the places from their bodies' joint origins; else of the lengths that the model tells, m.
+    pub(super) fn characteristic_length(&self, n: &BoundValues) -> Option<f64> {
+        median_length(n.arms.iter().chain(&n.centre).map(|arm| arm.norm()))
+            .or_else(|| median_length(self.lengths.iter().map(|&id| n.values[id].abs())))
+    }
+}
+
+/// The median of those that are lengths, m.
+fn median_length(lengths: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut lengths: Vec<f64> = lengths.filter(|&l| l.is_finite() && l > 0.0).collect();
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 2).copied()
+}
+
+impl Workspace<'_> {
+    /// The median distance of the bodies from the origin at the present state, m; None where all are there.
+    pub(super) fn extent(&self) -> Option<f64> {
+        median_length(self.k.pose[1..].iter().map(|pose| pose.at.norm()))
+    }
+
+    /// Where neither the mechanism nor the present state has a length, takes that of its way within a time, s.
+    pub fn take_length_of_motion(&mut self, time: f64) {
+        if self.m.characteristic_length(&self.n).or(self.extent()).is_none() {
+            let accelerations = self.accelerations_unheld();
+            let shifts = (0..self.placed.u.len()).filter(|&i| self.m.coordinate(i).dimension == "m");
+            let ways = shifts.map(|i| time * (self.placed.u[i].abs() + time * accelerations[i].abs()));
+            self.length = median_length(ways).unwrap_or(self.length);
+        }
+    }
+
+    /// A large change of each coordinate at the present state: what turns by a radian, or shifts by the characteristic
+    /// length.
+    pub fn units(&self) -> Vec<f64> {
+        column_scales(self.at(), self.length)
+    }
+
+    /// The fastest rate at the present state, 1/s: of the coordinates, by their accelerations, or of a fall by gravity,
+    /// in radians and characteristic lengths.
+    pub fn natural_rate(&mut self) -> f64 {
+        let accelerations = self.accelerations_unheld();
+        let units = self.units();
+        let rates = self.placed.u.iter().zip(&units).map(|(u, unit)| u.abs() / unit);
+        let falls = accelerations.iter().zip(&units).map(|(a, unit)| (a.abs() / unit).sqrt());
+        rates.chain(falls).fold((self.n.gravity.norm() / self.length).sqrt(), f64::max)
+    }
+
+    /// Accelerations of the coordinates at the present state in the present mode; 0 where they cannot be told.
+    fn accelerations_unheld(&mut self) -> Vec<f64> {
+        let mut accelerations = vec![0.0; self.placed.u.len()];
+        if self.solve().is_ok() {
+            self.accelerations(&mut accelerations);
+        }
+        accelerations.iter().map(|a| if a.is_finite() { *a } else { 0.0 }).collect()
+    }
+}
