@@ -44,6 +44,7 @@ fn draw_once(seed: u64) -> Option<Striking> {
         motions: 1 + rng.below(2),
         own_directions: false,
         odd: true,
+        locks: 0,
         idle: false,
     };
     let mut thrown = recipe.draw(seed, HOME);

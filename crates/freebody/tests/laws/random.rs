@@ -7,6 +7,7 @@ use freebody::compile::Compiled;
 use freebody::dynamics::{Route, Workspace};
 use freebody::forces;
 use freebody::joints::{FieldKind, Joint, Kind};
+use freebody::mechanism::{DriveKind, Mechanism, Part};
 use freebody::spec::*;
 
 /// What a random mechanism is to hold.
@@ -17,6 +18,8 @@ pub struct Recipe {
     pub loops: usize,
     pub forces: usize,
     pub motions: usize,
+    /// Coordinates and distances that are held where they are.
+    pub locks: usize,
     /// Whether actuators may have a direction of their own, and laws may read the state.
     pub own_directions: bool,
     /// Odd zeros and senses of the coordinates, absolute angles.
@@ -102,6 +105,9 @@ impl Recipe {
             let body = rng.of(&rigid).clone();
             self.drive(&mut thrown, &format!("m{i}"), &body, rng);
         }
+        for i in 0..self.locks {
+            lock(&mut thrown, &format!("e{i}"), &bodies[1..], rng);
+        }
         let Spec { joints, forces, motions, .. } = &mut thrown.model.0;
         // What runs along a curve has no place on it before it is there.
         let on_curve = |word: &str| ["cam", "curved_slot"].contains(&word);
@@ -146,16 +152,34 @@ impl Recipe {
             .then(|| format!("({gauge}) + 0.2*angle({body}) + 0.1*x({body}.origin)"));
         let before = thrown.model.clone();
         thrown.model = before.clone().motion(name, &gauge, &law, level, by.as_deref());
-        // A motion that loops and other motions exclude, or already give, is taken back.
-        let bench = Bench::new(thrown);
-        let mut workspace = bench.balance();
-        workspace.move_to(0.0, &bench.q, &vec![0.0; bench.q.len()]);
-        let possible =
-            workspace.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate.iter().all(|&sure| sure));
-        if !possible {
+        if !is_possible(thrown) {
             thrown.model = before;
         }
     }
+}
+
+/// A lock of a coordinate of a joint, or of a distance.
+fn lock(thrown: &mut Thrown, name: &str, bodies: &[String], rng: &mut Rng) {
+    let named = thrown.model.0.joints.iter().filter(|joint| joint.name.starts_with('j'));
+    let names: Vec<String> = named.flat_map(|joint| &joint.coordinates).map(|c| format!("'{}'", c.name)).collect();
+    let body = rng.of(bodies).clone();
+    let far = thrown.some_point(&body, rng);
+    let gauge = if rng.chance(0.6) { rng.of(&names).clone() } else { format!("distance(base.O, {far})") };
+    let before = thrown.model.clone();
+    let (name, when, then) = (name.to_string(), "1".to_string(), vec![Action::Lock(vec![gauge])]);
+    let event = Event { name, when, direction: 0, condition: None, opening: true, guard: false, then };
+    thrown.model.0.events.push(event);
+    if !is_possible(thrown) {
+        thrown.model = before;
+    }
+}
+
+/// Whether loops and other motions neither exclude a motion or lock, nor already give it.
+fn is_possible(thrown: &Thrown) -> bool {
+    let bench = Bench::new(thrown);
+    let mut workspace = bench.balance();
+    workspace.move_to(0.0, &bench.q, &vec![0.0; bench.q.len()]);
+    workspace.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate.iter().all(|&sure| sure))
 }
 
 /// A mass with its factor.
@@ -261,6 +285,16 @@ pub fn force_for(
     element(name, card.word, &fields, vec![])
 }
 
+/// A workspace with all locks in place.
+pub fn with_locks<'m>(m: &'m Mechanism, p: &[f64]) -> Workspace<'m> {
+    let mut workspace = Workspace::new(m, p);
+    for d in (0..m.drives.len()).filter(|&d| m.drives[d].kind == DriveKind::Lock) {
+        let mode = workspace.switch_part(Part::Drive(d), true).expect("a lock comes with its event");
+        workspace.enter(&mode);
+    }
+    workspace
+}
+
 /// A mechanism that can be put into random states.
 pub struct Bench {
     pub compiled: Compiled,
@@ -294,7 +328,7 @@ impl Bench {
     }
 
     pub fn balance(&self) -> Workspace<'_> {
-        Workspace::new(&self.compiled.mechanism, &self.p)
+        with_locks(&self.compiled.mechanism, &self.p)
     }
 
     /// The mechanism in a few words, for whoever reads a failure.

@@ -51,6 +51,7 @@ fn the_tree_does_not_matter() {
             motions: 0,
             own_directions: false,
             odd: false,
+            locks: 0,
             idle: false,
         };
         let thrown = recipe.draw(seed, HOME);
