@@ -81,7 +81,7 @@ def test_the_set_has_the_fewest_reactions_and_nothing_smaller_exists(model):
     given = problem(regular(seen))
     form = minimal_form(seen, forces=True)
     assert len(given.bodies) <= BRUTE and form.wanted
-    names = [*(f"accel({name})" for name in form.coordinates), *form.forces, *form.rubbing]
+    names = [*(f"accel({name})" for name in form.coordinates), *form.forces, *form.frictional]
     wanted = [i for i, unknown in enumerate(given.unknowns) if unknown.name in names]
     loads = [i for i in range(len(given.unknowns)) if i not in wanted]
     assert every_set(given, wanted) == len(wanted) or form.least > 0

@@ -12,7 +12,7 @@ from freebody.core import State
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.topics.impact_equations import after, hammered
+from freebody.equations.topics.impact_equations import after, applied
 from freebody.equations.topics.impact_rows import Rows
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.impact.applied_impulse import strike
@@ -79,7 +79,7 @@ def letters(text):
 @pytest.mark.parametrize("name", CLOSED)
 def test_closed_forms(name):
     text, point, direction, known = CLOSED[name]
-    made = jumps(hammered(of(text), of(text).start()[0], point, direction=direction)).spelt()
+    made = jumps(applied(of(text), of(text).start()[0], point, direction=direction)).spelt()
     for letter, expected in known.items():
         assert letter in made, sorted(x.name for x in made)
         assert equal(made[letter], letters(expected)), (letter, made[letter])
@@ -122,7 +122,7 @@ def test_theorems(name):
 @pytest.mark.parametrize("name", ["19.3.17", "S19.18", "EX-BLOCK", "19.3.20"])
 def test_letters_are_the_numbers(name):
     model, state, points, _ = at_rest(name)
-    found = hammered(model, state, points[-1], direction="40 deg", impulse="3 N*s")
+    found = applied(model, state, points[-1], direction="40 deg", impulse="3 N*s")
     made, most = jumps(found).spelt(), max(map(abs, found.sizes().values()))
     for coordinate, u in found.change.after.u.items():
         assert float(evaluate(made[Sym(after(coordinate), 1)], found.values)) == pytest.approx(u, abs=1e-9)
@@ -132,7 +132,7 @@ def test_letters_are_the_numbers(name):
 
 def test_where_letters_fill_pages_the_equations_stand_in_numbers():
     model, state, _, _ = at_rest("GEN-STEP")
-    found = hammered(model, state, "trunk.S")
+    found = applied(model, state, "trunk.S")
     with pytest.raises(TooLarge):
         jumps(found)
     matrix, right = Rows.of(found).matrix(found)

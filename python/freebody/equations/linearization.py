@@ -30,7 +30,7 @@ _INDEPENDENT = (0.1, 1e-3, 1e-8)
 
 @dataclass(frozen=True)
 class Linearised:
-    """M ẍ + C ẋ + K x = 0 for departures x of the coordinates from rest; ``left`` is what is out of balance there."""
+    """M ẍ + C ẋ + K x = 0 for perturbations x of the coordinates from rest; ``left`` is what is out of balance there."""
 
     coordinates: tuple[str, ...]
     mass: Matrix
@@ -75,7 +75,7 @@ def linearised(subject: SymbolicState, put: Mapping[str, Tree]) -> Linearised:
 
 
 def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> Held:
-    """What loops, motions and what touches leave of linear equations, the free departures being z.
+    """What loops, motions and what touches leave of linear equations, the free perturbations being z.
 
     In x = N z + O(z²) the second order takes no part: it meets the balances, which hold at rest with the reactions λ of rest. These
     stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where

@@ -60,7 +60,7 @@ def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()
     return found
 
 
-def wandering(source: CompiledModel, state: State) -> list[FreeBodies]:
+def moving_states(source: CompiledModel, state: State) -> list[FreeBodies]:
     """The free bodies at a state, and at ``others`` where the same things act."""
     return [source.free_bodies(each) for each in (state, *others(source, state))]
 

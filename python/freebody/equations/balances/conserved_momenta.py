@@ -43,7 +43,7 @@ class ConservedMomentum:
     values: Array = field(repr=False)
 
 
-def lasting(states: Sequence[FreeBodies], points: NamedPoints) -> list[ConservedMomentum]:
+def conserved_momenta(states: Sequence[FreeBodies], points: NamedPoints) -> list[ConservedMomentum]:
     """All constant momenta, those of fewer bodies first. Of a set that keeps all of its momentum, of its moments only that about
     its mass centre: the others say no more.
 

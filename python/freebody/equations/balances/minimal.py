@@ -24,7 +24,7 @@ from freebody.solve.rich_tables import PlainText
 class MinimalForm(PlainText):
     """Independent equations that hold the accelerations of ``coordinates``, and the ``forces`` of prescribed motions if these
     were asked for: as many as there are, and no other unknowns. Where something slides with friction, the forces that this
-    follows from, ``rubbing``, are asked for as well, as a person does who needs them for the friction.
+    follows from, ``frictional``, are asked for as well, as a person does who needs them for the friction.
 
     Where loops leave no such set, it is larger by the fewest reactions that cannot be kept out, ``stays``; ``equations`` is
     empty where these are more than four. ``least``: no set of balances of connected groups holds fewer reactions, whatever
@@ -36,7 +36,7 @@ class MinimalForm(PlainText):
     equations: tuple[BalanceEquation, ...]
     stays: tuple[str, ...]
     forces: tuple[str, ...] = ()
-    rubbing: tuple[str, ...] = ()
+    frictional: tuple[str, ...] = ()
     least: int = 0
     groups: int = 0
     exact: bool = True
@@ -50,7 +50,7 @@ class MinimalForm(PlainText):
     @property
     def wanted(self) -> int:
         """How many accelerations and forces the equations are for."""
-        return len(self.coordinates) + len(self.forces) + len(self.rubbing)
+        return len(self.coordinates) + len(self.forces) + len(self.frictional)
 
     @property
     def fewest_words(self) -> str:
@@ -61,10 +61,10 @@ class MinimalForm(PlainText):
         return f"at least {COUNT[self.least]} {stay} in every set of balances ({tried}, with every point and direction)"
 
     def __str__(self) -> str:
-        names = ", ".join([*self.coordinates, *self.forces, *self.rubbing])
+        names = ", ".join([*self.coordinates, *self.forces, *self.frictional])
         if not names:
             return "Motions and loops prescribe every acceleration: there is no equation of motion."
-        stated = [f"Minimal form in {names}, without {'other reactions' if self.rubbing else 'reactions'}:"]
+        stated = [f"Minimal form in {names}, without {'other reactions' if self.frictional else 'reactions'}:"]
         if self.stays or not self.equations:
             stay = f"here {', '.join(self.stays)}" if self.stays else "and more are not worth it"
             stated = [f"No set in {names} alone: {self.fewest_words}, {stay}."]
@@ -81,10 +81,10 @@ def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None
     leading = {load.follows[0] for load in loads if load.follows}
     moving = [i for i, unknown in enumerate(unknowns) if unknown.coordinate]
     driving = [i for i, unknown in enumerate(unknowns) if forces and unknown.load is not None and loads[unknown.load].kind == "motion"]
-    rubbing = [i for i, unknown in enumerate(unknowns) if unknown.load in leading]
-    wanted = [*moving, *driving, *rubbing]
+    frictional = [i for i, unknown in enumerate(unknowns) if unknown.load in leading]
+    wanted = [*moving, *driving, *frictional]
     coordinates = tuple(unknowns[i].coordinate or "" for i in moving)
-    asked = [tuple(unknowns[i].name for i in some) for some in (driving, rubbing)]
+    asked = [tuple(unknowns[i].name for i in some) for some in (driving, frictional)]
     if not wanted:
         return MinimalForm(coordinates, (), (), *asked)
     sets, every = groups(given)

@@ -137,12 +137,12 @@ def _joint_directions(problem: Problem) -> list[tuple[VirtualMotion, Array]]:
         if f is None:
             continue
         follows = (i for i, other in enumerate(problem.free.loads) if other.follows and other.follows[0] == unknown.load)
-        rubbing = next((i for i in follows if _directions(problem, i) is not None), None)  # the friction that follows from it
+        friction = next((i for i in follows if _directions(problem, i) is not None), None)  # the friction that follows from it
         still = np.zeros(len(f))
         own, right_angle = _direction_words(problem, load, f)
-        rank = 0 if rubbing is not None and np.abs(f).min() > ONE_LINE else 1
-        across = {"across": unknown.load} if rubbing is None else {"load": rubbing}
-        slides = np.column_stack([f[:, 1], -f[:, 0]]) if rubbing is None else _directions(problem, rubbing)
+        rank = 0 if friction is not None and np.abs(f).min() > ONE_LINE else 1
+        across = {"across": unknown.load} if friction is None else {"load": friction}
+        slides = np.column_stack([f[:, 1], -f[:, 0]]) if friction is None else _directions(problem, friction)
         found.append((VirtualMotion(right_angle, rank=rank, question={"along": across}), np.column_stack([slides, still])))
         found.append((VirtualMotion(own, rank=rank, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
     return found

@@ -106,7 +106,7 @@ def _introduction(subject: SymbolicState, form: Form, number: int, search: Minim
     if not number:
         return "Nothing is free to move: no equation of motion is left. The reactions are found by the form brute."
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
-    leading = [name for name in form.reactions if search and name in search.rubbing]
+    leading = [name for name in form.reactions if search and name in search.frictional]
     by_law = {letter.name for letter, law in subject.laws for letter in (letter, *symbols(law))}
     others = [name for name in form.reactions if name not in (*prescribed, *leading, *by_law)]
     also = f" and one for {joined(leading)}" if leading else ""

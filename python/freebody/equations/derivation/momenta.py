@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.document.blocks import Block, Equation, Paragraph, Written
-from freebody.equations.balances.conserved_momenta import ConservedMomentum, independent, lasting
+from freebody.equations.balances.conserved_momenta import ConservedMomentum, conserved_momenta, independent
 from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.derivation.balance_text import extent
 from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.sentences import joined
-from freebody.solve.perturbed_states import wandering
+from freebody.solve.perturbed_states import moving_states
 from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
@@ -36,7 +36,7 @@ class Momentum:
 
 def momenta(subject: SymbolicState) -> list[Momentum]:
     """All that do not follow from each other. Numbers say which may be constant, letters whether they are."""
-    may_be = lasting(wandering(subject.source, subject.state), subject.points)
+    may_be = conserved_momenta(moving_states(subject.source, subject.state), subject.points)
     stated: dict[int, Balance] = {}
     while asked := [each for each in independent(may_be) if id(each) not in stated]:
         questions = [{"ask": "equation", "bodies": list(each.bodies), **(each.twist.question or {})} for each in asked]

@@ -15,7 +15,7 @@ from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.sentences import joined
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.topics.common import document
-from freebody.equations.topics.impact_equations import Impact, after, blow, hammered
+from freebody.equations.topics.impact_equations import Impact, after, applied, blow
 from freebody.equations.topics.impact_rows import Rows
 from freebody.equations.topics.impulse_momentum import Solution, jumps
 from freebody.solve.symbols import load_words
@@ -58,7 +58,7 @@ def impact(
         found = blow(mechanism, int(number), of, at)
         title = f"impact at {joined(list(found.change.of))}" if found.change.of else "impact of the parts that engage"
     else:
-        found = hammered(mechanism, state or mechanism.start()[0], point, **strike)
+        found = applied(mechanism, state or mechanism.start()[0], point, **strike)
         title = f"struck at {point}"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
     return document(found.subject, title, made, list(found.letters.values()))

@@ -293,7 +293,7 @@ def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | f
     return _seen(lambda: mechanism.blow(number, of=of, at=at))
 
 
-def hammered(mechanism: Builder, state: State, point: str, **how: Any) -> Impact:
+def applied(mechanism: Builder, state: State, point: str, **how: Any) -> Impact:
     """An impulse at a point of a mechanism at rest, see ``freebody.impact.applied_impulse.strike``. Raises ``NotHere``, ``ModelFileError``."""
     from freebody.impact.applied_impulse import strike
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 _BOLD = tuple(Written(sign, bold(letter)) for sign, letter in (("𝐌", "M"), ("𝐂", "C"), ("𝐊", "K")))
 """The matrices, apart from any letters of a model."""
 _VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumerate(("𝐱", "𝐱\u0307", "𝐱\u0308")))
-"""The departures, their rates and accelerations."""
+"""The perturbations, their rates and accelerations."""
 _STANDS = 1e-9
 """Rate, rad/s or m/s, below which what is prescribed stands still."""
 
@@ -111,7 +111,7 @@ def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[
 
 
 def _letters_of(subject: SymbolicState) -> dict[str, Letter]:
-    """The letters of departures by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
+    """The letters of perturbations by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
     coordinates = subject.coordinates
     if not subject.rows and all(map(is_natural, place_of(subject).values())):
         return {c["name"]: subject.letters[c["name"]] for c in coordinates}
