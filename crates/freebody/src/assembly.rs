@@ -38,7 +38,7 @@ pub struct Assembled {
 }
 
 /// Iterations of one attempt.
-const ITERATIONS: usize = 300;
+const DESCENTS: usize = 300;
 /// Part of the fastest rate below which what is left of a rate asked for is round-off.
 const UNMET: f64 = 1e-8;
 /// Part of a radian, or of the characteristic length, within which two configurations are the same.
@@ -110,7 +110,7 @@ fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)],
     let mut present = rows(workspace, held);
     // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
     let mut damping = 0.0;
-    for _ in 0..ITERATIONS {
+    for _ in 0..DESCENTS {
         let (gap, size) = (worst(workspace, &present), norm(workspace, &present));
         if gap <= CLOSED || !gap.is_finite() {
             break;

@@ -4,7 +4,7 @@ use super::ratio::Ratio;
 use std::hash::{Hash, Hasher};
 
 /// Below this part of what it is left from, a rounded difference is nothing.
-const ROUND_OFF: f64 = 1.0e-15;
+const CANCELS: f64 = 1.0e-15;
 
 /// A coefficient.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +65,7 @@ impl Coefficient {
             }
         }
         let (a, b) = (self.value(), o.value());
-        match (a + b).abs() < ROUND_OFF * a.abs().max(b.abs()) {
+        match (a + b).abs() < CANCELS * a.abs().max(b.abs()) {
             true => Self::ZERO,
             false => Float(a + b),
         }

@@ -11,7 +11,7 @@ use crate::kinematics::StateView;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 
 /// Relative size below which an inertia is none.
-const NOTHING: f64 = 1e-13;
+const NO_INERTIA: f64 = 1e-13;
 
 /// What a body and all that hangs on it resist, at its joint origin: the load needed for an acceleration a is
 /// A a + p, A = [xx xy x; xy yy y; x y turn].
@@ -158,7 +158,7 @@ impl ArticulatedBody {
         if at.m.bodies[i].particle {
             return Ok(shift_bias(only_force, at, i));
         }
-        if c.turn <= NOTHING * c.size || c.turn <= 0.0 {
+        if c.turn <= NO_INERTIA * c.size || c.turn <= 0.0 {
             return Err(DynamicsError::singular_inertia(at.m, i));
         }
         let (h, inverse) = (c.h, 1.0 / c.turn);
@@ -244,7 +244,7 @@ fn invert(d: Square, n: usize, columns: &[Twist; 3], (mass, turn): (f64, f64)) -
     }
     for k in 0..n {
         let size = columns[k].v.dot(columns[k].v) * mass + columns[k].w * columns[k].w * turn;
-        if a[k][k] <= NOTHING * size || a[k][k] <= 0.0 {
+        if a[k][k] <= NO_INERTIA * size || a[k][k] <= 0.0 {
             return None;
         }
         let pivot = 1.0 / a[k][k];

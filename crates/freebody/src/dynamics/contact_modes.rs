@@ -17,7 +17,7 @@ use crate::solve::Matrix;
 /// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
 const CLOSE: f64 = 1e-8;
 /// Part of the mechanism's own accelerations below which one is round-off.
-const NOTHING: f64 = 1e-13;
+const ACCELERATION_NOISE: f64 = 1e-13;
 /// Part of the characteristic length, and of the mechanism's own speed, up to which a gap is closed and nothing moves, at
 /// an instant by itself.
 const REST: f64 = 1e-9;
@@ -203,7 +203,7 @@ impl Workspace<'_> {
             return Err(DynamicsError::NoFiniteAcceleration);
         }
         // Round-off is no reason to part.
-        free.iter_mut().filter(|a| a.abs() <= NOTHING * scale.acceleration).for_each(|a| *a = 0.0);
+        free.iter_mut().filter(|a| a.abs() <= ACCELERATION_NOISE * scale.acceleration).for_each(|a| *a = 0.0);
         let friction = self.friction_laws(contacts, slips, scale.rest_speed);
         let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
         let solve = if scale.relaxed { complementarity::solve_relaxed } else { complementarity::solve };

@@ -12,11 +12,11 @@ const SHALLOW: f64 = 1e-8;
 /// Depth, over the characteristic length, to which a unilateral constraint may be violated on the way.
 const GRAZE: f64 = 1e-9;
 /// Difference, over the characteristic length, of what features tell of a gap up to which it is one.
-const SAME: f64 = 1e-10;
+const ONE_GAP: f64 = 1e-10;
 /// Distance, over the characteristic length, up to which two corners meet, whichever of them tells it.
 const MEET: f64 = 1e-9;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
-const CLEAR: f64 = 0.1;
+const CLEARLY_APART: f64 = 0.1;
 
 /// Of every contact, how far its surfaces reach from the joint origins of its two bodies, m; no bound for stops and
 /// strings.
@@ -145,7 +145,7 @@ impl Workspace<'_> {
         let gap = &self.m.unilateral[l].gap;
         let feature = gap.feature(self.m, &self.at(), self.mode().contacts[l].feature);
         let gap_here = gap.can_close(feature.index).then(|| self.gap_on(l, feature));
-        gap_here.filter(|gap_here| gap_here.abs() > SAME * self.length || !self.is_doubled(l, feature))
+        gap_here.filter(|gap_here| gap_here.abs() > ONE_GAP * self.length || !self.is_doubled(l, feature))
     }
 
     /// Whether a corner is on a corner, so that its gap may as well be expressed by the other, and the other is closed.
@@ -170,7 +170,7 @@ impl Workspace<'_> {
     pub fn apart(&self) -> Vec<Option<f64>> {
         let apart = |(group, reach): (&Group, &[f64; 2])| {
             let [a, b] = group.ends.map(|body| self.k.pose[body].at);
-            Some((a - b).norm() - reach[0] - reach[1]).filter(|&least| least > CLEAR * self.length)
+            Some((a - b).norm() - reach[0] - reach[1]).filter(|&least| least > CLEARLY_APART * self.length)
         };
         self.m.groups.iter().zip(&self.reaches).map(apart).collect()
     }
@@ -194,13 +194,13 @@ impl Workspace<'_> {
         let going = MotionView { at: self.at(), bodies: None, accelerations: None };
         let jet = |feature: Feature| gap.gap(self.m, self.mode(), &going, feature);
         let now = gap.gap(self.m, self.mode(), &self.at(), first);
-        if now.abs() > SAME * self.length {
+        if now.abs() > ONE_GAP * self.length {
             return first;
         }
         let mut borders = touch.borders(self.m, &self.at(), first.index);
         borders.retain(|border| touch.may_be_active(self.m, &self.at(), border.beyond));
         let mut best = (now + moment * jet(first).d1, first);
-        for border in borders.iter().filter(|border| border.value.abs() <= SAME * self.length) {
+        for border in borders.iter().filter(|border| border.value.abs() <= ONE_GAP * self.length) {
             let beyond = Feature { index: border.beyond, ..first };
             let coming = now - border.value + moment * jet(beyond).d1;
             if coming > best.0 {

@@ -10,7 +10,7 @@ use crate::plane::{Twist, Vec2, Wrench};
 
 /// Within an impact without collision loads act for this part of the time in which they would bring about a speed that
 /// counts.
-const BRIEF: f64 = 0.1;
+const LOAD_TIME: f64 = 0.1;
 
 /// An impact: what impulses through unilateral constraints did.
 #[derive(Clone, Debug)]
@@ -65,10 +65,11 @@ impl Workspace<'_> {
         let friction = self.friction_laws(contacts, &slips, scale.rest_speed);
         let problem = Problem { g: &contacts.g, free: &free, friction: &friction };
         let fastest = free.iter().fold(scale.acceleration, |most, a| most.max(a.abs()));
-        let impulses = complementarity::impact_without_collision(&problem, &slips, BRIEF * scale.rest_speed / fastest)
-            .map_err(|e| {
-                DynamicsError::NoImpulses(self.names_of(&contacts.constraints), "end the jam", e.to_string())
-            })?;
+        let impulses =
+            complementarity::impact_without_collision(&problem, &slips, LOAD_TIME * scale.rest_speed / fastest)
+                .map_err(|e| {
+                    DynamicsError::NoImpulses(self.names_of(&contacts.constraints), "end the jam", e.to_string())
+                })?;
         let note = Some("the contact jammed: an impact without a collision".to_string());
         Ok(impulses.map(|impulses| self.impact_solution(contacts, impulses, note)))
     }

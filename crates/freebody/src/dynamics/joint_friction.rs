@@ -10,11 +10,11 @@ use crate::mechanism::FrictionSource;
 use crate::mode::{ContactMode, Mode};
 
 /// Turns after which a joint counts as jammed.
-const ITERATIONS: usize = 200;
+const FRICTION_ITERATIONS: usize = 200;
 /// Turns for each of what has friction in which it is found what sticks.
 const SWITCHES: usize = 8;
-/// Part of the mechanism's own accelerations below which one brings nothing back.
-const NOTHING: f64 = 1e-9;
+/// Part of the mechanism's own accelerations above which one brings back what slides.
+const BRINGS_BACK: f64 = 1e-9;
 /// Change of a friction force that is round-off, over the most that the largest load of all could cause by friction.
 const SETTLED: f64 = 1e-14;
 
@@ -51,7 +51,7 @@ impl Workspace<'_> {
 
     /// Solves again until the friction of all that slides fits the forces that press.
     pub(super) fn solve_joint_friction(&mut self, route: Route) -> Result<(), DynamicsError> {
-        for _ in 0..ITERATIONS {
+        for _ in 0..FRICTION_ITERATIONS {
             let wanted: Vec<f64> =
                 (0..self.m.joint_friction.len()).map(|friction| self.sliding_friction(friction)).collect();
             let largest = self.largest_force();
@@ -196,7 +196,7 @@ impl Workspace<'_> {
                 ContactMode::Slip(sense)
                     if released != Some(friction)
                         && self.rests(friction, scale.rest_speed)
-                        && sense * self.joint_sliding_acceleration(friction) < -NOTHING * scale.acceleration =>
+                        && sense * self.joint_sliding_acceleration(friction) < -BRINGS_BACK * scale.acceleration =>
                 {
                     return with(friction, ContactMode::Stick);
                 }

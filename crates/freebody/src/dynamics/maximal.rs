@@ -19,14 +19,14 @@ pub struct Sparse {
 /// Largest system with actuators of their own direction, which the symmetric factorisation cannot hold.
 const DENSE_LIMIT: usize = 600;
 /// Bodies and closing rows above which the dense solution is not even considered.
-const MANY: usize = 40;
+const DENSE_CONSIDERED: usize = 40;
 
 impl Workspace<'_> {
     /// Whether the sparse solution costs less arithmetic than the dense one.
     pub(super) fn prefers_sparse(&mut self) -> bool {
         let n = self.m.freedom() as f64;
         let own_way = self.m.drives.iter().any(|d| d.by.is_some() || d.feedback);
-        if !self.is_closed() || self.m.is_hybrid() || own_way || n < MANY as f64 {
+        if !self.is_closed() || self.m.is_hybrid() || own_way || n < DENSE_CONSIDERED as f64 {
             return false;
         }
         let rows = self.m.closures.iter().map(|&j| self.m.joints[j].rows.len()).sum::<usize>() + self.m.drives.len();

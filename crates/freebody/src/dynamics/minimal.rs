@@ -31,7 +31,7 @@ pub(super) enum Force {
 /// Share of a row in a dependence, whose size is 1, below which it is round-off.
 const PART: f64 = 1e-6;
 /// Largest contradiction of the rows, over the largest of their terms, that is put down to round-off.
-const CONTRADICTION: f64 = 1e-7;
+pub(super) const CONTRADICTION: f64 = 1e-7;
 
 impl Workspace<'_> {
     pub(super) fn solve_minimal(&mut self) -> Result<(), DynamicsError> {

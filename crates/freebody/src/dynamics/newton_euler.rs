@@ -1,13 +1,12 @@
 //! Three balance equations a body, for the joint accelerations and all reactions at once (with the loop equations,
 //! where there are loops): A x = b.
 
+use super::minimal::CONTRADICTION;
 use super::rows::closing_rows;
 use super::{momentum, residual, size_of_power, DynamicsError, Row, Workspace, CANCELLED};
 use crate::plane::{Twist, Wrench};
 use crate::solve::{Lu, Matrix, Orthogonal};
 
-/// Part of the largest term that equations may leave: what leaves more contradicts itself.
-const CONTRADICTION: f64 = 1e-7;
 /// Condition from which a square system is solved as one that may be singular.
 const ILL_CONDITIONED: f64 = 1e12;
 /// Part of a unit vector beyond those spanned below which it lies in their span.

@@ -9,7 +9,7 @@ use crate::mode::Mode;
 use crate::solve::{Lu, Matrix, Orthogonal};
 
 /// Corrections after which a position is given up.
-const TRIES: usize = 12;
+const CORRECTIONS: usize = 12;
 /// Gap, relative to the characteristic length, at which a loop counts as closed.
 pub(crate) const CLOSED: f64 = 1e-14;
 /// Gap above which the closing of a loop has failed.
@@ -70,7 +70,7 @@ impl Workspace<'_> {
     pub fn project_positions(&mut self, mode: &Mode, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, DynamicsError> {
         self.enter(mode);
         let (mut moved, mut last) = (0.0_f64, f64::INFINITY);
-        for _ in 0..TRIES {
+        for _ in 0..CORRECTIONS {
             self.move_to(t, q, u);
             let gap = self.worst_gap();
             // Gaps of contacts are told to the round-off of places: to lessen them further is work for nothing.

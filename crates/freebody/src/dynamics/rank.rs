@@ -18,7 +18,7 @@ use crate::solve::{Matrix, Orthogonal};
 const UNTOUCHED: f64 = 1e-9;
 
 /// Coordinates up to which ranks are decided anew at every state.
-const FEW: usize = 60;
+const FEW_COORDINATES: usize = 60;
 
 /// What is determinate.
 #[derive(Clone, Debug)]
@@ -253,7 +253,9 @@ impl Workspace<'_> {
     /// As [`Workspace::determinacy_under`], at the present, solved state. In a mechanism with many coordinates, where
     /// the ranks cost far more than the solution, they are decided once and kept.
     pub fn determinacy(&mut self) -> Determinacy {
-        if let (Some(determinacy), true, false) = (&self.determinacy, self.m.freedom() > FEW, self.m.is_hybrid()) {
+        if let (Some(determinacy), true, false) =
+            (&self.determinacy, self.m.freedom() > FEW_COORDINATES, self.m.is_hybrid())
+        {
             return determinacy.clone();
         }
         let stresses = self.self_stresses();

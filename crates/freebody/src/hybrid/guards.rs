@@ -64,7 +64,7 @@ pub(super) const CLOSED_GAP: f64 = 1e-10;
 /// Speed, over the mechanism's own, below which there is none.
 pub(super) const REST_SPEED: f64 = 1e-10;
 /// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
-const OCCLUDED: f64 = 2.0 * CLOSED_GAP;
+const OCCLUDED_GAP: f64 = 2.0 * CLOSED_GAP;
 /// Speed, over the mechanism's own, from which a contact with partial friction slides: well above what counts as none.
 const SLIPPING: f64 = 10.0 * REST_SPEED;
 
@@ -110,7 +110,7 @@ impl HybridSystem<'_> {
             ContactMode::Compliant => values[0] = self.compliant_contact(l),
             // What another keeps off is at zero with it.
             ContactMode::Open => {
-                let occluded = || self.workspace.open_gap(l) / self.workspace.length + OCCLUDED;
+                let occluded = || self.workspace.open_gap(l) / self.workspace.length + OCCLUDED_GAP;
                 let closing = self.workspace.closing_gap(l).map(|gap| gap / self.workspace.length);
                 values[0] = closing.unwrap_or_else(occluded);
             }

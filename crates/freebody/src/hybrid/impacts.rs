@@ -9,7 +9,7 @@ use crate::plane::Vec2;
 
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
 /// its height comes near the round-off of the gap.
-const BRIEF: f64 = 1e-5;
+const SHORTEST_FLIGHT: f64 = 1e-5;
 /// Part of the kinetic energy by which it may rise in an impact, as round-off.
 const RISE: f64 = 1e-11;
 /// Shares of themselves by which unilateral constraints yield, one after the other, where impulses of rigid ones are
@@ -20,7 +20,7 @@ pub(super) const LEFT_OVER: f64 = 1e-6;
 /// Energy that it would take to stop an approach, over the kinetic one, from which on nothing yields.
 const RIGID: f64 = 1e12;
 /// Part of the largest impulse below which one is round-off.
-const NOTHING: f64 = 1e-12;
+const NO_IMPULSE: f64 = 1e-12;
 /// Part of what friction can do in an impact from which on all of it is used up.
 const USED_UP: f64 = 1.0 - 1e-9;
 
@@ -148,7 +148,7 @@ impl HybridSystem<'_> {
             }
         }
         let most = groups.iter().map(|(_, p)| p.norm()).fold(0.0, f64::max);
-        groups.retain(|(_, p)| p.norm() > NOTHING * most);
+        groups.retain(|(_, p)| p.norm() > NO_IMPULSE * most);
         let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
         let (part, hit) = (contacts.takes_part(rest_speed), hit(impact));
         let (impacting, unloaded): (Vec<usize>, Vec<usize>) =
@@ -191,7 +191,7 @@ impl HybridSystem<'_> {
         let speeds = parting.iter().map(|&i| contacts.rates[i]);
         let flights: Vec<f64> =
             speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
-        let (brief, before) = (BRIEF * self.workspace.length / self.speed, self.bounce_interval.take());
+        let (brief, before) = (SHORTEST_FLIGHT * self.workspace.length / self.speed, self.bounce_interval.take());
         let over: Vec<usize> = (0..constraints.len()).filter(|&i| flights[i] <= brief).collect();
         let next = (0..constraints.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
         if over.is_empty() {
@@ -262,7 +262,7 @@ impl HybridSystem<'_> {
 /// Of each unilateral constraint reached whether it has an impulse.
 fn hit(impact: &ImpactSolution) -> Vec<bool> {
     let most = impact.normal.iter().fold(0.0_f64, |most, &p| most.max(p));
-    impact.normal.iter().map(|&p| p > NOTHING * most).collect()
+    impact.normal.iter().map(|&p| p > NO_IMPULSE * most).collect()
 }
 
 /// How a unilateral constraint is held during an impact: it slides where its friction is all used up.

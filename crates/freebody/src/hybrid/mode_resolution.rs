@@ -8,10 +8,10 @@ use crate::mode::{ContactMode, Mode};
 use crate::motion::{EventRecord, Kind, System};
 
 /// Kinetic energy, over the mechanism's own, that it takes no round-off to gain.
-const GAIN: f64 = 1e-9;
+const ENERGY_NOISE: f64 = 1e-9;
 /// Impacts that one instant may hold, and those after which ever larger speeds count as none.
 const ROUNDS: usize = 100;
-const MANY: usize = 50;
+const PATIENT_ROUNDS: usize = 50;
 
 /// A joint whose friction at rest is used up, and the sense in which it begins to slide.
 #[derive(Clone, Copy, Debug)]
@@ -124,7 +124,7 @@ impl HybridSystem<'_> {
         mode.resting = false;
         let (mut tolerances, mut impacting) = (self.tolerances(), vec![]);
         for round in 0..ROUNDS {
-            if round > MANY {
+            if round > PATIENT_ROUNDS {
                 // What comes to rest here sets off what rests there, ever more slowly.
                 tolerances.rest_speed = (2.0 * tolerances.rest_speed).min(LEFT_OVER * self.speed);
             }
@@ -222,7 +222,7 @@ impl HybridSystem<'_> {
         let (mode, work) = self.project_onto_contacts(mode, t, y, at_rest, contacts)?;
         let after = self.energy(t, y);
         let [speed, height] = [after[0] - before[0] - work, after[1] - before[1]];
-        if speed > GAIN * self.strength * self.workspace.length {
+        if speed > ENERGY_NOISE * self.strength * self.workspace.length {
             return Err(DynamicsError::CreatesEnergy(self.workspace.names_of(contacts), speed));
         }
         if speed + height != 0.0 {

@@ -12,7 +12,7 @@ pub(super) fn is_tie(a: f64, b: f64, time: f64) -> bool {
 }
 
 /// How often one guard may act in one instant: an impact may call for others.
-const GUARDS: usize = 8;
+const REPEATS: usize = 8;
 /// How many events may happen within a time over the system's own: what bounces faster goes nowhere.
 const CROWD: (usize, f64) = (10_000, 1e-9);
 
@@ -42,7 +42,7 @@ impl Chatter {
         }
         self.count += 1;
         let before = self.instant.1.iter().filter(|&&i| i == index).count();
-        if self.count > CROWD.0 || before >= if role == Role::Guard { GUARDS } else { 1 } {
+        if self.count > CROWD.0 || before >= if role == Role::Guard { REPEATS } else { 1 } {
             return Err(Outcome::Chatter { index });
         }
         self.instant.1.push(index);

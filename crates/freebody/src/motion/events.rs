@@ -12,7 +12,7 @@ const TOUCH: f64 = 1e-12;
 /// A polynomial is trusted when its last coefficients are below this many times its swing,
 const CONVERGED: f64 = 1e-9;
 /// or below this many times its distance from zero.
-const CLEAR: f64 = 1e-2;
+const FAR_FROM_ZERO: f64 = 1e-2;
 /// A function changes at most this many times as fast as its steepest secant.
 const STEEPER: f64 = 1.5;
 /// Values of one function in one step that are asked for beside the samples and extrema.
@@ -142,7 +142,7 @@ impl EventDetector {
         nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
         let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
         let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
-        if tail <= CONVERGED * swing || tail <= CLEAR * nearest {
+        if tail <= CONVERGED * swing || tail <= FAR_FROM_ZERO * nearest {
             return Ok(nodes);
         }
         self.between(i, &nodes, values, probe)

@@ -27,7 +27,7 @@ const A: [[f64; 3]; 3] = [
     [5.0 / 36.0 + SQRT15 / 30.0, 2.0 / 9.0 + SQRT15 / 15.0, 5.0 / 36.0],
 ];
 const B: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
-const ITERATIONS: usize = 100;
+const STAGE_ITERATIONS: usize = 100;
 
 struct Gauss6 {
     n: usize,
@@ -76,7 +76,7 @@ impl Gauss6 {
     /// Iterates the stages until they stop changing, or change by round-off only.
     fn iterate(&mut self, system: &mut Counted, t: f64, h: f64) -> Result<(), Failure> {
         let mut last = f64::INFINITY;
-        for _ in 0..ITERATIONS {
+        for _ in 0..STAGE_ITERATIONS {
             let change = self.sweep(system, t, h)?;
             // At round-off the change is small and no longer shrinks.
             if change == 0.0 || change < 1e-13 && change >= last {
@@ -84,7 +84,7 @@ impl Gauss6 {
             }
             last = change;
         }
-        Err(DynamicsError::FixedPointStalled(t, ITERATIONS).into())
+        Err(DynamicsError::FixedPointStalled(t, STAGE_ITERATIONS).into())
     }
 
     /// One fixed-point iteration; returns the largest change relative to the largest rate.

@@ -60,7 +60,7 @@ pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
 /// Parts of the system's own time for a first step where nothing tells its length, and where nothing moves.
 pub(super) const UNTOLD: f64 = 1e-6;
 /// Size or rate, over the physical sizes and time in units of the tolerance, below which it does not tell a first step.
-const SMALL: f64 = 1e-5;
+const TELLS_NOTHING: f64 = 1e-5;
 /// Rate and its change, in the same units, below which there is none.
 const STEADY: f64 = 1e-15;
 
@@ -75,7 +75,7 @@ pub(super) fn first_step<E>(
 ) -> Result<f64, E> {
     let weights = norm.physical(from);
     let (d0, d1) = (measure(&from.y, &weights), measure(&from.dy, &weights) * norm.time);
-    let h0 = norm.time * if d0 < SMALL || d1 < SMALL { UNTOLD } else { 0.01 * d0 / d1 };
+    let h0 = norm.time * if d0 < TELLS_NOTHING || d1 < TELLS_NOTHING { UNTOLD } else { 0.01 * d0 / d1 };
     let y: Vec<f64> = from.y.iter().zip(&from.dy).map(|(y, dy)| y + sign * h0 * dy).collect();
     let mut dy = vec![0.0; y.len()];
     rate(from.t + sign * h0, &y, &mut dy)?;

@@ -33,7 +33,7 @@ const REAL: f64 = 3.637_834_252_744_496;
 const E: [f64; 3] = [-(13.0 + 7.0 * SQRT6) / 3.0, (-13.0 + 7.0 * SQRT6) / 3.0, -1.0 / 3.0];
 /// Newton converging faster than this keeps its Jacobian.
 const FAST: f64 = 1e-3;
-const ITERATIONS: usize = 10;
+const NEWTON_ITERATIONS: usize = 10;
 
 struct Radau {
     n: usize,
@@ -127,7 +127,7 @@ impl Radau {
         weights.iter_mut().zip(&from.dy).for_each(|(w, dy)| *w += norm.rtol * (h * dy).abs());
         let weights = weights.repeat(3);
         let (mut last, mut theta) = (f64::NAN, FAST);
-        for iteration in 0..ITERATIONS {
+        for iteration in 0..NEWTON_ITERATIONS {
             let mut step = self.residual(system, from, h)?;
             self.factors.as_ref().ok_or(Failure::NoConvergence)?.stages.solve(&mut step);
             let size = measure(&step, &weights);
@@ -138,7 +138,7 @@ impl Radau {
             if size == 0.0 || theta < 1.0 && theta / (1.0 - theta) * size <= tolerance {
                 return Ok(theta);
             }
-            let left = (ITERATIONS - 1 - iteration) as i32;
+            let left = (NEWTON_ITERATIONS - 1 - iteration) as i32;
             if theta >= 1.0 || real::powi(theta, left) / (1.0 - theta) * size > tolerance && iteration > 0 {
                 break;
             }

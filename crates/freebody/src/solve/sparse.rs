@@ -13,7 +13,7 @@ const ROW_SHIFT: f64 = 1e-9;
 const TARGET: f64 = 4e-16;
 const ACCEPTED: f64 = 1e-9;
 /// A residual beyond this is more than round-off: redundant rows do not quite agree.
-const CONTRADICTION: f64 = 1e-14;
+const REDUNDANT_NOISE: f64 = 1e-14;
 /// Refinement cycles; each has up to twenty steps.
 const CYCLES: usize = 10;
 
@@ -243,7 +243,7 @@ impl Factor {
         let (mut b, mut x, mut r) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         pattern.renumbering().for_each(|(i, p)| b[p] = rhs[i] * self.scale[p]);
         let mut accuracy = self.refine(&b, &mut x, &mut r);
-        if accuracy.residual > CONTRADICTION && accuracy.residual <= ACCEPTED {
+        if accuracy.residual > REDUNDANT_NOISE && accuracy.residual <= ACCEPTED {
             accuracy.iterations += self.correct_multipliers(&b, &mut x);
         }
         pattern.renumbering().for_each(|(i, p)| out[i] = x[p] * self.scale[p]);

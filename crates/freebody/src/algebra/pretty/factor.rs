@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Up to this number of terms every variable is tried as what to collect by.
-const FEW: usize = 12;
+const FEW_TERMS: usize = 12;
 
 /// A sum as Σ (Σ numbers · keys) · rest.
 type Collected = Vec<(Poly, Poly)>;
@@ -144,7 +144,7 @@ impl Writer<'_> {
             [&[Rate], &[Rate, Function], &[Function], &[Parameter], &[Parameter, Function], &[Parameter, Rate]];
         let of_kinds = |kinds: &&[Kind]| atoms.iter().copied().filter(|&id| kinds.contains(&self.kind(id))).collect();
         let mut all: Vec<BTreeSet<AtomId>> = sets.iter().map(of_kinds).collect();
-        if poly.len() <= FEW {
+        if poly.len() <= FEW_TERMS {
             for &atom in &atoms {
                 all.push(BTreeSet::from([atom]));
                 all.push(atoms.iter().copied().filter(|&other| other != atom).collect());

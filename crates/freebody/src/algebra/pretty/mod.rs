@@ -19,9 +19,9 @@ use form::{Form, Product};
 use std::rc::Rc;
 
 /// Above this number of terms only two ways to write sines and cosines are followed.
-const MANY: usize = 60;
+const MANY_TERMS: usize = 60;
 /// Above this number of terms only one is.
-const VERY_MANY: usize = 400;
+const VERY_MANY_TERMS: usize = 400;
 
 impl Arena {
     /// The tree of a sum.
@@ -90,9 +90,9 @@ impl Writer<'_> {
         }
         let mut forms = vec![self.arena.unfolded(of, false), self.arena.unfolded(of, true), self.arena.folded(of)];
         forms.dedup();
-        if length > MANY {
+        if length > MANY_TERMS {
             forms.sort_by_cached_key(|poly| self.flat_cost(poly));
-            forms.truncate(if length > VERY_MANY { 1 } else { 2 });
+            forms.truncate(if length > VERY_MANY_TERMS { 1 } else { 2 });
         }
         let mut candidates: Vec<Product> = forms.iter().map(|poly| (*self.factor(poly)).clone()).collect();
         candidates.extend(self.over_one_denominator(of));

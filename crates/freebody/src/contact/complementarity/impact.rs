@@ -9,9 +9,9 @@ const AT_REST: f64 = 1e-13;
 /// Hits after which a sequence of them is given up.
 const HITS: usize = 10_000;
 /// A velocity below this, relative to the terms that make it up, is zero.
-const ROUND_OFF: f64 = 1e-14;
+const VELOCITY_NOISE: f64 = 1e-14;
 /// Work above this, relative to the terms that make it up, is a gain.
-const GAIN: f64 = 1e-12;
+const WORK_GAIN: f64 = 1e-12;
 /// Work above this, relative to the energy of the velocities before, is a gain whatever the terms.
 const GROSS: f64 = 1e-10;
 
@@ -118,7 +118,7 @@ impl ImpactProblem<'_> {
         let after: Vec<f64> = (0..2 * k)
             .map(|i| self.before[i] + changes[i])
             .enumerate()
-            .map(|(i, v)| if v.abs() <= ROUND_OFF * size(i) { 0.0 } else { v })
+            .map(|(i, v)| if v.abs() <= VELOCITY_NOISE * size(i) { 0.0 } else { v })
             .collect();
         let terms = || (0..2 * k).map(|i| (self.before[i], after[i], p[i]));
         let work = terms().map(|(b, a, p)| 0.5 * (b + a) * p).sum();
@@ -126,7 +126,7 @@ impl ImpactProblem<'_> {
         // Large impulses that all but cancel must not hide a gain.
         let energy =
             |i: usize| if self.g[(i, i)] > 0.0 { self.before[i] * self.before[i] / self.g[(i, i)] } else { 0.0 };
-        let gains = work > GAIN * scale || work > GROSS * (0..2 * k).map(energy).sum::<f64>();
+        let gains = work > WORK_GAIN * scale || work > GROSS * (0..2 * k).map(energy).sum::<f64>();
         Impulses { normal: p[..k].to_vec(), tangent: p[k..].to_vec(), after, work, gains }
     }
 

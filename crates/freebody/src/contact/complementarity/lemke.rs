@@ -3,7 +3,7 @@
 use crate::solve::Matrix;
 
 /// An entry of the tableau below this is round-off and no pivot.
-const PIVOT: f64 = 1e-10;
+const TABLEAU_PIVOT: f64 = 1e-10;
 /// A ray that starts this near to a solution has missed it by round-off: redundant contacts can often be
 /// closed all together only.
 const RESIDUE: f64 = 1e-10;
@@ -103,7 +103,7 @@ impl Tableau {
 
     /// The row that blocks `enter` first: z₀ if it is among them, else the least in lexicographic order.
     fn ratio_test(&self, enter: usize) -> Option<usize> {
-        let candidates: Vec<usize> = (0..self.n).filter(|&i| self.rows[(i, enter)] > PIVOT).collect();
+        let candidates: Vec<usize> = (0..self.n).filter(|&i| self.rows[(i, enter)] > TABLEAU_PIVOT).collect();
         let best = candidates.iter().copied().reduce(|a, b| if self.before(b, a, enter) { b } else { a })?;
         let home = candidates.iter().copied().find(|&i| self.basis[i] == 2 * self.n);
         home.filter(|&h| self.compare(h, best, enter, 2 * self.n + 1).is_eq()).or(Some(best))

@@ -11,7 +11,7 @@ const ALWAYS: usize = 3;
 /// Up to this many all modes are tried when pivoting fails.
 const ENUMERABLE: usize = 6;
 /// Accelerations that differ by less are the same.
-const SAME: f64 = 1e-9;
+const SAME_ACCELERATION: f64 = 1e-9;
 
 /// Where contacts oppose each other, round-off can leave no motion that opens or closes all; so pivoting is
 /// tried again with contacts moved apart by this, and what it proposes is judged without.
@@ -21,7 +21,7 @@ const APART: [f64; 4] = [0.0, 1e-9, 1e-7, 1e-5];
 const PATHS: usize = 6;
 
 /// Vertices tried of forces that their equations do not determine: all, for six contacts.
-const TRIES: usize = 4_096;
+const VERTICES: usize = 4_096;
 
 /// What there is to find.
 #[derive(Clone, Debug)]
@@ -156,7 +156,7 @@ fn vertex(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Option<Found> {
         choices(&lists, |modes| {
             tries += 1;
             result = evaluate(block, modes, tolerance);
-            result.is_ok() || tries == TRIES
+            result.is_ok() || tries == VERTICES
         });
     }
     let found = result.ok()?;
@@ -179,7 +179,9 @@ fn held(block: &LcpBlock, modes: &[Mode], found: &Found) -> Option<Vec<Mode>> {
 /// Adds a finding whose accelerations are new.
 fn add(all: &mut Vec<Found>, found: Found) {
     let size = found.acceleration.iter().fold(1.0_f64, |m, a| m.max(a.abs()));
-    let same = |f: &Found| f.acceleration.iter().zip(&found.acceleration).all(|(a, b)| (a - b).abs() <= SAME * size);
+    let same = |f: &Found| {
+        f.acceleration.iter().zip(&found.acceleration).all(|(a, b)| (a - b).abs() <= SAME_ACCELERATION * size)
+    };
     if !all.iter().any(same) {
         all.push(found);
     }
