@@ -26,6 +26,10 @@ pub enum DynamicsError {
     TooManyForDense,
     /// The accelerations are not finite.
     NoFiniteAcceleration,
+    /// A force acts along a line of no length: its name, item.
+    ForceWithoutDirection(String, String),
+    /// A force is not finite: its name, item.
+    InfiniteForce(String, String),
     /// A number that is given is not finite: name, value.
     NoFiniteNumber(String, f64),
     /// An array that is given has the wrong size.
@@ -39,6 +43,8 @@ pub enum DynamicsError {
     },
     /// A loop opened during a motion: its name, gap (m), item.
     LoopOpened(String, f64, String),
+    /// A loop that motions drive on to where it cannot close: its name, how far it can in words, item.
+    DeadPosition(String, String, String),
     /// An assembly leaves gaps: name and gap of each, the item of the widest.
     CannotAssemble(Vec<(String, f64)>, Option<String>),
     /// No assembly has the signs asked for of expressions.
@@ -163,6 +169,16 @@ impl DynamicsError {
                 "the accelerations are not finite; look for a division by 0, or a force along a line of no length".into(),
                 None,
             ),
+            Self::ForceWithoutDirection(name, at) => (
+                "not_finite",
+                format!("the force `{name}` acts along a line of no length, so it has no direction; keep its ends apart, or give it no rest length and no damping"),
+                Some(at),
+            ),
+            Self::InfiniteForce(name, at) => (
+                "not_finite",
+                format!("the force `{name}` is not finite; look for a division by 0 in its law, or a root of what is negative"),
+                Some(at),
+            ),
             Self::NoFiniteNumber(name, value) => {
                 ("not_finite", format!("{name} = {value} is no finite number; give it a value"), None)
             }
@@ -174,6 +190,11 @@ impl DynamicsError {
             Self::LoopOpened(name, gap, at) => (
                 "branch_lost",
                 format!("the loop at `{name}` opened by {gap:.3e} (m or rad) and could not be closed again"),
+                Some(at),
+            ),
+            Self::DeadPosition(name, place, at) => (
+                "dead_position",
+                format!("dead position: the loop at `{name}` cannot close beyond {place}; end the motion before, or drive another part"),
                 Some(at),
             ),
             Self::CannotAssemble(gaps, at) => {

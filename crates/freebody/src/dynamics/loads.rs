@@ -41,7 +41,16 @@ pub fn pulled<'a, S: Scalar>(
     gauge_force: &'a GaugeForce,
 ) -> impl Iterator<Item = (usize, Wrench<S>)> + 'a {
     let value = gauge_force_value(at, gauge_force);
-    gauge_force.bodies.iter().map(move |&body| (body, gradient(at, &gauge_force.gauge, body) * value))
+    gauge_force.bodies.iter().map(move |&body| (body, direction(at, gauge_force, body, value) * value))
+}
+
+/// The load of a unit pull on a body; none where what pulls with no force has no direction, as a spring without length.
+fn direction<S: Scalar>(at: StateView<'_, S>, gauge_force: &GaugeForce, body: usize, value: S) -> Wrench<S> {
+    let along = gradient(at, &gauge_force.gauge, body);
+    match value.value() != 0.0 || along.parts().iter().all(|x| x.value().is_finite()) {
+        true => along,
+        false => Wrench::zero(),
+    }
 }
 
 /// The body on which a push acts, where, from its joint origin, and the force, both in fixed axes.
@@ -61,7 +70,7 @@ fn gauge_force_power<S: Scalar>(at: StateView<'_, S>, gauge_force: &GaugeForce) 
     let value = gauge_force_value(at, gauge_force);
     let mut power = S::zero();
     for &body in &gauge_force.bodies {
-        power += gradient(at, &gauge_force.gauge, body).power(at.k.twist[body]) * value;
+        power += direction(at, gauge_force, body, value).power(at.k.twist[body]) * value;
     }
     power
 }

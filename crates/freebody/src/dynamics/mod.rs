@@ -46,8 +46,8 @@ pub use term_scales::TermScales;
 
 use crate::bound_values::BoundValues;
 pub use crate::error::DynamicsError;
-use crate::kinematics::{Kinematics, StateView};
-use crate::mechanism::Mechanism;
+use crate::kinematics::{gradient, Kinematics, StateView};
+use crate::mechanism::{self, Mechanism};
 use crate::mode::Mode;
 use crate::plane::{Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -266,6 +266,9 @@ impl<'m> Workspace<'m> {
         loads::loads(at, &self.arms, &mut self.loads);
         self.add_joint_friction();
         self.add_compliant_forces();
+        if !self.loads.iter().flat_map(Wrench::parts).all(f64::is_finite) {
+            return Err(self.infinite_load());
+        }
         let at = self.placed.view(self.m, &self.n, &self.k);
         match route {
             Route::Minimal if !self.is_closed() => {
@@ -294,6 +297,28 @@ impl<'m> Workspace<'m> {
         match self.solved.nu_dot.iter().all(|a| a.is_finite()) {
             true => Ok(()),
             false => Err(DynamicsError::NoFiniteAcceleration),
+        }
+    }
+
+    /// Says which force is not finite.
+    fn infinite_load(&self) -> DynamicsError {
+        let at = self.at();
+        let is_infinite = |force: &mechanism::Force| {
+            let mut loads = vec![Wrench::zero(); self.m.bodies.len()];
+            add_force(at, force, &mut loads);
+            !loads.iter().flat_map(Wrench::parts).all(f64::is_finite)
+        };
+        let Some((_, force)) = at.forces().find(|(_, force)| is_infinite(force)) else {
+            return DynamicsError::NoFiniteAcceleration;
+        };
+        let (name, item) = (force.name.clone(), format!("forces.{}", force.name));
+        let has_direction = |pull: &mechanism::GaugeForce| {
+            let mut along = pull.bodies.iter().flat_map(|&body| gradient(at, &pull.gauge, body).parts());
+            along.all(f64::is_finite)
+        };
+        match force.gauge_forces.iter().all(has_direction) {
+            false => DynamicsError::ForceWithoutDirection(name, item),
+            true => DynamicsError::InfiniteForce(name, item),
         }
     }
 

@@ -10,7 +10,7 @@ const VANISHED: f64 = 1e-9;
 
 impl HybridSystem<'_> {
     /// The segments of unilateral constraint `l` between points, if it is a taut string.
-    fn taut_segments(&self, l: usize) -> Vec<Vec2> {
+    pub(super) fn taut_segments(&self, l: usize) -> Vec<Vec2> {
         let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode().contacts[l]);
         match &constraint.gap {
             Gap::Cable(cable) if contact.mode.carries() => {
@@ -41,7 +41,7 @@ impl HybridSystem<'_> {
         Ok(())
     }
 
-    fn zero_length_error(&self, l: usize) -> DynamicsError {
+    pub(super) fn zero_length_error(&self, l: usize) -> DynamicsError {
         let group = &self.workspace.m.groups[self.workspace.m.unilateral[l].group];
         DynamicsError::StringZeroLength(group.name.clone(), group.path())
     }

@@ -5,6 +5,7 @@
 
 mod cable_singularity;
 mod canonical;
+mod dead_position;
 mod event_actions;
 mod guards;
 mod impacts;

@@ -34,14 +34,21 @@ impl Trajectory {
 
     /// How it ended, with the names of the model.
     fn sentence(&self, m: &Mechanism) -> String {
-        match &self.outcome {
+        let told = match &self.outcome {
             Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
             Outcome::Chatter { index } => format!(
                 "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
                 SwitchingFunction::all(m).nth(*index).map_or(String::new(), |of| of.name(m))
             ),
             other => other.to_string(),
-        }
+        };
+        let dense = |&(event, t): &(usize, f64)| {
+            format!(
+                "; the event `{}` comes more often than can be recorded, from t = {t:.9} s on",
+                m.events[event].name
+            )
+        };
+        told + &self.unrecorded.iter().map(dense).collect::<String>()
     }
 }
 

@@ -66,7 +66,7 @@ pub struct HybridSystem<'m> {
     pub(super) worst_gap: f64,
     /// Whether the loops are near a configuration where they lose independence.
     near_singular: bool,
-    independence: f64,
+    pub(super) independence: f64,
     scales: Vec<f64>,
     /// Size of a guard, for its round-off.
     roundoff_scale: f64,
@@ -207,6 +207,20 @@ impl<'m> HybridSystem<'m> {
         self.driven.iter().map(|&drive| works[drive]).sum()
     }
 
+    /// Independence of the closing rows at a state, and a short time later as it goes now; that time.
+    pub(super) fn independence_ahead(&mut self, t: f64, y: &[f64]) -> (f64, [f64; 2]) {
+        let n = self.workspace.m.freedom();
+        let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
+        let dt = 1e-3 * NEAR_SINGULAR / fastest;
+        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
+        let mut independence = |t: f64, y: &[f64]| {
+            self.place(t, y);
+            self.workspace.update_rows();
+            self.workspace.independence()
+        };
+        (dt, [independence(t, y), independence(t + dt, &later)])
+    }
+
     /// Kinetic and potential energy at a state.
     pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
         self.place(t, y);
@@ -297,6 +311,7 @@ impl System for HybridSystem<'_> {
         self.near_singular = self.independence < NEAR_SINGULAR;
         let turned = self.workspace.project_velocities(&self.mode, t, q, &mut rest[..n])?;
         self.note_taut_segments();
+        self.check_dead_position(t, y)?;
         let rate = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / rate))
     }
@@ -317,16 +332,7 @@ impl System for HybridSystem<'_> {
         if !self.near_singular {
             return None;
         }
-        let n = self.workspace.m.freedom();
-        let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
-        let dt = 1e-3 * NEAR_SINGULAR / fastest;
-        let mut independence = |t: f64, y: &[f64]| {
-            self.place(t, y);
-            self.workspace.update_rows();
-            self.workspace.independence()
-        };
-        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
-        let (now, next) = (independence(t, y), independence(t + dt, &later));
+        let (dt, [now, next]) = self.independence_ahead(t, y);
         let when = now * dt / (now - next);
         (when > 0.0 && when.is_finite()).then_some(t + when)
     }

@@ -15,6 +15,8 @@ pub struct Trajectory {
     pub steps: Vec<f64>,
     /// What happened on the way.
     pub events: Vec<EventRecord>,
+    /// Events that came more often than can be recorded, and since when.
+    pub unrecorded: Vec<(usize, f64)>,
     /// How it ended.
     pub outcome: Outcome,
     /// Accepted and rejected steps, rate evaluations.
@@ -57,6 +59,7 @@ impl Trajectory {
         Trajectory {
             steps,
             events: system.initial_events.into_iter().chain(run.events.iter().cloned()).collect(),
+            unrecorded: run.unrecorded.clone(),
             outcome: run.outcome.clone(),
             counts: [run.accepted, run.rejected, run.evaluations],
             discontinuities: run.discontinuities,

@@ -1,6 +1,5 @@
 //! Events that come ever more densely.
 
-use super::outcome::Outcome;
 use super::system::Role;
 
 /// Time, over the system's own and that of the run, within which events are found: nearer ones are one instant.
@@ -31,9 +30,8 @@ impl Chatter {
         Self { since: t, instant: (t, Vec::new()), count: 0, time }
     }
 
-    /// Refuses an event that happens twice in one instant, a guard that does so again and again, or too many in a short
-    /// time.
-    pub fn note(&mut self, index: usize, role: Role, t: f64) -> Result<(), Outcome> {
+    /// Whether an event happens twice in one instant, a guard does so again and again, or too many come in a short time.
+    pub fn is_dense(&mut self, index: usize, role: Role, t: f64) -> bool {
         if !is_tie(t, self.instant.0, self.time) {
             self.instant = (t, Vec::new());
         }
@@ -42,10 +40,7 @@ impl Chatter {
         }
         self.count += 1;
         let before = self.instant.1.iter().filter(|&&i| i == index).count();
-        if self.count > CROWD.0 || before >= if role == Role::Guard { REPEATS } else { 1 } {
-            return Err(Outcome::Chatter { index });
-        }
         self.instant.1.push(index);
-        Ok(())
+        self.count > CROWD.0 || before >= if role == Role::Guard { REPEATS } else { 1 }
     }
 }

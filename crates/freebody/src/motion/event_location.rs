@@ -64,7 +64,8 @@ impl Runner<'_> {
     /// Tells the watcher on which side of zero all functions go on.
     fn look_around(&mut self, hits: &[Mark], has_jumped: bool) -> Result<(), Outcome> {
         let values = self.switch_values(0.0)?;
-        self.detector.stop_at(&values, has_jumped);
+        let (now, ahead) = (self.now.t, self.sign());
+        self.detector.stop_at(|t| ahead * (now - t) >= 0.0, &values, has_jumped);
         for hit in hits {
             let side = match self.system.system.switch(hit.index).role {
                 Role::Guard => 1,
@@ -123,9 +124,21 @@ impl Runner<'_> {
         for hit in hits {
             let system = &mut *self.system.system;
             let role = system.switch(hit.index).role;
-            self.chatter.note(hit.index, role, self.now.t)?;
+            let is_dense = self.chatter.is_dense(hit.index, role, self.now.t);
+            if is_dense && role != Role::Event {
+                return Err(Outcome::Chatter { index: hit.index });
+            }
             let after = system.act(hit.index, self.now.t, &mut self.now.y);
             let after = after.map_err(Outcome::DynamicsError)?;
+            if is_dense && after != After::Continue {
+                return Err(Outcome::Chatter { index: hit.index });
+            }
+            if is_dense {
+                // What is only recorded does not end the motion.
+                self.detector.mute(hit.index);
+                self.run.unrecorded.push((hit.index, self.now.t));
+                continue;
+            }
             match role {
                 Role::Discontinuity => self.run.discontinuities += 1,
                 Role::Event => self.run.events.push(event_record(hit, self.now.t, &before)),

@@ -1,14 +1,18 @@
 //! Finding where switching functions vanish within a step.
 
 use super::dense::Segment;
-use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, SAMPLES};
+use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, value, SAMPLES};
 use super::system::{DynamicsError, Role, System};
 use std::collections::hash_map::{Entry, HashMap};
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
-/// An extremum touches zero when it is below this many times the size of its function.
+/// An extremum touches zero when it is below this many times the size of its function,
 const TOUCH: f64 = 1e-12;
+/// or below this many tolerances of the way that its function has come since it was zero: the motion is told no nearer.
+const GRAZE: f64 = 30.0;
+/// Part of a half step past its end where what crosses zero in it may turn back.
+const PAST: f64 = 0.1;
 /// A polynomial is trusted when its last coefficients are below this many times its swing,
 const CONVERGED: f64 = 1e-9;
 /// or below this many times its distance from zero.
@@ -47,28 +51,52 @@ struct Node {
     is_extremum: bool,
 }
 
+/// Where a switching function is.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Sign of its last value clearly away from zero; 0 before there was one.
+    side: i8,
+    /// How far it has been from zero on that side.
+    reach: f64,
+    /// It is at a touch, which may be recorded already.
+    grazes: Option<bool>,
+    last_touch: f64,
+}
+
 /// What is known of one switching function.
 #[derive(Clone, Debug)]
 struct Memory {
-    /// Sign of its last value clearly away from zero; 0 before there was one.
-    side: i8,
-    /// The side at the end of the segment last searched.
-    side_ahead: i8,
+    now: Place,
+    /// The place at the end of the segment last searched.
+    ahead: Place,
     /// Largest value seen, or its physical scale.
     size: f64,
     /// It acted where the next segment starts: that zero is used up.
     is_spent: bool,
+    /// It is not watched any more.
+    is_muted: bool,
     is_guard: bool,
-    last_touch: f64,
+    /// Part of its reach within which it touches zero.
+    graze: f64,
 }
 
 impl Memory {
     /// Sign of a value that is clearly not zero, else 0.
     fn sign(&self, value: f64) -> i8 {
-        match value.abs() > NOISE * self.size {
-            true => value.signum() as i8,
-            false => 0,
-        }
+        beyond(value, NOISE * self.size)
+    }
+
+    /// Values below this, at an extremum, touch zero.
+    fn near(&self, place: Place) -> f64 {
+        (TOUCH * self.size).max(self.graze * place.reach)
+    }
+}
+
+/// Sign of a value beyond the noise, else 0.
+fn beyond(value: f64, noise: f64) -> i8 {
+    match value.abs() > noise {
+        true => value.signum() as i8,
+        false => 0,
     }
 }
 
@@ -82,17 +110,15 @@ pub(super) struct EventDetector {
 }
 
 impl EventDetector {
-    pub fn new(system: &dyn System) -> Self {
+    /// Watches the functions of a system that is followed at a relative tolerance; 0 where that is not known.
+    pub fn new(system: &dyn System, rtol: f64) -> Self {
         let memory = |i| {
             let spec = system.switch(i);
-            Memory {
-                side: i8::from(spec.is_positive),
-                side_ahead: 0,
-                size: spec.scale,
-                is_spent: false,
-                is_guard: spec.role == Role::Guard,
-                last_touch: f64::NAN,
-            }
+            let side = i8::from(spec.is_positive);
+            let (now, is_guard) =
+                (Place { side, reach: 0.0, grazes: None, last_touch: f64::NAN }, spec.role == Role::Guard);
+            let graze = if is_guard { 0.0 } else { GRAZE * rtol };
+            Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze }
         };
         Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
     }
@@ -111,6 +137,9 @@ impl EventDetector {
         }
         let mut marks = Vec::new();
         for (i, values) in samples.iter().enumerate() {
+            if self.memory[i].is_muted {
+                continue;
+            }
             let largest = values.iter().fold(0.0, |top: f64, value| top.max(value.abs()));
             self.memory[i].size = self.memory[i].size.max(largest);
             let nodes = self.nodes(i, values, &mut probe)?;
@@ -134,18 +163,25 @@ impl EventDetector {
         if coefficients[0].abs() > 1.001 * swing {
             return Ok(nodes);
         }
-        for x in extrema(&monomial(&coefficients)) {
+        let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);
+        let mut past = None;
+        for x in extrema(&polynomial, 1.0 + PAST) {
             let t = probe.time(x);
-            nodes.push(Node { t, value: probe.one(i, t)?, is_extremum: true });
+            if x <= 1.0 {
+                nodes.push(Node { t, value: probe.one(i, t)?, is_extremum: true });
+            } else if past.is_none() && value(&polynomial, x).abs() <= 2.0 * memory.graze * memory.size {
+                past = Some(Node { t, value: probe.one(i, t)?, is_extremum: true });
+            }
         }
         let (t0, later) = (probe.segment.t0, probe.ahead());
         nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
         let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
         let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
-        if tail <= CONVERGED * swing || tail <= FAR_FROM_ZERO * nearest {
-            return Ok(nodes);
+        if !(tail <= CONVERGED * swing || tail <= FAR_FROM_ZERO * nearest) {
+            nodes = self.between(i, &nodes, values, probe)?;
         }
-        self.between(i, &nodes, values, probe)
+        nodes.extend(past);
+        Ok(nodes)
     }
 
     /// The nodes with further ones wherever the function may reach zero between two and come back. The distance of
@@ -172,7 +208,7 @@ impl EventDetector {
                 let t = 0.5 * (a.t + b.t);
                 let near = same && a.value.abs() + b.value.abs() < steepest * (b.t - a.t).abs();
                 // It was heading for the other side where it acted.
-                let back = memory.is_spent && found.len() == 1 && b.value * f64::from(memory.side) < 0.0;
+                let back = memory.is_spent && found.len() == 1 && b.value * f64::from(memory.now.side) < 0.0;
                 if !(near || back) || patience == 0 || t == a.t || t == b.t {
                     found.extend(later.pop());
                 } else {
@@ -192,40 +228,51 @@ impl EventDetector {
         marks: &mut Vec<Mark>,
     ) -> Result<(), DynamicsError> {
         let memory = &mut self.memory[i];
-        let (mut side, mut last, mut touch) = (memory.side, nodes[0], None);
-        for node in &nodes[usize::from(memory.is_spent)..] {
-            if node.is_extremum && node.value.abs() <= TOUCH * memory.size {
-                touch = Some(node.t);
+        let (mut place, mut last, end) = (memory.now, nodes[0], probe.segment.t1);
+        let inside = nodes.iter().filter(|node| probe.ahead() * (node.t - end) <= 0.0).count();
+        for k in usize::from(memory.is_spent)..inside {
+            let (node, near) = (nodes[k], memory.near(place));
+            let may_touch = !memory.is_guard && place.reach > near;
+            let turns = |node: &Node| may_touch && node.is_extremum && node.value.abs() <= near;
+            if turns(&node) && place.side != 0 && place.grazes != Some(true) {
+                marks.push(Mark { t: node.t, index: i, kind: Kind::Touch, direction: 0 });
+                (place.grazes, place.last_touch) = (Some(true), node.t);
             }
-            let sign = memory.sign(node.value);
-            if sign == 0 {
+            let noise = if place.grazes.is_some() { near } else { NOISE * memory.size };
+            let sign = beyond(node.value, noise);
+            if sign != 0 && place.side == -sign && place.grazes.is_none() {
+                // It turns back before it is clearly on the other side.
+                place.grazes =
+                    nodes[k..].iter().find(|node| node.is_extremum).filter(|node| turns(node)).map(|_| false);
+            }
+            if sign == 0 || place.grazes.is_some() && node.value.abs() <= near {
                 // Too small to tell, but the zero lies beyond it.
-                last = if node.value * f64::from(side) > 0.0 { *node } else { last };
+                last = if node.value * f64::from(place.side) > 0.0 { node } else { last };
                 continue;
             }
-            if side == -sign {
+            if place.side == -sign {
                 // What holds may start within its round-off.
                 let noise = if memory.is_guard { NOISE * memory.size } else { 0.0 };
-                let t = probe.root(i, last, *node, f64::from(side) * noise)?;
+                let t = probe.root(i, last, node, f64::from(place.side) * noise)?;
                 let direction = sign * probe.ahead() as i8;
                 marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
-            } else if let Some(t) = touch.filter(|_| side == sign) {
-                // Neighbouring segments may both see an extremum on their border.
-                if (t - memory.last_touch).abs() > 1e-6 * probe.length() || memory.last_touch.is_nan() {
-                    marks.push(Mark { t, index: i, kind: Kind::Touch, direction: 0 });
-                }
-                memory.last_touch = t;
+                place.reach = 0.0;
+            } else if place.grazes == Some(false) {
+                marks.push(Mark { t: last.t, index: i, kind: Kind::Touch, direction: 0 });
+                place.last_touch = last.t;
             }
-            (side, last, touch) = (sign, *node, None);
+            let reach = place.reach.max(node.value.abs());
+            place = Place { side: sign, reach, grazes: None, ..place };
+            last = node;
         }
-        memory.side_ahead = side;
+        memory.ahead = place;
         Ok(())
     }
 
     /// The segment last searched was passed to its end.
     pub fn pass(&mut self) {
         for memory in &mut self.memory {
-            memory.side = memory.side_ahead;
+            memory.now = memory.ahead;
             memory.is_spent = false;
         }
     }
@@ -234,30 +281,44 @@ impl EventDetector {
     /// `ahead`: their values a little later.
     pub fn crossing_here<'a>(&'a self, values: &'a [f64], later: &'a [f64]) -> impl Iterator<Item = (usize, i8)> + 'a {
         self.memory.iter().enumerate().filter_map(|(i, memory)| {
-            let is_zero = !memory.is_spent && memory.sign(values[i]) == 0;
-            let goes_on = (later[i] - values[i]) * f64::from(memory.side) < 0.0;
-            (is_zero && goes_on).then_some((i, -memory.side))
+            let is_zero = !memory.is_spent && !memory.is_muted && memory.sign(values[i]) == 0;
+            let goes_on = (later[i] - values[i]) * f64::from(memory.now.side) < 0.0;
+            (is_zero && goes_on).then_some((i, -memory.now.side))
         })
     }
 
-    /// The run stopped at a zero; `values` are those of all functions there. A sign that an action changed is no event:
-    /// that side is found anew.
-    pub fn stop_at(&mut self, values: &[f64], has_jumped: bool) {
+    /// The run stopped at a zero, beyond the times that `passed`; `values` are those of all functions there. A sign that
+    /// an action changed is no event: that side is found anew.
+    pub fn stop_at(&mut self, passed: impl Fn(f64) -> bool, values: &[f64], has_jumped: bool) {
         for (memory, &value) in self.memory.iter_mut().zip(values) {
             memory.is_spent = false;
-            memory.side = match memory.sign(value) {
+            let (mut place, touch, near) = (memory.now, memory.ahead.last_touch, memory.near(memory.now));
+            let at_touch = !has_jumped && !memory.is_guard && value.abs() <= near;
+            if touch != place.last_touch && passed(touch) {
+                (place.grazes, place.last_touch) = (at_touch.then_some(true), touch);
+            }
+            place.side = match memory.sign(value) {
                 _ if memory.is_guard => 1,
-                0 => memory.side,
-                sign if has_jumped && sign != memory.side => 0,
+                0 => place.side,
+                _ if at_touch => place.side,
+                sign if has_jumped && sign != place.side => 0,
                 sign => sign,
             };
+            place.reach = place.reach.max(value.abs());
+            memory.now = place;
         }
+    }
+
+    /// Function `i` is not watched any more.
+    pub fn mute(&mut self, i: usize) {
+        self.memory[i].is_muted = true;
     }
 
     /// Function `i` acted at `t`, where the run stopped, and is now heading for `side`: its zero there is used up.
     pub fn spend(&mut self, i: usize, side: i8, t: f64) {
         let memory = &mut self.memory[i];
-        (memory.side, memory.is_spent, memory.last_touch) = (side, true, t);
+        memory.is_spent = true;
+        memory.now = Place { side, reach: 0.0, grazes: None, last_touch: t };
     }
 }
 

@@ -135,6 +135,8 @@ pub struct Run {
     pub trajectory: Trajectory,
     /// What happened on the way, in order; discontinuities are only counted.
     pub events: Vec<EventRecord>,
+    /// Events that came more often than can be recorded: index, and from when on they are not.
+    pub unrecorded: Vec<(usize, f64)>,
     /// How it ended.
     pub outcome: Outcome,
     /// Last good time.

@@ -51,10 +51,10 @@ pub(super) fn value(polynomial: &[f64], x: f64) -> f64 {
     polynomial.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
-/// All extrema in [−1, 1] of a polynomial, in order.
-pub(super) fn extrema(polynomial: &[f64]) -> Vec<f64> {
-    let inside = |x: f64| x.clamp(-1.0, 1.0);
-    sign_changes(&derivative(polynomial)).into_iter().map(inside).collect()
+/// All extrema in [−1, end] of a polynomial, in order; the end is not below 1.
+pub(super) fn extrema(polynomial: &[f64], end: f64) -> Vec<f64> {
+    let inside = |x: f64| if x <= 1.0 + MARGIN { x.clamp(-1.0, 1.0) } else { x };
+    sign_changes(&derivative(polynomial), end).into_iter().map(inside).collect()
 }
 
 fn derivative(polynomial: &[f64]) -> Vec<f64> {
@@ -63,13 +63,13 @@ fn derivative(polynomial: &[f64]) -> Vec<f64> {
 
 /// All sign changes of a polynomial: between two neighbouring extrema it is monotone, and the
 /// extrema are the sign changes of the derivative, and so on down to a constant.
-fn sign_changes(polynomial: &[f64]) -> Vec<f64> {
+fn sign_changes(polynomial: &[f64], end: f64) -> Vec<f64> {
     if polynomial.len() < 2 {
         return Vec::new();
     }
     let mut nodes = vec![-1.0 - MARGIN];
-    nodes.extend(sign_changes(&derivative(polynomial)));
-    nodes.push(1.0 + MARGIN);
+    nodes.extend(sign_changes(&derivative(polynomial), end));
+    nodes.push(end + MARGIN);
     let at = |x: f64| value(polynomial, x);
     let pairs = nodes.windows(2).map(|pair| ((pair[0], at(pair[0])), (pair[1], at(pair[1]))));
     pairs

@@ -88,8 +88,8 @@ impl<'a> Runner<'a> {
         let now = Point::new(t0, y0);
         Self {
             stepper: (method.stepper)(y0.len()),
-            detector: EventDetector::new(system),
             chatter: Chatter::new(t0, system.time_scale()),
+            detector: EventDetector::new(system, method.estimate_order.map_or(0.0, |_| options.rtol)),
             norm: Norm::new(system, options.rtol),
             steps: StepController::new(method.estimate_order, method.growth_threshold, options.max_step),
             estimate_order: method.estimate_order,
@@ -282,6 +282,7 @@ impl Run {
         Self {
             trajectory: Default::default(),
             events: Vec::new(),
+            unrecorded: Vec::new(),
             outcome: Outcome::Interrupted,
             t: at.t,
             y: at.y.clone(),

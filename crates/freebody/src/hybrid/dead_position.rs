@@ -1,0 +1,98 @@
+//! Dead positions: where motions drive a mechanism on to what its loops, or its strings, do not reach. Towards there
+//! speeds grow without bound.
+
+use super::HybridSystem;
+use crate::dynamics::{DynamicsError, Source};
+use crate::gauges::{ModelExpr, ModelVariable};
+use crate::kinematics::State;
+use crate::mechanism::{Drive, Level, Mechanism};
+
+/// Independence of the closing rows below which a dead position may be near.
+const NEAR: f64 = 1e-2;
+/// Length of a segment of a taut string, over the characteristic length, below which it may be drawn in.
+const SHORT: f64 = 1e-3;
+/// Times that are left after which loops that pass a singular configuration are well on its other side.
+const BEYOND: f64 = 4.0;
+
+/// Whether a drive says where its gauge is at every time.
+fn is_given(drive: &Drive) -> bool {
+    drive.is_motion() && drive.level == Level::Position
+}
+
+impl HybridSystem<'_> {
+    /// Refuses a state, that of the last projection, from which the motions lead to where loops cannot close, or a
+    /// string has no length, a moment later.
+    ///
+    /// # Errors
+    /// `dead_position`, `string_zero_length`.
+    pub(super) fn check_dead_position(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
+        if !self.workspace.at().drives().any(|(_, drive)| is_given(drive)) {
+            return Ok(());
+        }
+        let (n, string) = (self.workspace.m.freedom(), self.shortening_string(t, y));
+        if let Some((l, left)) = string {
+            let (mut q, u) = (y[..n].to_vec(), vec![0.0; n]);
+            if self.workspace.project_positions(&self.mode, t + BEYOND * left, &mut q, &u).is_err() {
+                return Err(self.zero_length_error(l));
+            }
+        }
+        if self.independence < NEAR {
+            self.check_loops_ahead(t, y)?;
+        }
+        self.place(t, y);
+        Ok(())
+    }
+
+    /// Near a dead position the square of the independence falls evenly to zero; a configuration that is passed leaves
+    /// the loops closed on its other side.
+    fn check_loops_ahead(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
+        let (m, n) = (self.workspace.m, self.workspace.m.freedom());
+        let (dt, [now, next]) = self.independence_ahead(t, y);
+        let left = now * now * dt / (now * now - next * next);
+        if !(left > 0.0 && left.is_finite()) {
+            return Ok(());
+        }
+        let mut q: Vec<f64> = (0..n).map(|i| y[i] + BEYOND * left * y[n + i]).collect();
+        let Err(open) = self.workspace.project_positions(&self.mode, t + BEYOND * left, &mut q, &y[n..2 * n]) else {
+            return Ok(());
+        };
+        self.place(t + left, y);
+        let at = self.workspace.at();
+        let (index, drive) = at.drives().find(|(_, drive)| is_given(drive)).expect("the caller saw one");
+        let value: f64 = drive.law.eval(&State(at));
+        let value = if m.turns(&drive.of) { format!("{:.1}°", value.to_degrees()) } else { format!("{value:.4} m") };
+        let place = format!("{} = {value}", name_of(m, drive));
+        let opened = match &open {
+            DynamicsError::LoopOpened(name, _, item) if item.starts_with("joints.") => Some(name.clone()),
+            _ => m.closures.first().map(|&joint| m.joints[joint].name.clone()),
+        };
+        Err(DynamicsError::DeadPosition(
+            opened.unwrap_or_else(|| drive.name.clone()),
+            place,
+            Source::Drive(index).path(m),
+        ))
+    }
+
+    /// A taut string with a segment that is short and shortens, and in what time it would have no length.
+    fn shortening_string(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
+        let (short, n) = (SHORT * self.workspace.length, self.workspace.m.freedom());
+        let l = self.taut_segments.iter().position(|segments| segments.iter().any(|s| s.norm() < short))?;
+        // Short even beside a turn of the segment.
+        let dt = 1e-11 * self.workspace.length / self.speed;
+        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
+        self.place(t + dt, &later);
+        let lengths = self.taut_segments[l].iter().zip(self.taut_segments(l)).map(|(a, b)| [a.norm(), b.norm()]);
+        let left =
+            lengths.filter(|[a, b]| b < a && *a < short).map(|[a, b]| a * dt / (a - b)).fold(f64::INFINITY, f64::min);
+        left.is_finite().then_some((l, left))
+    }
+}
+
+/// The coordinate that a motion gives, or its own name.
+fn name_of<'m>(m: &'m Mechanism, drive: &'m Drive) -> &'m str {
+    let coordinate = drive.of.variables().find_map(|variable| match variable {
+        ModelVariable::Coordinate(joint, k) if drive.of == ModelExpr::variable(variable.clone()) => Some((*joint, *k)),
+        _ => None,
+    });
+    coordinate.map_or(&drive.name, |(joint, k)| &m.joints[joint].coordinates[k].name)
+}

@@ -1,0 +1,38 @@
+"""A crank that is driven where its linkage does not reach: the run ends in a moment, by name, and at the angle of the closed form."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+import freebody as fb
+
+FOUR_BAR = """
+freebody: 1
+parameters: {{a: {a} m, b: {b} m, c: {c} m, d: 1 m}}
+ground: {{points: {{D: [d, 0]}}}}
+bodies:
+  crank: {{shape: rod, length: a, mass: 0.2 kg}}
+  coupler: {{shape: rod, length: b, mass: 0.5 kg}}
+  rocker: {{shape: rod, length: c, mass: 0.4 kg}}
+joints:
+  A: {{type: hinge, of: [ground.O, crank.start], coordinate: theta}}
+  B: {{type: hinge, of: [crank.end, coupler.start], coordinate: {{name: beta, absolute: true}}}}
+  D: {{type: hinge, of: [ground.D, rocker.start], coordinate: phi}}
+  C: {{type: hinge, of: [coupler.end, rocker.end]}}
+motions: {{motor: {{of: theta, is: 1 + 2*t}}}}
+initial: {{theta: 1 rad, guess: {{beta: 0.5 rad, phi: 1.7 rad}}}}
+run: {{until: 3 s}}
+"""
+
+
+@pytest.mark.parametrize(("a", "b", "c"), [(0.4, 0.5, 0.8), (0.6, 0.6, 0.7), (0.5, 0.9, 0.3), (0.7, 0.4, 0.8)])
+def test_the_four_bar_stops_where_coupler_and_rocker_are_in_line(tmp_path: Path, a: float, b: float, c: float) -> None:
+    """There |BD| = b + c: cos θ = (a² + d² − (b + c)²)/(2 a d)."""
+    file = tmp_path / "model.yaml"
+    file.write_text(FOUR_BAR.format(a=a, b=b, c=c))
+    run = fb.load(file).simulate()
+    theta = math.acos((a * a + 1 - (b + c) ** 2) / (2 * a))
+    assert run.outcome.name == "dead_position" and run.outcome.path == "motions.motor"
+    assert f"the loop at `C` cannot close beyond theta = {math.degrees(theta):.1f}°" in run.outcome.sentence
+    assert theta - 1e-3 < run.q[-1, 0] < theta
