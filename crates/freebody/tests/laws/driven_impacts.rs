@@ -10,7 +10,7 @@ use freebody::contact::complementarity::ImpactLaw;
 use freebody::dynamics::{joint_place, DynamicsError, Route, Workspace};
 use freebody::hybrid::{simulate, Impulses, ModeChange, Rule, Settings, Start, Trajectory};
 use freebody::kinematics::gradient;
-use freebody::mechanism::{DriveKind, Gap, Mechanism, Part};
+use freebody::mechanism::{DriveKind, Gap, Mechanism};
 use freebody::motion::{Options, Outcome};
 use freebody::plane::{vec2, Twist, Vec2, Wrench};
 use freebody::spec::{Action, Cable, CableEnd, Contact, Event, Stop, Surface};
@@ -81,8 +81,6 @@ fn can_lock(bench: &Bench, start: &State) -> bool {
     let Some(lock) = drives.iter().position(|drive| drive.kind == DriveKind::Lock) else { return true };
     let mut workspace = bench.balance();
     workspace.move_to(start.t, &start.q, &start.u);
-    let mode = workspace.switch_part(Part::Drive(lock), true).expect("locked later");
-    workspace.place(&mode, start.t, &start.q, &start.u);
     workspace.instant(Route::Minimal).is_ok_and(|now| now.drives_determinate[lock])
 }
 
