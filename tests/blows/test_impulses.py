@@ -36,7 +36,7 @@ def test_impulses_of_contacts_strings_and_stops_are_those_of_the_run(name):
     for impact in struck(name):
         stated = impact.change.impulses
         for limit, (x, y) in stated.contacts.items():
-            first = next(each["first"] for each in impact.run.about["limits"] if each["name"] == limit)
+            first = next(each["first"] for each in impact.run.metadata["limits"] if each["name"] == limit)
             loads = [load for load in impact.impulses.loads if load.name == limit]
             if all(load.determinate for load in loads):
                 found = sum(load.acting([first])[:2] for load in loads)
@@ -50,7 +50,7 @@ def test_impulses_of_contacts_strings_and_stops_are_those_of_the_run(name):
 def test_impulses_of_joints_are_those_of_the_run(name):
     """The run passes them from body to body along the tree; here every body has its balance."""
     for impact in struck(name):
-        joints = {joint["name"]: joint for joint in impact.run.about["joints"]}
+        joints = {joint["name"]: joint for joint in impact.run.metadata["joints"]}
         for joint, (x, y, _) in impact.change.impulses.joints.items():
             loads = [load for load in impact.impulses.loads if load.name == joint and load.kind == "joint"]
             if all(load.determinate for load in loads):

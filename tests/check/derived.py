@@ -53,9 +53,9 @@ def _ask(mechanism: Mechanism, questions: list[dict[str, Any]]) -> SymbolicAnswe
 
 
 def _derived(mechanism: Mechanism, rng: np.random.Generator) -> Iterator[tuple[Tree, Tree]]:
-    about = mechanism.compile().about
-    names = [c["name"] for c in about["coordinates"]]
-    questions = [{"ask": "coordinate", "name": name} for name in names] + list(_balances(mechanism, about, rng))
+    metadata = mechanism.compile().metadata
+    names = [c["name"] for c in metadata["coordinates"]]
+    questions = [{"ask": "coordinate", "name": name} for name in names] + list(_balances(mechanism, metadata, rng))
     *balances, rows, lagrange = _ask(mechanism, [*questions, {"ask": "rows"}, {"ask": "lagrange"}]).answers
     for answer in balances:
         yield read(answer["left"]), add(*(read(part["tree"]) for part in answer["inertia"]))
@@ -64,11 +64,11 @@ def _derived(mechanism: Mechanism, rng: np.random.Generator) -> Iterator[tuple[T
     yield from ((read(e["residual"]), read({"num": "0"})) for e in lagrange["equations"])
 
 
-def _balances(mechanism: Mechanism, about: dict[str, Any], rng: np.random.Generator) -> Iterator[dict[str, Any]]:
+def _balances(mechanism: Mechanism, metadata: dict[str, Any], rng: np.random.Generator) -> Iterator[dict[str, Any]]:
     """Moments about random points, and forces along the axes, for each body and for all."""
     state, _ = mechanism.start()
     points = list(mechanism.compile().points(state.p))
-    bodies = [b["name"] for b in about["bodies"]]
+    bodies = [b["name"] for b in metadata["bodies"]]
     for group in [[], *([name] for name in bodies if len(bodies) > 1)]:
         for i in rng.permutation(len(points))[:_POINTS]:
             yield {"ask": "equation", "bodies": group, "about": {"point": points[i]}}

@@ -47,8 +47,8 @@ def told() -> list[Outcome]:
 
 
 def test_models_made_by_rule_have_as_many_freedoms_as_their_name_says() -> None:
-    stated = {name: Mechanism.loads(text).compile().about for name, text in GENERATED.items()}
-    counts = {name: len(about["coordinates"]) for name, about in stated.items()}
+    stated = {name: Mechanism.loads(text).compile().metadata for name, text in GENERATED.items()}
+    counts = {name: len(metadata["coordinates"]) for name, metadata in stated.items()}
     assert counts == {
         "chain of 1 rods": 1, "chain of 2 rods": 2, "chain of 3 rods": 3, "trolley with 1": 2, "trolley with 2": 3,
         "row of 2 blocks": 2, "row of 3 blocks": 3,

@@ -34,7 +34,7 @@ def bent(draw, values):
 
 
 def is_state(core, state):
-    sizes = len(state.p) == len(core.about["parameters"]) and len(state.q) == len(state.u) == len(core.about["coordinates"])
+    sizes = len(state.p) == len(core.metadata["parameters"]) and len(state.q) == len(state.u) == len(core.metadata["coordinates"])
     return sizes and all(np.isfinite(part).all() for part in state.arrays)
 
 
@@ -76,7 +76,7 @@ def test_settings_are_taken_or_refused(started, data):
 @given(data=st.data())
 def test_starts_are_found_or_refused(started, data):
     core, start = started
-    names = st.sampled_from([*(c["name"] for c in core.about["coordinates"]), *core.points(start.p), "nobody", "'", ""])
+    names = st.sampled_from([*(c["name"] for c in core.metadata["coordinates"]), *core.points(start.p), "nobody", "'", ""])
     some = st.dictionaries(names, numbers, max_size=2)
     with contextlib.suppress(*REFUSALS):
         core.assemble(

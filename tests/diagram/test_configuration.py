@@ -55,7 +55,7 @@ every_model = every(sorted(SYSTEMS))
 @every_model
 def test_every_coordinate_has_its_mark_and_it_can_be_seen(model):
     found = drawn(model)
-    assert [each.text for each in found.scenery.dimensions] == [letter(c["name"]) for c in found.source.about["coordinates"]]
+    assert [each.text for each in found.scenery.dimensions] == [letter(c["name"]) for c in found.source.metadata["coordinates"]]
     for each in found.scenery.dimensions:
         assert np.hypot(*np.diff(each.arrow, axis=0).T).sum() >= 5.0
 

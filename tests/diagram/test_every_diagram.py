@@ -222,9 +222,9 @@ def test_the_couple_of_a_motor_stands_at_its_joint(model):
 def joints(model):
     """The joints of a model with their fields and the names of their bodies."""
     source = mechanism(model).source()
-    about = {joint["name"]: joint for joint in source.about["joints"]}
+    metadata = {joint["name"]: joint for joint in source.metadata["joints"]}
     spec = source.spec["joints"]
-    return [joint | about[joint["name"]] | {"type": joint["type"]} for joint in spec if joint["name"] in about]
+    return [joint | metadata[joint["name"]] | {"type": joint["type"]} for joint in spec if joint["name"] in metadata]
 
 
 def labels(axes):

@@ -62,7 +62,7 @@ def model(seed: int) -> fb.Mechanism:
 def states(mechanism: fb.Mechanism, seed: int) -> Iterator[SimpleNamespace]:
     """Random states with random parameters, and the values of all letters there as the core has them."""
     rng, core, start = np.random.default_rng(seed), mechanism.compile(), mechanism.start()[0]
-    names = [each["name"] for each in mechanism.source().about["parameters"]]
+    names = [each["name"] for each in mechanism.source().metadata["parameters"]]
     for _ in range(3):
         p = core.bind(dict(zip(names, start.p * rng.uniform(0.6, 1.7, len(names)), strict=True)))
         q, u = start.q + rng.uniform(-0.2, 0.6, len(start.q)), rng.uniform(-2, 2, len(start.u))
@@ -87,7 +87,7 @@ def test_generated_code_gives_what_the_core_gives(seed: int) -> None:
     exec(mechanism.code(), made)
     for at in states(mechanism, seed):
         state, table = at.state, at.subject.table
-        listed = [each["name"] for each in mechanism.source().about["parameters"]]
+        listed = [each["name"] for each in mechanism.source().metadata["parameters"]]
         known = dict(zip(listed, state.p, strict=True)) | {n: e["value"] for n, e in table.items() if e["kind"] == "number"}
         p = np.array([known[name] for name in made["PARAMETERS"]])
         assert np.allclose(made["accelerations"](state.q, state.u, p), at.instant.accelerations, rtol=1e-11)

@@ -18,7 +18,7 @@ from freebody.model.mechanism import Mechanism
 class Core:
     """A compiled mechanism that knows two parameters."""
 
-    about: ClassVar = {"parameters": [{"name": "T", "unit": "N*m", "value": 1.0}, {"name": "l", "unit": "m", "value": 2.0}]}
+    metadata: ClassVar = {"parameters": [{"name": "T", "unit": "N*m", "value": 1.0}, {"name": "l", "unit": "m", "value": 2.0}]}
 
     def bind(self, values):
         return np.array([values.get("T", 1.0), values.get("l", 2.0)])

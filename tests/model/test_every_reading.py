@@ -57,23 +57,23 @@ initial: {{a: 0.4, b: -1, s: 0, x: 0, y: {-8.5 * length}, phi: 0, u: {0.6 * leng
 """)
 
 
-def every_reading(about):
+def every_reading(metadata):
     """Each function of something, and each word behind the name of a part. Where nothing touches is no place: NaN."""
     for function in cards.functions().values():
         texts = [ARGUMENTS[kind][min(i, len(ARGUMENTS[kind]) - 1)] for i, kind in enumerate(function.takes)]
         yield f"{function.word}({', '.join(texts)})"
     for section in ("joints", "forces", "motions", "limits"):
-        for part in about[section]:
+        for part in metadata[section]:
             yield from (f"{quote(part['name'])}.{word}" for word in part["readings"])
 
 
 def test_readings_grow_as_their_units_say():
     plain, grown = model(), model(*SCALES)
-    about, now, then = plain.source().about, plain.solve(), grown.solve()
-    texts = list(every_reading(about))
+    metadata, now, then = plain.source().metadata, plain.solve(), grown.solve()
+    texts = list(every_reading(metadata))
     assert len(texts) > 100
     for text in texts:
-        unit = unit_of(text, (), about)
+        unit = unit_of(text, (), metadata)
         assert unit, f"{text} has no unit"
         dimension = units.unit(unit).dimension
         factor = math.prod(float(scale) ** float(power) for scale, power in zip(SCALES, dimension[:3], strict=True))

@@ -52,8 +52,8 @@ def unbalanced(run: fb.Run, body: str, touches: Iterable[str], times: np.ndarray
     The accelerations are second differences of nothing but the motion; forces and where they act are what the run tells.
     In N and, for moments about the mass centre, N·m.
     """
-    about = next(b for b in run.about["bodies"] if b["name"] == body)
-    mass, inertia = about["mass"], about["inertia"]
+    metadata = next(b for b in run.metadata["bodies"] if b["name"] == body)
+    mass, inertia = metadata["mass"], metadata["inertia"]
     ax, ay, alpha = acceleration(run, body, times)
     force = [-mass * ax + mass * gravity[0], -mass * ay + mass * gravity[1]]
     moment = -inertia * alpha

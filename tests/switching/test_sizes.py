@@ -183,7 +183,7 @@ def told(run: fb.Run, scales: tuple[float, float, float]) -> tuple[list[tuple], 
     length, _, time = scales
     happened = [(run.outcome.name, ()), *((change.kind, tuple(change.of)) for change in changes(run))]
     when = [run.t[-1], *(change.t for change in changes(run))]
-    units = [length if c["dimension"] == "m" or c["name"] == "way" else 1.0 for c in run.about["coordinates"]]
+    units = [length if c["dimension"] == "m" or c["name"] == "way" else 1.0 for c in run.metadata["coordinates"]]
     times = np.linspace(0, 1, 50) * run.t[-1]
     q, u = run.motion.sample(times)
     return happened, np.array(when) / time, np.hstack([q / units, u / units * time])

@@ -145,5 +145,5 @@ def test_words_and_symbols():
     ]
     assert plain("arm.theta2") == "arm.θ2"
     units = ["speed(rod.B)", "t", "2*theta", "kinetic()"]
-    about = dict.fromkeys(("joints", "forces", "motions", "locks", "limits"), ())
-    assert [unit_of(text, (), about) for text in units] == ["m/s", "s", "", "J"]
+    metadata = dict.fromkeys(("joints", "forces", "motions", "locks", "limits"), ())
+    assert [unit_of(text, (), metadata) for text in units] == ["m/s", "s", "", "J"]

@@ -64,7 +64,7 @@ def _numbers(derived: SymbolicState) -> Iterator[tuple[str, str]]:
 
 def _bodies(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Places, velocities and accelerations of mass centres, and angles."""
-    for body in derived.source.about["bodies"]:
+    for body in derived.source.metadata["bodies"]:
         said, name = spell(body["name"]), body["name"]
         read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
         read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
@@ -87,7 +87,7 @@ def _whole(derived: SymbolicState) -> Iterator[tuple[str, str]]:
 
 def _directions(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
-    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in derived.source.about["bodies"]}
+    turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in derived.source.metadata["bodies"]}
     named = directions(derived)
     yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))
     for pair in named.pairs:

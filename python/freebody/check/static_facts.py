@@ -29,7 +29,7 @@ class StaticFacts:
         self.spec: dict[str, Any] = {**lowered.spec, "parameters": list(lowered.spec["parameters"])}
         self.gravity = self._parametrised_gravity()
         self.core = CompiledModel.of(self.spec)
-        self.metadata = self.core.about
+        self.metadata = self.core.metadata
         text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
         self.counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
 

@@ -73,7 +73,7 @@ class Symbols:
         if gravity is not None:
             self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
         self.writer = Writer(lowered.root, self.named, {})
-        self.metadata = mechanism.source().about
+        self.metadata = mechanism.source().metadata
         self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         for name, said in (declared or {}).items():

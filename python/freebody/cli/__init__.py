@@ -90,7 +90,7 @@ def validate(
     if output:
         FORMATS.of(output)
     mechanism = opened(model)
-    show.mechanism(mechanism.compile().about, mechanism.solve().explanation, as_json)
+    show.mechanism(mechanism.compile().metadata, mechanism.solve().explanation, as_json)
     if output:
         mechanism.drawing().figure.savefig(output)
         if not as_json:

@@ -212,17 +212,17 @@ def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float]:
 # A mechanism, a comparison, files
 
 
-def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
+def mechanism(metadata: Mapping[str, Any], freedom: str, as_json: bool) -> None:
     """Model assumptions: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
     if as_json:
-        print(dumped(about))
+        print(dumped(metadata))
         return
-    bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in about["bodies"]]
-    coordinates = [(c["name"], c["dimension"], c["doc"]) for c in about["coordinates"]]
-    joints = [(j["name"], j["type"], _ends(j), "closes a loop" if j["cut"] else "", _later(j)) for j in about["joints"]]
-    limits = [(x["name"], x["type"], "" if x["type"] == "stop" else _ends(x), _later(x)) for x in about["limits"]]
-    forces = [(f["name"], f["type"], _later(f)) for f in about["forces"]]
-    motions = [(m["name"], m["level"], "" if m["ideal"] else "does work of its own", _later(m)) for m in about["motions"]]
+    bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in metadata["bodies"]]
+    coordinates = [(c["name"], c["dimension"], c["doc"]) for c in metadata["coordinates"]]
+    joints = [(j["name"], j["type"], _ends(j), "closes a loop" if j["cut"] else "", _later(j)) for j in metadata["joints"]]
+    limits = [(x["name"], x["type"], "" if x["type"] == "stop" else _ends(x), _later(x)) for x in metadata["limits"]]
+    forces = [(f["name"], f["type"], _later(f)) for f in metadata["forces"]]
+    motions = [(m["name"], m["level"], "" if m["ideal"] else "does work of its own", _later(m)) for m in metadata["motions"]]
     put(
         table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
         table("coordinates", ["coordinate", "unit", "meaning"], coordinates),
@@ -231,7 +231,7 @@ def mechanism(about: Mapping[str, Any], freedom: str, as_json: bool) -> None:
         table("forces", ["force", "type", ""], forces),
         table("prescribed motions", ["motion", "level", "", ""], motions),
         freedom,
-        *(f"• {note}" for note in about["notes"]),
+        *(f"• {note}" for note in metadata["notes"]),
     )
 
 

@@ -82,7 +82,7 @@ def systems(source: CompiledModel, state: State) -> Systems:
     return Systems(
         source.name,
         letters,
-        values | dict(zip((each["name"] for each in source.about["parameters"]), state.p.tolist(), strict=True)),
+        values | dict(zip((each["name"] for each in source.metadata["parameters"]), state.p.tolist(), strict=True)),
         tuple(linear_in(read(each["residual"]), unknowns) for each in lagrange["equations"]),
         tuple(Linear.read(row["linear"]) for row in rows),
         tuple(Linear.read(each["linear"]) for each in balances),
@@ -99,8 +99,8 @@ def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
 
 def _letters(source: CompiledModel, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
     """All letters in the order of the model: coordinates, parameters, numbers without a name, unknown loads, time."""
-    about = source.about
-    found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in about["coordinates"]]
+    metadata = source.metadata
+    found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in metadata["coordinates"]]
     given = {item["name"]: item["value"] for item in source.spec["parameters"]}
     found += [Letter(name, "parameter", table[name]["unit"], _formula(value, given)) for name, value in given.items()]
     unnamed = (name for name, entry in table.items() if entry["kind"] == "number")

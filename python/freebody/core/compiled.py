@@ -80,7 +80,7 @@ class CompiledModel:
         return cls(_core.Mechanism(spec), spec)
 
     @cached_property
-    def about(self) -> dict[str, Any]:
+    def metadata(self) -> dict[str, Any]:
         """What the core says of the mechanism: bodies, coordinates, joints and so on."""
         return self.mechanism.describe()
 
@@ -111,7 +111,7 @@ class CompiledModel:
 
     def instant(self, state: State, route: str = "minimal") -> Solution:
         """Accelerations and all reactions by ``minimal``, ``newton_euler`` or ``constraints``."""
-        return Solution.read(self.mechanism.instant(state.arrays, route), self.about)
+        return Solution.read(self.mechanism.instant(state.arrays, route), self.metadata)
 
     def free_bodies(self, state: State) -> FreeBodies:
         """All that acts on each body."""
@@ -142,4 +142,4 @@ class CompiledModel:
         of t, called now and then, that interrupts by returning False. ``after``: a motion at whose end this one starts; what it
         has released, engaged and wound up stays so."""
         run = self.mechanism.simulate(state.arrays, until, after=after and after.run, **settings)
-        return Trajectory(run, self.about)
+        return Trajectory(run, self.metadata)

@@ -40,10 +40,10 @@ class Limit:
         return self.state in ("open", "slack")
 
 
-def limits_of(stated: Sequence[Mapping[str, Any]], about: Mapping[str, Any]) -> dict[str, Limit]:
+def limits_of(stated: Sequence[Mapping[str, Any]], metadata: Mapping[str, Any]) -> dict[str, Limit]:
     """Contacts, strings and stops by name, as the core tells of an instant."""
     found = {}
-    for who, now in zip(about["limits"], stated, strict=True):
+    for who, now in zip(metadata["limits"], stated, strict=True):
         forces = zip(now["force"] + [now["normal"], now["friction"]], now["determinate"], strict=True)
         fx, fy, normal, friction = (force if known else np.nan for force, known in forces)
         found[who["name"]] = Limit(

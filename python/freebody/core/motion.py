@@ -109,8 +109,8 @@ def there(changes: Sequence[Change], name: str, engaged: bool, times: Array) -> 
 class Motion:
     """What is known of a motion: the core's ``Trajectory``, or what a file holds of one. ``record`` is that as plain data."""
 
-    def __init__(self, record: Mapping[str, Any], about: Mapping[str, Any]) -> None:
-        self.record, self.about = record, about
+    def __init__(self, record: Mapping[str, Any], metadata: Mapping[str, Any]) -> None:
+        self.record, self.metadata = record, metadata
 
     @cached_property
     def outcome(self) -> Outcome:
@@ -133,7 +133,7 @@ class Motion:
         return dict(self.record["stats"])
 
     def _named(self, state: Mapping[str, Sequence[float]]) -> dict[str, dict[str, float]]:
-        names = [c["name"] for c in self.about["coordinates"]]
+        names = [c["name"] for c in self.metadata["coordinates"]]
         return {part: dict(zip(names, state[part], strict=True)) for part in "qu"}
 
     def _change(self, of: list[str], note: str | None, impulses: Any, before: Any, after: Any, **plain: Any) -> Change:
@@ -142,9 +142,9 @@ class Motion:
                       **dict(zip(("before", "after"), sides, strict=True)))  # fmt: skip
 
     def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str], drives: Any = (), works: Any = ()) -> Impulses:
-        stops = {limit["name"] for limit in self.about["limits"] if limit["type"] == "stop"}
-        names = [joint["name"] for joint in self.about["joints"]]
-        locks = {lock["name"] for lock in self.about["locks"]}
+        stops = {limit["name"] for limit in self.metadata["limits"] if limit["type"] == "stop"}
+        names = [joint["name"] for joint in self.metadata["joints"]]
+        locks = {lock["name"] for lock in self.metadata["locks"]}
         return Impulses(
             contacts={name: tuple(p) for name, p in limits if name not in stops},
             joints={name: tuple(p) for name, p in zip(names, joints, strict=True) if any(p)},
@@ -160,8 +160,8 @@ class Motion:
 class Trajectory(Motion):
     """A finished run of the core with dense output: ``steps`` (ns,) are the times of the accepted steps, first and last included."""
 
-    def __init__(self, run: _core.Trajectory, about: Mapping[str, Any]) -> None:
-        super().__init__(run.record(), about)
+    def __init__(self, run: _core.Trajectory, metadata: Mapping[str, Any]) -> None:
+        super().__init__(run.record(), metadata)
         self.run = run
         self.steps: Array = run.steps
 
@@ -187,7 +187,7 @@ class Trajectory(Motion):
 
     def instant(self, t: float, route: str = "minimal") -> Solution:
         """Everything about one time, with what is in place and holds then."""
-        return Solution.read(self.run.instant(t, route), self.about)
+        return Solution.read(self.run.instant(t, route), self.metadata)
 
     def free_bodies(self, t: float) -> FreeBodies:
         """As that of ``CompiledModel``, with what is in place and holds then."""

@@ -61,9 +61,9 @@ class Solution:
     rank: Rank
 
     @classmethod
-    def read(cls, data: dict[str, Any], about: Mapping[str, Any]) -> Solution:
+    def read(cls, data: dict[str, Any], metadata: Mapping[str, Any]) -> Solution:
         """As the core gives it."""
-        return cls(**data | {"limits": limits_of(data["limits"], about), "rank": Rank(**data["rank"])})
+        return cls(**data | {"limits": limits_of(data["limits"], metadata), "rank": Rank(**data["rank"])})
 
 
 @dataclass(frozen=True)

@@ -133,7 +133,7 @@ def _ways(subject: SymbolicState, chosen: Substitutions, limits: Collection[str]
     natural = {n: place for n, place in place_of(subject).items() if is_natural(place) and n not in settled}
     ratios_too = [(chosen, True)] if subject.rows and not limits else []
     at_start = [(replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural)), False)] if natural else []
-    yield from at_start + ratios_too if subject.source.about["limits"] else ratios_too + at_start
+    yield from at_start + ratios_too if subject.source.metadata["limits"] else ratios_too + at_start
     lengths = [n for n in subject.letters.geometric() if n not in settled]
     if lengths:
         measured = chosen.and_numbers(subject.with_numbers(lengths).numbers or {})
@@ -295,7 +295,7 @@ def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, T
 
 def _closed(subject: SymbolicState, chosen: Substitutions) -> list[State]:
     """States near by at which contacts and strings stay closed; none where a coordinate is set that could move."""
-    if not subject.source.about["limits"] or set(subject.names) & chosen.trees.keys() - chosen.still:
+    if not subject.source.metadata["limits"] or set(subject.names) & chosen.trees.keys() - chosen.still:
         return []
     found = others(subject.source, subject.state)
     places = {tuple(state.q): replace(state, u=np.zeros_like(state.u)) for state in found}

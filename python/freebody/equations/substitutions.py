@@ -94,7 +94,7 @@ class Substitutions:
         rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
             found, _ = source.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
-            return replaced(found, u=np.array(rates)) if rates and source.about["freedom"]["count"] == len(names) else found
+            return replaced(found, u=np.array(rates)) if rates and source.metadata["freedom"]["count"] == len(names) else found
         except MotionError:
             return None
 
@@ -136,8 +136,8 @@ def given(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()
     """What is set, exactly, and lengths and angles that the model defines by others, but what is ``free``. Raises ``ValueError`` where it is no
     quantity and no letter."""
     source = mechanism.source()
-    units = {p["name"]: p["unit"] for p in source.about["parameters"]}
-    letters, known = [*units], [*units, *(c["name"] for c in source.about["coordinates"])]
+    units = {p["name"]: p["unit"] for p in source.metadata["parameters"]}
+    letters, known = [*units], [*units, *(c["name"] for c in source.metadata["coordinates"])]
     for name in set:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")

@@ -53,7 +53,7 @@ class AppliedImpulse(Impulsive):
     @property
     def size(self) -> float:
         """The impulse in numbers, N·s."""
-        places = [each["name"] for each in self.source.about["parameters"]]
+        places = [each["name"] for each in self.source.metadata["parameters"]]
         return float(self.state.p[places.index(self.letter)])
 
     @property
@@ -64,11 +64,11 @@ class AppliedImpulse(Impulsive):
     @cached_property
     def change(self) -> Change:
         """Rates jump from 0."""
-        names = [c["name"] for c in self.source.about["coordinates"]]
+        names = [c["name"] for c in self.source.metadata["coordinates"]]
         q = dict(zip(names, map(float, self.state.q), strict=True))
         small = _ROUND_OFF * abs(self.size) / (sum(body.mass for body in self.free.bodies.values()) or 1.0)
         jumps = {name: u if abs(u) > small else 0.0 for name, u in self.free.accelerations.items()}
-        loaded, limits = {load.name for load in self.free.loads}, {each["name"] for each in self.source.about["limits"]}
+        loaded, limits = {load.name for load in self.free.loads}, {each["name"] for each in self.source.metadata["limits"]}
         closed = dict.fromkeys(row["name"] for row in self.rows_before() if row["name"] in limits)
         stated = Impulses({}, {}, spared=tuple(name for name in closed if name not in loaded))
         energy = 0.0  # what it gives, J: half of every momentum by its rate
@@ -92,14 +92,14 @@ def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, imp
     axis of the ``frame``, ``fixed`` or ``body``. Where joints alone hold it, rates
     that it had before stay and the jumps add to them. Raises ``NoImpact`` where it moves and may touch something, ``ModelFileError``
     for a point that there is not."""
-    if np.abs(state.u).max(initial=0.0) > _STILL and mechanism.source().about["limits"]:
+    if np.abs(state.u).max(initial=0.0) > _STILL and mechanism.source().metadata["limits"]:
         raise NoImpact(
             "the model moves at its start, and it has contacts, strings or stops, which then decide by that motion what an impact does; "
             "what is struck here stands still: give the start no rates, or let a run strike it"
         )
     state = replace(state, u=np.zeros_like(state.u))
     size = quantity("impulse", impulse, "N*s")
-    taken = {c["name"] for kind in ("parameters", "coordinates") for c in mechanism.source().about[kind]}
+    taken = {c["name"] for kind in ("parameters", "coordinates") for c in mechanism.source().metadata[kind]}
     letter = next(name for name in _LETTERS if name not in taken)
     model = mechanism.copy()
     model.parameter(letter, size)
@@ -107,8 +107,8 @@ def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, imp
     lowered = model.lowered()
     core = CompiledModel.of(_bare(lowered.spec))
     source = replace(mechanism.source(), mechanism=core.mechanism, spec=lowered.spec)
-    p = dict(zip((each["name"] for each in mechanism.source().about["parameters"]), state.p, strict=True))
-    values = np.array([p.get(each["name"], size) for each in source.about["parameters"]])
+    p = dict(zip((each["name"] for each in mechanism.source().metadata["parameters"]), state.p, strict=True))
+    values = np.array([p.get(each["name"], size) for each in source.metadata["parameters"]])
     return AppliedImpulse(mechanism.source(), source, replace(state, p=values), state, letter)
 
 

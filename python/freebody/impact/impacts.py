@@ -67,13 +67,13 @@ class Impulsive(ABC):
 
     def absent(self, *group: str) -> list[str]:
         """In sentences, what has no impulse on a group of bodies (all by default), and why."""
-        chosen, about = set(group or self.free.bodies), self.source.about
+        chosen, metadata = set(group or self.free.bodies), self.source.metadata
         finite = (x for x in self.finite if not x.inside(chosen) and any(part.body in chosen for part in x.on))
         names = list(dict.fromkeys(f"weight of {x.of[-1]}" if x.kind == "weight" else x.name for x in finite))
-        here = [each["name"] for each in about["joints"] + about["limits"] if {each["first"], each["second"]} & chosen]
+        here = [each["name"] for each in metadata["joints"] + metadata["limits"] if {each["first"], each["second"]} & chosen]
         spared = [name for name in (self.change.impulses.spared if self.change.impulses else ()) if name in here]
         closed = {row["name"] for row in self.rows_before()} - {load.name for load in self.acting}
-        idle = [x["name"] for x in about["limits"] if x["name"] in closed and x["name"] in here and x["name"] not in spared]
+        idle = [x["name"] for x in metadata["limits"] if x["name"] in closed and x["name"] in here and x["name"] not in spared]
         has_friction = [x["name"] for x in self.source.spec["joints"] if x.get("friction") and x["name"] in here]
         stated = [f"{', '.join(names)}: finite, so no impulse in a time that goes to 0"] if names else []
         stated += [f"{name}, which opens: its impulse would have to be negative" for name in spared]

@@ -133,7 +133,7 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
 
 def parameter_values(core: Any, p: NDArray[Any]) -> dict[str, float]:
     """The parameters of a compiled mechanism by name."""
-    names = [parameter["name"] for parameter in core.about["parameters"]]
+    names = [parameter["name"] for parameter in core.metadata["parameters"]]
     return {name: float(value) for name, value in zip(names, p, strict=True)}
 
 

@@ -78,5 +78,5 @@ def carried(before: Builder, run: Run, after: Builder) -> dict[str, Any]:
 
 def coordinates(core: CompiledModel) -> list[str]:
     """The names of all coordinates, also of those that only close loops."""
-    about = core.about
-    return [coordinate["name"] for coordinate in about["coordinates"] + about["closure_coordinates"]]
+    metadata = core.metadata
+    return [coordinate["name"] for coordinate in metadata["coordinates"] + metadata["closure_coordinates"]]

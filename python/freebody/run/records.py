@@ -204,7 +204,7 @@ def reduce(how: str, signal: Signal, window: Window) -> tuple[float | None, floa
     raise ValueError(f"no such reduction: {how!r}; there are max, min, mean, rms, integral")
 
 
-def columns_of(about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
+def columns_of(metadata: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
     """All columns, kind by kind, in the order of the core's arrays; ``ledger`` names the entries of the energy ledger."""
     made: list[Column] = []
 
@@ -213,18 +213,18 @@ def columns_of(about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
 
     rates = (("coordinate", "{}", ""), ("rate", "rate({})", "/s"), ("acceleration", "accel({})", "/s^2"))
     for dots, (kind, text, per) in enumerate(rates):
-        for each in about["coordinates"]:
+        for each in metadata["coordinates"]:
             add(kind, text.format(quote(each["name"])), Name.parse(each["name"]), each["dimension"] + per, dots)
-    for joint in (each["name"] for each in about["joints"]):
+    for joint in (each["name"] for each in metadata["joints"]):
         add("reaction", f"{quote(joint)}.Fx", Name(joint, ("x",)), "N")
         add("reaction", f"{quote(joint)}.Fy", Name(joint, ("y",)), "N")
         add("reaction", f"{quote(joint)}.M", Name("M", (joint,)), "N*m")
-    for limit in about["limits"]:
+    for limit in metadata["limits"]:
         name, length = limit["name"], limit["dimension"]
         for word in {"contact": ("N", "T"), "string": ("tension",), "stop": ("N",)}[limit["type"]]:
             add("limit", f"{quote(name)}.{word}", Name(word[0].upper(), (name,)), {"m": "N", "rad": "N*m"}.get(length, ""))
         add("limit", f"{quote(name)}.gap", Name("g", (name,)), length)
-    for lock in about["locks"]:
+    for lock in metadata["locks"]:
         add("limit", f"{quote(lock['name'])}.force", Name("F", (lock["name"],)), "N*m" if lock["turns"] else "N")
     own = {"kinetic": ("kinetic()", Name("T")), "potential": ("potential()", Name("V"))} | {
         each: (each, Name(each)) for each in ENTRIES
@@ -233,13 +233,13 @@ def columns_of(about: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
     for entry in ledger:
         of = entry.removesuffix(".work")
         add("energy", *own.get(entry, (f"{quote(of)}.work", Name("W", (of,)))), "J")
-    for body in (each["name"] for each in about["bodies"]):
+    for body in (each["name"] for each in metadata["bodies"]):
         for text, stem, unit in (("x({}.origin)", "x", "m"), ("y({}.origin)", "y", "m"), ("angle({})", "phi", "rad")):
             add("pose", text.format(quote(body)), Name(stem, (body,)), unit)
     return made
 
 
-def unit_of(text: str, columns: Sequence[Column], about: Mapping[str, Any]) -> str:
+def unit_of(text: str, columns: Sequence[Column], metadata: Mapping[str, Any]) -> str:
     """The SI unit of a simple expression (a column, one call, one reading of a part); empty where it takes more to tell."""
     text = text.strip()
     for column in columns:
@@ -251,5 +251,5 @@ def unit_of(text: str, columns: Sequence[Column], about: Mapping[str, Any]) -> s
         function = cards.functions().get(call[1])
         return function.unit if function else ""
     owner, dot, word = text.rpartition(".")
-    parts = (part for section in ("joints", "forces", "motions", "locks", "limits") for part in about[section] if dot)
+    parts = (part for section in ("joints", "forces", "motions", "locks", "limits") for part in metadata[section] if dot)
     return next((part["readings"].get(word) or "" for part in parts if quote(part["name"]) == owner), "")

@@ -66,7 +66,7 @@ class Run:
     next: Run | None = None
 
     def __post_init__(self) -> None:
-        self.about = self.source.about
+        self.metadata = self.source.metadata
         self.name = self.source.name
 
     # What happened
@@ -122,12 +122,12 @@ class Run:
     @property
     def coordinates(self) -> list[str]:
         """Names of the coordinates, in the order of ``q``."""
-        return [c["name"] for c in self.about["coordinates"]]
+        return [c["name"] for c in self.metadata["coordinates"]]
 
     @property
     def bodies(self) -> list[str]:
         """Names of the bodies, in the order of ``poses``."""
-        return [b["name"] for b in self.about["bodies"]]
+        return [b["name"] for b in self.metadata["bodies"]]
 
     @cached_property
     def points(self) -> dict[str, tuple[str, float, float]]:
@@ -148,7 +148,7 @@ class Run:
     def reactions(self) -> Reactions:
         """Reaction of every joint over ``t``, on its second body unless ``.on(body)`` says otherwise."""
         made = {}
-        for i, joint in enumerate(self.about["joints"]):
+        for i, joint in enumerate(self.metadata["joints"]):
             values = self._reactions[:, i]
             least, evaluate = partial(self._least, i), partial(self.motion.evaluate, times=self.t)
             made[joint["name"]] = Reaction.of(joint, values, ~np.isnan(values), least, evaluate)
@@ -178,7 +178,7 @@ class Run:
         times = np.ascontiguousarray(self.t if t is None else t, float)
         values = self.motion.evaluate([text], times)[:, 0]
         if np.isnan(values).any():
-            refuse_indeterminate(text, self.reactions, self.about)
+            refuse_indeterminate(text, self.reactions, self.metadata)
         return float(values[0]) if np.isscalar(t) else values
 
     def instant(self, t: float, route: str = "minimal") -> Instant:
@@ -201,7 +201,7 @@ class Run:
 
     def unit_of(self, text: str) -> str:
         """The SI unit of a simple expression; empty where it takes more to tell."""
-        return unit_of(text, self.columns, self.about)
+        return unit_of(text, self.columns, self.metadata)
 
     def reported(self, item: ReportItem) -> Reported:
         """One such quantity."""
@@ -239,7 +239,7 @@ class Run:
     @cached_property
     def columns(self) -> list[Column]:
         """Everything that is kept over ``t``, in the order of ``blocks``."""
-        return columns_of(self.about, self.energy.names)
+        return columns_of(self.metadata, self.energy.names)
 
     @property
     def blocks(self) -> dict[str, Array]:
@@ -318,7 +318,7 @@ class Run:
 
     @cached_property
     def _limits(self) -> Array:
-        texts = [column.name for column in columns_of(self.about, ()) if column.kind == "limit"]
+        texts = [column.name for column in columns_of(self.metadata, ()) if column.kind == "limit"]
         return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
 
     def _least(self, i: int) -> Array:

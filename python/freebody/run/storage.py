@@ -102,8 +102,8 @@ class Header:
 class Recorded(Motion):
     """What a file holds of a motion: everything at the saved times (nt,), nothing between them."""
 
-    def __init__(self, saved_times: Array, blocks: Mapping[str, Array], header: Header, about: Mapping[str, Any]) -> None:
-        super().__init__(vars(header), about)
+    def __init__(self, saved_times: Array, blocks: Mapping[str, Array], header: Header, metadata: Mapping[str, Any]) -> None:
+        super().__init__(vars(header), metadata)
         self.saved_times, self.blocks, self.header = saved_times, blocks, header
         self.names = [column.name for column in header.columns]
         self.steps, self.end = header.steps, header.end
@@ -171,7 +171,7 @@ def to_xarray(run: Run) -> xarray.Dataset:
     labels: dict[str, Any] = {
         "time": run.t,
         "coordinate": run.coordinates,
-        "joint": [joint["name"] for joint in run.about["joints"]],
+        "joint": [joint["name"] for joint in run.metadata["joints"]],
         "part": ["Fx", "Fy", "M"],
         "limit": names["limit"],
         "ledger": names["energy"],
@@ -206,7 +206,7 @@ def load(path: Path) -> tuple[CompiledModel, Recorded]:
     _, read = FORMATS.of(path)
     t, blocks, header = read(path)
     source = replace(CompiledModel.of(json.loads(header.spec)), model=json.loads(header.model), report=header.report_items)
-    return source, Recorded(t, blocks, header, source.about)
+    return source, Recorded(t, blocks, header, source.metadata)
 
 
 def _matrix(run: Run) -> Array:

@@ -26,9 +26,9 @@ _SMALL = 1e-9
 def rest_near(source: CompiledModel, state: State, touching: State | None = None) -> State | None:
     """The place of rest that Newton's method comes to on closed loops, from a state, and with closed what touches in it, or in
     another; None if to none."""
-    names = [c["name"] for c in source.about["coordinates"]]
+    names = [c["name"] for c in source.metadata["coordinates"]]
     closing = Closing(source, touching or state, source.free_bodies(touching or state))
-    by_contacts = bool(closing.closed) and not any(motion["engaged"] for motion in source.about["motions"])
+    by_contacts = bool(closing.closed) and not any(motion["engaged"] for motion in source.metadata["motions"])
 
     def closed(q: Array) -> Array:
         if not by_contacts:

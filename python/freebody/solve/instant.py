@@ -157,27 +157,27 @@ class Instant:
         self.state = state
         self.route = route
         self.core = core
-        self._about = core.about
+        self._metadata = core.metadata
         self.motion = motion
         self._solved = core.instant(state, route) if motion is None else motion.instant(state.t, route)
 
     @property
     def accelerations(self) -> dict[str, float]:
         """Second time derivatives of the coordinates by name, m/s² or rad/s²."""
-        names = (c["name"] for c in self._about["coordinates"])
+        names = (c["name"] for c in self._metadata["coordinates"])
         return dict(zip(names, self._solved.accelerations.tolist(), strict=True))
 
     @property
     def bodies(self) -> dict[str, tuple[float, float, float]]:
         """Acceleration ax, ay of the mass centre (m/s²) and angular acceleration (rad/s²) by body."""
-        names = (b["name"] for b in self._about["bodies"])
+        names = (b["name"] for b in self._metadata["bodies"])
         return {name: tuple(row) for name, row in zip(names, self._solved.body_accelerations.tolist(), strict=True)}
 
     @property
     def reactions(self) -> Reactions:
         """Reaction of every joint, on its second body unless ``.on(body)`` says otherwise."""
         solved = self._solved
-        rows = zip(self._about["joints"], solved.reactions, solved.determinate, strict=True)
+        rows = zip(self._metadata["joints"], solved.reactions, solved.determinate, strict=True)
         made = (
             Reaction.of(joint, values, known, lambda i=i: solved.least_reactions[i], self._values)
             for i, (joint, values, known) in enumerate(rows)
@@ -218,7 +218,7 @@ class Instant:
         """What moves or accelerates, in words, by coordinate; nothing in an equilibrium."""
         found: dict[str, str] = {}
         for coordinate, rate, acceleration in zip(
-            self._about["coordinates"], self.state.u, self._solved.accelerations, strict=True
+            self._metadata["coordinates"], self.state.u, self._solved.accelerations, strict=True
         ):
             name, unit = coordinate["name"], coordinate["dimension"]
             if rate != 0:
@@ -230,7 +230,7 @@ class Instant:
     @property
     def residuals(self) -> dict[str, tuple[float, float, float]]:
         """The residual of each body's momentum balance: N, N, N·m."""
-        names = (b["name"] for b in self._about["bodies"])
+        names = (b["name"] for b in self._metadata["bodies"])
         return {name: tuple(row) for name, row in zip(names, self._solved.body_residuals.tolist(), strict=True)}
 
     def free_bodies(self) -> FreeBodies:
@@ -256,7 +256,7 @@ class Instant:
         """The value of any expression at this instant; a reaction that is not determined raises."""
         value = float(self._values([text])[0])
         if np.isnan(value):
-            refuse_indeterminate(text, self.reactions, self._about)
+            refuse_indeterminate(text, self.reactions, self._metadata)
         return value
 
     def _values(self, texts: list[str]) -> Array:
@@ -267,7 +267,7 @@ class Instant:
     def tables(self) -> list[Table]:
         """Accelerations, reactions on both bodies, what contacts, strings, stops, motions, couplings and locks do, and residuals, for
         rich."""
-        coordinates = [(c["name"], self.accelerations[c["name"]], f"{c['dimension']}/s²") for c in self._about["coordinates"]]
+        coordinates = [(c["name"], self.accelerations[c["name"]], f"{c['dimension']}/s²") for c in self._metadata["coordinates"]]
         locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
         drives = (("prescribed motions", "motion", self.motions), ("couplings", "coupling", self.couplings), ("locks", "lock", locks))
         left = [(body, *(f"{value:.1e}" for value in row)) for body, row in self.residuals.items()]
@@ -290,9 +290,9 @@ class Instant:
         return rich_tables.captured(self, 100)
 
 
-def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], about: Mapping[str, Any]) -> None:
+def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], metadata: Mapping[str, Any]) -> None:
     """Raise where an expression reads a reaction, or a force of a contact, that is not determined."""
-    for limit in about["limits"]:
+    for limit in metadata["limits"]:
         if re.search(rf"(?<![\w.]){re.escape(quote(limit['name']))}\.({_FORCES})\b", text):
             raise Indeterminate(f"{text!r} reads a force of {limit['name']}, which the balances do not determine")
     for name, reaction in reactions.items():

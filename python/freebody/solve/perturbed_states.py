@@ -41,7 +41,7 @@ def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()
     """The free bodies at a state, and at up to three others near by where the same things act. Prescribed motions do not hold
     there: what drops out of a balance does not depend on where a drive has brought the mechanism. The others have
     ``parameters``, one after the other, or come as near to these as they can."""
-    first, coordinates = source.free_bodies(state), source.about["coordinates"]
+    first, coordinates = source.free_bodies(state), source.metadata["coordinates"]
     first = replace(first, accelerations={c["name"]: first.accelerations[c["name"]] for c in coordinates})
     found = [first]
     rng = np.random.default_rng(SEED)
@@ -70,7 +70,7 @@ def others(source: CompiledModel, state: State) -> list[State]:
     time of its own. The same things act there, and what slides or bears on a tooth does so in the same sense."""
     first = source.free_bodies(state)
     rng = np.random.default_rng(SEED)
-    scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.about["coordinates"]])
+    scale = np.array([1.0 if c["dimension"] == "rad" else _size(first) for c in source.metadata["coordinates"]])
     closing, found = Closing(source, state, first), []
     steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
     for q in (closing.place(state.q + step) for step in steps):
@@ -106,8 +106,8 @@ class Closing:
         self.core, self.state = source, state
         motions = [{**motion, "level": "acceleration"} for motion in source.spec.get("motions", [])]
         self.loose = CompiledModel.of({**source.spec, "motions": motions}) if motions else source  # motions do not say where it is
-        self.names = [c["name"] for c in source.about["coordinates"]]
-        limits, held = [limit["name"] for limit in source.about["limits"]], []
+        self.names = [c["name"] for c in source.metadata["coordinates"]]
+        limits, held = [limit["name"] for limit in source.metadata["limits"]], []
         for name in dict.fromkeys(row.name for row in first.rows if row.name in limits):
             loads = [load for load in first.loads if load.name == name and load.unknown and not load.follows]
             held += zip([row for row in first.rows if row.name == name], loads, strict=False)  # they come in the same order

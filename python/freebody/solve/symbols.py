@@ -46,11 +46,11 @@ class Symbols:
 
         What the user names goes first, then time and numbers, then loads. A force whose law is one letter, or whose name is, has
         that letter."""
-        wanted = {each["name"]: (f"the coordinate {each['name']}", [each["name"]]) for each in source.about["coordinates"]}
-        wanted |= {each["name"]: (f"the parameter {each['name']}", [each["name"]]) for each in source.about["parameters"]}
+        wanted = {each["name"]: (f"the coordinate {each['name']}", [each["name"]]) for each in source.metadata["coordinates"]}
+        wanted |= {each["name"]: (f"the parameter {each['name']}", [each["name"]]) for each in source.metadata["parameters"]}
         wanted |= {"t": ("time", ["t"]), "pi": ("the number π", ["pi"])}
         wanted |= {name: (entry["doc"], entry["names"]) for name, entry in table.items() if entry["kind"] == "number"}
-        taken, given = Taken(), source.about["coordinates"] + source.about["parameters"]
+        taken, given = Taken(), source.metadata["coordinates"] + source.metadata["parameters"]
         plain = [each["name"] for each in given if folded(each["name"]) == each["name"]]  # goes before what is only read like it
         names = {symbol: taken.give(wanted[symbol][0], *map(Name.parse, wanted[symbol][1])) for symbol in (*plain, *wanted)}
         own = _of_loads(source, loads, taken)

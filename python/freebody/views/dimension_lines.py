@@ -95,9 +95,9 @@ def _distance(one: Array, other: Array, gap: float) -> float:
 
 def _asked(sketch: Sketch) -> Iterator[_Asked]:
     stated = {joint["name"]: joint for joint in sketch.spec["joints"]}
-    about = {joint["name"]: joint for joint in sketch.about["joints"]}
-    for coordinate, value in zip(sketch.about["coordinates"], sketch.q[0], strict=True):
-        first, second = (about[coordinate["joint"]][end] for end in ("first", "second"))
+    metadata = {joint["name"]: joint for joint in sketch.metadata["joints"]}
+    for coordinate, value in zip(sketch.metadata["coordinates"], sketch.q[0], strict=True):
+        first, second = (metadata[coordinate["joint"]][end] for end in ("first", "second"))
         # A body that nothing joins to ground is free from its origin.
         joint = stated.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
         name = coordinate["name"]

@@ -127,10 +127,10 @@ def _cam(sketch: Sketch, name: str, fields: Fields) -> None:
 def _curve(sketch: Sketch, joint: str, name: str) -> None:
     """The stretch of a curve that the motion runs along, and a little more at both ends."""
     curve = next((c for c in sketch.spec.get("curves", []) if c["name"] == name), None)
-    about = next(j for j in sketch.about["joints"] if j["name"] == joint)
-    if curve is None or not about["coordinates"]:
+    metadata = next(j for j in sketch.metadata["joints"] if j["name"] == joint)
+    if curve is None or not metadata["coordinates"]:
         return
-    start, end = sketch.travel(about["coordinates"][0])
+    start, end = sketch.travel(metadata["coordinates"][0])
     near = points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
     margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
     points = points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))

@@ -39,11 +39,11 @@ def peak_reactions(run: Run) -> list[Peak]:
     sampled = run if run.recorded else run.at(Window(run.edges).samples())
     noise = couple_noise(sampled)
     peaks = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
-    for limit in run.about["limits"]:
+    for limit in run.metadata["limits"]:
         texts = {"contact": ["N", "T"], "string": ["tension"], "stop": ["N"]}[limit["type"]]
         turns, parts = limit["dimension"] == "rad", [] if limit["type"] == "stop" else ["Fx", "Fy"]
         peaks.append(_peak_of_part(run, sampled, limit["name"], limit["first"], texts, turns, parts))
-    for lock in run.about["locks"]:
+    for lock in run.metadata["locks"]:
         peaks.append(_peak_of_part(run, sampled, lock["name"], lock["second"], ["force"], lock["turns"], []))
     return peaks
 

@@ -161,7 +161,7 @@ def _forces(run: Run, names: Sequence[str], part: str) -> Iterator[tuple[str, Ar
 def limit_forces(run: Run) -> dict[str, dict[str, Array]]:
     """For each contact, string and stop (but those of angles), what it carries: values (nt,) in N by expression; no friction
     that is 0 throughout."""
-    own = {quote(limit["name"]): limit["name"] for limit in run.about["limits"] if limit["dimension"] != "rad"}
+    own = {quote(limit["name"]): limit["name"] for limit in run.metadata["limits"] if limit["dimension"] != "rad"}
     found: dict[str, dict[str, Array]] = {name: {} for name in own.values()}
     columns = (column.name for column in run.columns if column.kind == "limit")
     for text, values in zip(columns, run.blocks["limit"].T, strict=True):

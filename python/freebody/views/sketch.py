@@ -83,12 +83,12 @@ class Sketch:
 
     def __init__(self, source: CompiledModel, state: State, t: Array, q: Array, poses: Array, run: Run | None = None) -> None:
         self.spec = source.spec
-        self.about = source.about
+        self.metadata = source.metadata
         self._model, self._state, self._run = source, state, run
         self.t, self.q = t, q
         fixed = np.zeros((len(t), 1, 3))
         self.poses = np.concatenate([fixed, poses], axis=1)
-        self.names = [GROUND, *(body["name"] for body in self.about["bodies"])]
+        self.names = [GROUND, *(body["name"] for body in self.metadata["bodies"])]
         self.figures = {name: Figure(name) for name in self.names}
         self.pairs: list[Pair] = []
         self.cords: list[Cord] = []
@@ -130,13 +130,13 @@ class Sketch:
     def limits(self) -> list[Limit]:
         """What contacts, strings and stops do at the drawn state; nothing where that has no answer."""
         try:
-            return list(self._model.instant(self._state).limits.values()) if self.about["limits"] else []
+            return list(self._model.instant(self._state).limits.values()) if self.metadata["limits"] else []
         except MotionError:
             return []
 
     def travel(self, coordinate: str) -> tuple[float, float]:
         """Smallest and largest value of a coordinate; twice its value now where it is not of the state."""
-        names = [c["name"] for c in self.about["coordinates"]]
+        names = [c["name"] for c in self.metadata["coordinates"]]
         if coordinate not in names:
             return (self.value(quote(coordinate)),) * 2
         values = self.q[:, names.index(coordinate)]
@@ -227,7 +227,7 @@ class Sketch:
 
 def sketch_of_state(source: CompiledModel, state: State) -> Sketch:
     """What is needed to draw on one state."""
-    bodies = [quote(body["name"]) for body in source.about["bodies"]]
+    bodies = [quote(body["name"]) for body in source.metadata["bodies"]]
     texts = [text.format(body) for body in bodies for text in ("x({}.origin)", "y({}.origin)", "angle({})")]
     poses = source.evaluate(texts, state).reshape(1, -1, 3)
     return Sketch(source, state, np.array([state.t]), state.q[None], poses)

@@ -89,8 +89,8 @@ def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
     mechanism, rng = model(path), np.random.default_rng(seed)
     core, source, start = mechanism.compile(), mechanism.source(), mechanism.start()[0]
     given = {item["name"]: item["value"] for item in source.spec["parameters"]}
-    names = [c["name"] for c in source.about["coordinates"]]
-    nominal = dict(zip((each["name"] for each in source.about["parameters"]), start.p, strict=True))
+    names = [c["name"] for c in source.metadata["coordinates"]]
+    nominal = dict(zip((each["name"] for each in source.metadata["parameters"]), start.p, strict=True))
     unnamed = in_python(path).DEFAULTS[len(start.p) :]
     loose = _loose(source, core.free_bodies(start))
     found = tries = 0
@@ -125,7 +125,7 @@ def _loose(source: Any, free: FreeBodies) -> list[str] | None:
     motions = source.spec["motions"]
     if not free.rows:
         return None
-    names, held = [c["name"] for c in source.about["coordinates"]], [m["of"] for m in motions if m["level"] != "acceleration"]
+    names, held = [c["name"] for c in source.metadata["coordinates"]], [m["of"] for m in motions if m["level"] != "acceleration"]
     matrix = np.array([[row.coefficients.get(name, 0.0) for name in names] for row in free.rows])
     rank = np.linalg.matrix_rank(matrix) - (len(motions) - len(held))
     return [name for name in names if name not in held][: len(names) - rank]

@@ -52,7 +52,7 @@ POWER = 1e-8
 def balanced(kinetic: Tree, potential: Tree, subject: SymbolicState) -> tuple[float, float]:
     """Holds the rate of kinetic energy against the power of all loads on all bodies, that of potential energy, turned round, against
     the power of weights and conservative forces. Returns the rate of their sum, and what of it is rounding, W."""
-    conservative = {force["name"]: force["conservative"] for force in subject.source.about["forces"]}
+    conservative = {force["name"]: force["conservative"] for force in subject.source.metadata["forces"]}
     bodies, given = subject.free.bodies, []
     for load in subject.free.loads:
         parts = [(part, bodies[part.body]) for part in load.on if part.body in bodies]
@@ -68,7 +68,7 @@ def balanced(kinetic: Tree, potential: Tree, subject: SymbolicState) -> tuple[fl
 def other_parameters(subject: SymbolicState) -> SymbolicState | None:
     """The same mechanism with no parameter as it was, what is closed or touches still so; None where it cannot be."""
     source, start = subject.source, subject.state
-    given = zip(source.about["parameters"], start.p, np.random.default_rng(4).uniform(0.05, 0.15, len(start.p)), strict=True)
+    given = zip(source.metadata["parameters"], start.p, np.random.default_rng(4).uniform(0.05, 0.15, len(start.p)), strict=True)
     p = source.bind({each["name"]: float(x) * (1 + part) + part * (x == 0) for each, x, part in given})
     closing = Closing(source, replace(start, p=p), subject.free)
     q = closing.place(start.q)

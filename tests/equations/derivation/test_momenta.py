@@ -33,7 +33,7 @@ def test_what_is_told_has_no_rate_in_any_motion(model):
 def test_what_is_told_is_constant_along_a_simulated_motion(name):
     source, state = mechanism(name).source(), start(name)[0]
     run = mechanism(name).simulate(until=0.5, rtol=1e-10)
-    names = [c["name"] for c in source.about["coordinates"]]
+    names = [c["name"] for c in source.metadata["coordinates"]]
     found = momenta(subject(name))
     assert found
     for each in found:

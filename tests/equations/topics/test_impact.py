@@ -61,7 +61,7 @@ def test_impulses_are_those_of_the_run(name: str) -> None:
     solved, values = jumps(found).spelt(), found.values
     for limit, true in found.change.impulses.contacts.items():
         loads = [load for load in found.subject.free.loads if load.name == limit and load.unknown]
-        first = found.subject.source.about["limits"]
+        first = found.subject.source.metadata["limits"]
         of = next(each["first"] for each in first if each["name"] == limit)
         made = [0.0, 0.0]
         for load in loads:

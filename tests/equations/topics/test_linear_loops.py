@@ -107,7 +107,7 @@ def at_rest(make) -> tuple[fb.Mechanism, SymbolicState, Held]:
     rest = rest_near(mechanism.source(), state)
     assert rest is not None
     subject = SymbolicState(mechanism.source(), rest, at_rest=True).with_numbers(
-        [p["name"] for p in mechanism.source().about["parameters"]]
+        [p["name"] for p in mechanism.source().metadata["parameters"]]
     )
     put = place_of(subject)
     return mechanism, subject, held(subject, linearised(subject, put), put)

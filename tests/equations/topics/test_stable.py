@@ -96,7 +96,7 @@ def test_two_equal_rods_hang_from_each_other() -> None:
     """ω² = (3 ± 6/√7) g/l. Timoshenko & Young, Advanced Dynamics, of two bars."""
     path = SYSTEMS / "19.3.28" / "model.yaml"
     stated = topic(fb.load(path), "linear", phi1=0, phi2=0).text()
-    l = fb.load(path).start()[0].p[[p["name"] for p in fb.load(path).source().about["parameters"]].index("l")]
+    l = fb.load(path).start()[0].p[[p["name"] for p in fb.load(path).source().metadata["parameters"]].index("l")]
     for sign in (1, -1):
         assert f"± {np.sqrt((3 + sign * 6 / np.sqrt(7)) * 9.81 / l):.5g} i" in stated
     assert stated.count("± √(") == 2 and "stay small and oscillate for all values" in " ".join(stated.split())

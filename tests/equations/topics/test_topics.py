@@ -67,7 +67,7 @@ def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict[str,
     """M⁻¹ K and M⁻¹ C are slopes of the core's accelerations, at equilibria where most coordinates are 0."""
     mechanism = system(make)
     state = mechanism.start()[0]
-    rest = np.array([place.get(c["name"], 0.0) for c in mechanism.source().about["coordinates"]])
+    rest = np.array([place.get(c["name"], 0.0) for c in mechanism.source().metadata["coordinates"]])
     still = State(state.p, 0.0, rest, np.zeros_like(state.u))
     subject = SymbolicState(mechanism.source(), still, at_rest=True)
     found = linearised(subject, {})

@@ -39,17 +39,17 @@ class _Coordinate:
     @classmethod
     def of(cls, subject: SymbolicState, coordinate: Mapping[str, Any]) -> _Coordinate:
         free = {"type": "free", "name": coordinate["joint"]}
-        joint = next((j for j in subject.source.about["joints"] if j["name"] == coordinate["joint"]), free)
+        joint = next((j for j in subject.source.metadata["joints"] if j["name"] == coordinate["joint"]), free)
         card = joints()[joint["type"]]
         return cls(coordinate["name"], joint, card, next(c for c in card.coordinates if c.name == coordinate["word"]))
 
     def question(self, subject: SymbolicState) -> dict[str, Any]:
         """For the balance; of a particle that carries nothing, and is moved across a line, that across the force of the joint."""
-        joint, about = self.joint, subject.source.about
+        joint, metadata = self.joint, subject.source.metadata
         if self.moves.across and joint.get("reaction"):
             name = joint["second"]
-            particle = any(body["name"] == name and body["particle"] for body in about["bodies"])
-            carries = any(other["first"] == name or (other["second"] == name and other is not joint) for other in about["joints"])
+            particle = any(body["name"] == name and body["particle"] for body in metadata["bodies"])
+            carries = any(other["first"] == name or (other["second"] == name and other is not joint) for other in metadata["joints"])
             if particle and not carries:
                 loads = enumerate(subject.free.loads)
                 place = next(i for i, load in loads if load.kind == "joint" and load.name == joint["name"])

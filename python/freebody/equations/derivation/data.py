@@ -166,7 +166,7 @@ class SymbolicState:
 
     def with_numbers(self, names: Sequence[str]) -> SymbolicState:
         """The same with some coordinates and parameters as the numbers that they are at the state."""
-        parameters = [p["name"] for p in self.source.about["parameters"]]
+        parameters = [p["name"] for p in self.source.metadata["parameters"]]
         known = zip(self.names + parameters, [*self.state.q.tolist(), *self.state.p.tolist()], strict=True)
         return replace(self, numbers={name: x for name, x in known if name in names})
 
@@ -186,7 +186,7 @@ class SymbolicState:
     @property
     def coordinates(self) -> list[dict[str, Any]]:
         """The coordinates of the tree, as the core describes them."""
-        return self.source.about["coordinates"]
+        return self.source.metadata["coordinates"]
 
     @cached_property
     def free(self) -> FreeBodies:
@@ -198,7 +198,7 @@ class SymbolicState:
         """The free bodies at the state and at others near by, with other parameters, as far as these are letters: so what drops out
         of a balance there does so whatever the letters are."""
         rng, fixed = np.random.default_rng(_SEED), self.numbers or {}
-        names, given = [p["name"] for p in self.source.about["parameters"]], self.state.p.tolist()
+        names, given = [p["name"] for p in self.source.metadata["parameters"]], self.state.p.tolist()
         parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
         changed = [{n: x if n in fixed else k * (x or _NEAR) for n, x, k in zip(names, given, row, strict=True)} for row in parts]
         return nearby(self.source, self.state, list(map(self.source.bind, changed)))
@@ -234,7 +234,7 @@ class SymbolicState:
     def letters(self) -> Letters:
         """All letters in the order of the model: coordinates, parameters, what the model leaves without a name, unknowns, time."""
         table, written = self.table, self.symbols.names
-        given = [p["name"] for p in self.source.about["parameters"] if p["name"] in table]
+        given = [p["name"] for p in self.source.metadata["parameters"] if p["name"] in table]
         made = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in self.coordinates]
         made += [Letter(name, "parameter", table[name]["unit"]) for name in given]
         made += [Letter(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"]

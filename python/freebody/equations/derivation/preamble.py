@@ -27,7 +27,7 @@ def configuration(subject: SymbolicState) -> list[Block]:
     made: list[Block] = [Heading("Configuration")]
     if not subject.coordinates:
         return [*made, Paragraph("The mechanism cannot move: there are no coordinates.")]
-    freedom, held = subject.source.about["freedom"], holding(subject.rows)
+    freedom, held = subject.source.metadata["freedom"], holding(subject.rows)
     count, number = degrees(subject) if held else freedom["count"], len(subject.names)
     said = f"While {held}, the" if held else "The"
     said += f" mechanism has {'one degree' if count == 1 else f'{count} degrees' if count else 'no degrees'} of freedom"
@@ -37,7 +37,7 @@ def configuration(subject: SymbolicState) -> list[Block]:
     made += [Paragraph(said), Table(("coordinate", "meaning", "unit"), rows)]
     made.append(Figure(Configuration(subject.source, subject.state), _CAPTION, "sketch"))
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
-    if cases := [force["name"] for force in subject.source.about["forces"] if force["cases"] and force["name"] in acting]:
+    if cases := [force["name"] for force in subject.source.metadata["forces"] if force["cases"] and force["name"] in acting]:
         made.append(Paragraph(f"The law of {joined(cases)} has cases: the equations hold for the case at this state."))
     if opening := [event["name"] for event in subject.source.spec.get("events", []) if event.get("opening")]:
         made.append(Paragraph(f"At the start of a motion {joined(opening)} happens; the equations are those before."))
@@ -86,7 +86,7 @@ def kinematics(subject: SymbolicState) -> list[Block]:
 def directions(subject: SymbolicState, arrows: Sequence[Arrow] = ()) -> Directions:
     """The unit directions in which some vectors are told, or the motions of all bodies."""
     links = []  # every link of the tree, from its first end to its second
-    for joint in subject.source.about["joints"]:
+    for joint in subject.source.metadata["joints"]:
         load = next((load for load in subject.free.loads if load.kind == "joint" and load.name == joint["name"]), None)
         if load and load.card.pulls and joint["coordinates"]:
             x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first

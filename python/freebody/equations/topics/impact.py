@@ -70,7 +70,7 @@ def _what(found: Impact) -> list[Block]:
     said = "During the short impact the configuration does not change, and the velocities jump. Impulses are the integrals of forces over it."
     if found.subject.blow.given:
         said += " Before it everything is at rest."
-        said += "" if found.subject.source.about["limits"] else " If the mechanism moved, the jumps would add to its rates."
+        said += "" if found.subject.source.metadata["limits"] else " If the mechanism moved, the jumps would add to its rates."
     made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]

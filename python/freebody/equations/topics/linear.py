@@ -48,7 +48,7 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     Raises ``NotHere`` where none is found."""
     chosen = given(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
-    names = [c["name"] for c in mechanism.source().about["coordinates"]]
+    names = [c["name"] for c in mechanism.source().metadata["coordinates"]]
     others = {name: value for name, value in at.items() if name not in names}
     touching = given(mechanism, others).start(mechanism, True, None) if others else replace(state, u=np.zeros_like(state.u))
     rest = _rest(mechanism, first, touching)

@@ -96,7 +96,7 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
         joint = next(j for j in sketch.spec["joints"] if j["name"] == load.name)
         return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
     if load.kind in ("force", "motion", "lock") and not any(part.force):
-        between = {j["name"] for j in sketch.about["joints"] if {j["first"], j["second"]} == set(load.of)}
+        between = {j["name"] for j in sketch.metadata["joints"] if {j["first"], j["second"]} == set(load.of)}
         places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
         return next((place for place in places if place is not None), np.array(part.point))
     return np.array(part.point)

@@ -40,13 +40,13 @@ class Configuration(Picture):
     @cached_property
     def rows(self) -> list[Row]:
         """One row of one panel."""
-        names = [body["name"] for body in self.source.about["bodies"]]
+        names = [body["name"] for body in self.source.metadata["bodies"]]
         return [Row("", [Panel(self.scenery, [], names, oriented=True)], None, [])]
 
     @property
     def description(self) -> str:
         """In words, what the drawing shows."""
-        stated = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.about["coordinates"]]
+        stated = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.metadata["coordinates"]]
         return f"{self.source.name}, drawn with its coordinates: {'; '.join(stated)}."
 
 
@@ -70,13 +70,13 @@ def _opened(source: CompiledModel, state: State) -> State:
     """A state where one sees what is measured: coordinates that are 0 a little off it, all by different amounts. The same state
     where coordinates depend on each other or something may touch."""
     coupled = any(joint["type"] == "coupling" for joint in source.spec["joints"])
-    if coupled or source.about["limits"] or any(joint["cut"] for joint in source.about["joints"]):
+    if coupled or source.metadata["limits"] or any(joint["cut"] for joint in source.metadata["joints"]):
         return state
     size = sketch_of_state(source, state).size
     least = {"rad": _TURNED, "m": size}
     away = {"rad": _TURNED * _MORE, "m": size * _FURTHER}
     q = [
         float(x) if abs(x) > least.get(c["dimension"], -1.0) else float(away[c["dimension"]][i % 3])
-        for i, (c, x) in enumerate(zip(source.about["coordinates"], state.q, strict=True))
+        for i, (c, x) in enumerate(zip(source.metadata["coordinates"], state.q, strict=True))
     ]
     return replace(state, q=np.array(q))

@@ -66,7 +66,7 @@ class Laws:
             lead = _EN * columns(f"where {action.sign.plain} = ")
             law = [latex(line) for line in line_breaking.lines(formula(size), max(_LEAST, room - lead))]
         if law and law[0] != action.label:
-            if any(force["cases"] for force in self.source.about["forces"] if force["name"] == load.name):
+            if any(force["cases"] for force in self.source.metadata["forces"] if force["name"] == load.name):
                 law[-1] += r",\ \mathrm{as\ it\ is\ here}"
             yield f"${action.label} = {_spaced(law[0])}$"
             yield from (rf"$\qquad {_spaced(line)}$" for line in law[1:])

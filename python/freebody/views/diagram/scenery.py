@@ -104,7 +104,7 @@ class Scenery:
 
     def slides(self, action: Action) -> bool:
         """Whether it is the force of a slider, which has no point of its own."""
-        kinds = {joint["name"]: joint["type"] for joint in self.sketch.about["joints"]}
+        kinds = {joint["name"]: joint["type"] for joint in self.sketch.metadata["joints"]}
         return action.kind == "joint" and joints()[kinds[action.name]].slides
 
     def within(self, places: Array) -> bool:
@@ -149,7 +149,7 @@ def scenery(
 def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension_lines) -> Scenery:
     """The mechanism on its ground with joints, springs and strings, and all its coordinates, or others, as large as the paper
     allows."""
-    names = [body["name"] for body in source.about["bodies"]]
+    names = [body["name"] for body in source.metadata["bodies"]]
 
     def seen(scene: Scene, sketch: Sketch) -> list[Array]:
         lines = [stroke.points for stroke in _strokes(scene, [GROUND, *names], 1.0)] + _joining(scene)
@@ -219,7 +219,7 @@ def _joining(scene: Scene, among: Collection[str] | None = None) -> list[Array]:
 
 def _pins(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> Array:
     """Where the group's bodies are pinned, to each other or to others, (k, 2) in m."""
-    pinned = {joint["name"] for joint in sketch.about["joints"] if joints()[joint["type"]].pinned}
+    pinned = {joint["name"] for joint in sketch.metadata["joints"] if joints()[joint["type"]].pinned}
     cut = [(load, part) for load in free.loads if load.name in pinned for part in load.on]
     places = [attached(load, part, sketch) for load, part in cut if part.body in group]
     return np.unique(np.round(np.reshape(places, (-1, 2)), 12), axis=0)

@@ -44,7 +44,7 @@ def report_html(run: Run) -> str:
         script=script,
         ending=tables.ending(run),
         beside=tables.beside(run),
-        notes=[tables.sentence(note) for note in run.about["notes"]],
+        notes=[tables.sentence(note) for note in run.metadata["notes"]],
         below=tables.below(run),
         settings=tables.settings(run),
         is_figure=tables.is_figure,

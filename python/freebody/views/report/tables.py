@@ -123,7 +123,7 @@ def _ledger(run: Run) -> Table:
 
 
 def _bodies(run: Run) -> Table:
-    rows = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in run.about["bodies"]]
+    rows = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in run.metadata["bodies"]]
     return Table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), rows)
 
 
