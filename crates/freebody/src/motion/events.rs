@@ -233,7 +233,12 @@ impl EventDetector {
         for k in usize::from(memory.is_spent)..inside {
             let (node, near) = (nodes[k], memory.near(place));
             let may_touch = !memory.is_guard && place.reach > near;
-            let turns = |node: &Node| may_touch && node.is_extremum && node.value.abs() <= near;
+            // What is clearly across, by the tolerance, crosses twice.
+            let clear = (memory.graze * place.reach).max(NOISE * memory.size);
+            let turns = |node: &Node| {
+                let is_near = node.is_extremum && node.value.abs() <= near;
+                may_touch && is_near && beyond(node.value, clear) != -place.side
+            };
             if turns(&node) && place.side != 0 && place.grazes != Some(true) {
                 marks.push(Mark { t: node.t, index: i, kind: Kind::Touch, direction: 0 });
                 (place.grazes, place.last_touch) = (Some(true), node.t);
