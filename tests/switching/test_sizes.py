@@ -6,6 +6,8 @@ nothing in it can be measured by a metre, a kilogram or a second.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 from seen import changes, model
@@ -199,3 +201,15 @@ def test_no_digit_of_a_motion_depends_on_the_units(name):
         assert (when == known[1]).all(), scales
         # Speeds that fall without end reach numbers that lose digits.
         np.testing.assert_allclose(motion, known[2], rtol=0, atol=1e-300, err_msg=str(scales))
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_motion_is_the_same_at_every_size(name):
+    """As above, where the sizes are no powers of two: within some hundred times the tolerance 1e-9."""
+    known = told(run(MODELS[name], (1, 1, 1)), (1, 1, 1))
+    for length in (1e-9, 1e-6, 1e-3, 1e3, 1e6):
+        scales = (length, 1.0, math.sqrt(length))
+        happened, when, motion = told(run(MODELS[name], scales), scales)
+        assert happened == known[0], scales
+        np.testing.assert_allclose(when, known[1], rtol=1e-7, err_msg=str(scales))
+        np.testing.assert_allclose(motion, known[2], rtol=1e-6, atol=1e-6, err_msg=str(scales))

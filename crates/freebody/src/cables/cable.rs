@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// one, half a turn on. Above a quarter turn, lest it go to and fro between the two.
 const SWUNG: f64 = 0.75 * PI;
 
-/// How far beyond a border, m, a configuration is still taken to be on it.
+/// Angle about a drum, rad, by which a configuration beyond a border is still taken to be on it.
 const ON_BORDER: f64 = 1e-10;
 
 /// Borders that a configuration may lie beyond at once.
@@ -30,9 +30,10 @@ impl Cable {
     /// How it is wound at a configuration, given how it was: the number of a [`Winding`]. At the start it was wound by
     /// 0.
     pub fn feature(&self, m: &Mechanism, poses: &impl Poses<f64>, last: Feature) -> usize {
-        let mut feature = last;
+        let radius = |end: &End| if let End::Wound { radius, .. } = end { poses.value(*radius) } else { f64::INFINITY };
+        let (mut feature, least) = (last, self.ends.iter().map(radius).fold(f64::INFINITY, f64::min));
         for _ in 0..MOST_BORDERS {
-            match self.borders(m, poses, feature).iter().find(|border| border.value < -ON_BORDER) {
+            match self.borders(m, poses, feature).iter().find(|border| border.value < -ON_BORDER * least) {
                 Some(border) => feature.index = border.beyond,
                 None => break,
             }

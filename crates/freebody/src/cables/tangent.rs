@@ -26,9 +26,6 @@ pub(super) struct FreeSegment<T> {
     pub none: f64,
 }
 
-/// Distance of two points, m, below which a segment between them has neither length nor direction.
-const NOTHING: f64 = 1e-12;
-
 /// Square of the free length over that of the distance of centres below which it is round-off.
 const TOUCHING: f64 = 1e-16;
 
@@ -47,7 +44,8 @@ impl<T: Scalar> FreeSegment<T> {
     pub fn between(m: &Mechanism, poses: &impl Poses<T>, a: &WrapCircle<T>, b: &WrapCircle<T>) -> Self {
         let span = poses.span(a.site, b.site, m) + b.off - a.off;
         let square = span.dot(span);
-        if square.value() < NOTHING * NOTHING {
+        // One point has neither distance nor direction from itself.
+        if square.value() < f64::MIN_POSITIVE {
             return FreeSegment { length: T::zero(), angle: T::zero(), none: 0.0 };
         }
         let aside = b.radius - a.radius;

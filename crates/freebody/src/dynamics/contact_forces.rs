@@ -42,14 +42,14 @@ impl Workspace<'_> {
     }
 
     /// What must not fall below zero for a unilateral constraint to go on as it does under a force along its gap and
-    /// its slide, N.
+    /// its slide, N; of a couple the force at its lever.
     pub fn margins(&self, constraint: usize, [normal, tangent]: [f64; 2]) -> Vec<f64> {
         match (self.mode().contacts[constraint].mode, self.m.unilateral[constraint].friction) {
             (ContactMode::Stick, Some(Friction::Coulomb { fixed, .. })) => {
                 let most = self.n.values[fixed] * normal;
                 vec![normal, most - tangent, most + tangent]
             }
-            _ => vec![normal],
+            _ => vec![normal / self.lever(constraint)],
         }
     }
 
@@ -111,9 +111,10 @@ impl Workspace<'_> {
         gap_row(self.at(), constraint, None).rate.unwrap_or(0.0)
     }
 
-    /// Accelerations of gaps in the last solution, m/s².
+    /// Accelerations of gaps in the last solution, those of angles at their levers, m/s².
     pub fn gap_accelerations(&self, constraints: &[usize]) -> Vec<f64> {
-        constraints.iter().map(|&l| gap_row(self.at(), l, Some(&self.solved.bodies)).bias).collect()
+        let acceleration = |&l: &usize| gap_row(self.at(), l, Some(&self.solved.bodies)).bias * self.lever(l);
+        constraints.iter().map(acceleration).collect()
     }
 
     /// The restitution of a unilateral constraint.

@@ -20,7 +20,7 @@ const CLOSE: f64 = 1e-8;
 const ACCELERATION_NOISE: f64 = 1e-13;
 /// Part of the characteristic length, and of the mechanism's own speed, up to which a gap is closed and nothing moves, at
 /// an instant by itself.
-const REST: f64 = 1e-9;
+pub(super) const REST: f64 = 1e-9;
 /// Coupling of two unilateral constraints, over their own sizes, that is round-off.
 const UNCOUPLED: f64 = 1e-12;
 
@@ -49,7 +49,7 @@ pub struct ClosedContacts {
     responses: Vec<Vec<f64>>,
     /// Accelerations of gaps, then slides, by unit forces along them, 2k × 2k.
     pub(super) g: Matrix,
-    /// Rates of the k gaps, then of the k slides, m/s.
+    /// Rates of the k gaps, those of angles at their levers, then of the k slides, m/s.
     pub rates: Vec<f64>,
 }
 
@@ -130,7 +130,7 @@ impl Workspace<'_> {
         let opened = self.mode().with_contacts(&constraints, ContactMode::Open);
         self.enter(&opened);
         let at = self.at();
-        let gaps: Vec<Row> = constraints.iter().map(|&l| gap_row(at, l, None)).collect();
+        let gaps: Vec<Row> = constraints.iter().map(|&l| gap_row(at, l, None).scaled(self.lever(l))).collect();
         let slides: Vec<Option<Row>> =
             constraints.iter().map(|&l| self.m.unilateral[l].friction.and_then(|_| slide_row(at, l, None))).collect();
         self.rows = closing_rows(at, None);
@@ -176,7 +176,7 @@ impl Workspace<'_> {
         self.solve_by(super::Route::Minimal)?;
         let at = self.at();
         let bodies = Some(self.solved.bodies.as_slice());
-        let gaps = contacts.constraints.iter().map(|&l| gap_row(at, l, bodies).bias);
+        let gaps = contacts.constraints.iter().map(|&l| gap_row(at, l, bodies).bias * self.lever(l));
         let slides = contacts
             .constraints
             .iter()

@@ -72,7 +72,7 @@ impl Workspace<'_> {
                 };
                 continue;
             }
-            if !is_off && gap < -SHALLOW * self.length {
+            if !is_off && gap * self.lever(l) < -SHALLOW * self.length {
                 let group = &self.m.groups[self.m.unilateral[l].group];
                 let what = match group.word {
                     "string" => format!("the string `{}` is stretched by {:.6e} m", group.name, -gap),
@@ -101,7 +101,7 @@ impl Workspace<'_> {
                 continue;
             }
             let gap = self.open_gap(l);
-            if gap < -GRAZE * self.length {
+            if gap * self.lever(l) < -GRAZE * self.length {
                 let group = &self.m.groups[constraint.group];
                 let what = format!("the {} `{}` is violated by {:.6e} at t = {t:.12} s", group.word, group.name, -gap);
                 return Err(DynamicsError::Penetration(
@@ -210,7 +210,7 @@ impl Workspace<'_> {
         best.1
     }
 
-    /// The unilateral constraints whose gap is closed, or open by less than `most`.
+    /// The unilateral constraints whose gap is closed, or open by less than `most`, m.
     pub fn touching(&self, most: f64) -> Vec<usize> {
         let apart = self.apart();
         let touches = |l: &usize| {
@@ -223,7 +223,7 @@ impl Workspace<'_> {
                 || (contact.mode == ContactMode::Open
                     && self.m.unilateral[*l].soft.is_none()
                     && can()
-                    && self.constraint_gap(*l) <= most)
+                    && self.constraint_gap(*l) * self.lever(*l) <= most)
         };
         (0..self.m.unilateral.len()).filter(touches).collect()
     }

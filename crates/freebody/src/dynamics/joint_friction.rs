@@ -196,7 +196,8 @@ impl Workspace<'_> {
                 ContactMode::Slip(sense)
                     if released != Some(friction)
                         && self.rests(friction, scale.rest_speed)
-                        && sense * self.joint_sliding_acceleration(friction) < -BRINGS_BACK * scale.acceleration =>
+                        && sense * self.joint_sliding_acceleration(friction) * self.friction_lever(friction)
+                            < -BRINGS_BACK * scale.acceleration =>
                 {
                     return with(friction, ContactMode::Stick);
                 }
@@ -213,10 +214,6 @@ impl Workspace<'_> {
 
     /// Whether what has friction does not slide, at a speed that counts.
     fn rests(&self, friction: usize, rest_speed: f64) -> bool {
-        let arm = match self.m.joint_friction[friction].of {
-            FrictionSource::Joint { radius, .. } => radius.map_or(1.0, |_| self.length),
-            FrictionSource::Unilateral(_) => 1.0,
-        };
-        self.joint_sliding_rate(friction).abs() * arm <= rest_speed
+        self.joint_sliding_rate(friction).abs() * self.friction_lever(friction) <= rest_speed
     }
 }

@@ -125,6 +125,8 @@ pub struct Workspace<'m> {
     pub length: f64,
     /// Of every contact, how far its surfaces reach from the joint origins of its bodies, m.
     reaches: Vec<[f64; 2]>,
+    /// Of every unilateral constraint whether its gap is an angle.
+    turning_gaps: Vec<bool>,
     k: Kinematics,
     placed: Placed,
     arms: Vec<Vec2>,
@@ -153,6 +155,7 @@ impl<'m> Workspace<'m> {
             n,
             length,
             reaches,
+            turning_gaps: m.unilateral.iter().map(|constraint| constraint.gap.turns(m)).collect(),
             k: Kinematics::of(m),
             placed: Placed { mode: Mode::free(m), bearing: None, t: 0.0, q: vec![0.0; freedom], u: vec![0.0; freedom] },
             arms: vec![Vec2::zero(); bodies],

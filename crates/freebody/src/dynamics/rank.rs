@@ -3,7 +3,7 @@
 //! A reaction component is determinate if and only if no self-stress, a set of multipliers that loads no motion
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
-use super::contact_modes::force_on_first;
+use super::contact_modes::{force_on_first, REST};
 use super::minimal::{row_scales, rows_in_coordinates, Force};
 use super::reactions::joint_load;
 use super::rows::closing_rows;
@@ -216,9 +216,10 @@ impl Workspace<'_> {
     /// The rows of all that is closed: of unilateral constraints that touch one solution loads no more than balance
     /// needs.
     fn rows_with_closed_contacts(&self) -> Vec<Row> {
+        let rest_speed = REST * self.length * self.rate_of_motion();
         let mut mode = self.at().mode.clone();
         for (l, contact) in mode.contacts.iter_mut().enumerate().filter(|(_, contact)| contact.mode.is_closed()) {
-            let rests = self.slide_rate(l).abs() <= UNTOUCHED * self.length;
+            let rests = self.slide_rate(l).abs() <= rest_speed;
             match (contact.mode, self.m.unilateral[l].friction) {
                 (ContactMode::Frictionless, _) => {}
                 (_, None) => contact.mode = ContactMode::Frictionless,

@@ -52,6 +52,19 @@ impl<S: Scalar> Row<S> {
     pub fn loads(&self) -> &BodyWrenches<S> {
         self.force.as_ref().unwrap_or(&self.motion)
     }
+
+    /// The row of a quantity that is larger by a factor.
+    pub(super) fn scaled(self, by: S) -> Self {
+        let times = |wrenches: BodyWrenches<S>| wrenches.into_iter().map(|(body, load)| (body, load * by)).collect();
+        Row {
+            source: self.source,
+            value: self.value.map(|x| x * by),
+            rate: self.rate.map(|x| x * by),
+            bias: self.bias * by,
+            motion: times(self.motion),
+            force: self.force.map(times),
+        }
+    }
 }
 
 /// The accelerations of the bodies at which biases are told.

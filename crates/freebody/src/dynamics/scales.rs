@@ -3,7 +3,7 @@
 use super::minimal::column_scales;
 use super::Workspace;
 use crate::bound_values::BoundValues;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{FrictionSource, Mechanism};
 
 impl Mechanism {
     /// The median distance of the places from their bodies' joint origins; else of the lengths that the model tells, m.
@@ -26,6 +26,24 @@ impl Workspace<'_> {
         median_length(self.k.pose[1..].iter().map(|pose| pose.at.norm()))
     }
 
+    /// What makes a length of the gap of unilateral constraint `l`, where that is an angle, and a force of its couple: the
+    /// characteristic length; else 1.
+    pub fn lever(&self, l: usize) -> f64 {
+        if self.turning_gaps[l] {
+            self.length
+        } else {
+            1.0
+        }
+    }
+
+    /// The same for what has friction in a joint.
+    pub fn friction_lever(&self, friction: usize) -> f64 {
+        match self.m.joint_friction[friction].of {
+            FrictionSource::Joint { radius: Some(_), .. } => self.length,
+            _ => 1.0,
+        }
+    }
+
     /// Where neither the mechanism nor the present state has a length, takes that of its way within a time, s.
     pub fn take_length_of_motion(&mut self, time: f64) {
         if self.m.characteristic_length(&self.n).or(self.extent()).is_none() {
@@ -45,11 +63,15 @@ impl Workspace<'_> {
     /// The fastest rate at the present state, 1/s: of the coordinates, by their accelerations, or of a fall by gravity,
     /// in radians and characteristic lengths.
     pub fn natural_rate(&mut self) -> f64 {
-        let accelerations = self.accelerations_unheld();
-        let units = self.units();
-        let rates = self.placed.u.iter().zip(&units).map(|(u, unit)| u.abs() / unit);
+        let (accelerations, units) = (self.accelerations_unheld(), self.units());
         let falls = accelerations.iter().zip(&units).map(|(a, unit)| (a.abs() / unit).sqrt());
-        rates.chain(falls).fold((self.n.gravity.norm() / self.length).sqrt(), f64::max)
+        falls.fold(self.rate_of_motion(), f64::max)
+    }
+
+    /// The fastest of these without the accelerations.
+    pub(super) fn rate_of_motion(&self) -> f64 {
+        let (units, fall) = (self.units(), (self.n.gravity.norm() / self.length).sqrt());
+        self.placed.u.iter().zip(units).map(|(u, unit)| u.abs() / unit).fold(fall, f64::max)
     }
 
     /// Accelerations of the coordinates at the present state in the present mode; 0 where they cannot be told.

@@ -103,6 +103,7 @@ impl HybridSystem<'_> {
     /// the state placed.
     fn guards_of(&self, l: usize, forces: Option<[f64; 2]>, values: &mut [f64]) {
         let (constraint, contact) = (&self.workspace.m.unilateral[l], self.mode.contacts[l]);
+        let unit = self.workspace.length / self.workspace.lever(l);
         values.fill(1.0);
         match contact.mode {
             ContactMode::Off => return,
@@ -110,11 +111,11 @@ impl HybridSystem<'_> {
             ContactMode::Compliant => values[0] = self.compliant_contact(l),
             // What another keeps off is at zero with it.
             ContactMode::Open => {
-                let occluded = || self.workspace.open_gap(l) / self.workspace.length + OCCLUDED_GAP;
-                let closing = self.workspace.closing_gap(l).map(|gap| gap / self.workspace.length);
+                let occluded = || self.workspace.open_gap(l) / unit + OCCLUDED_GAP;
+                let closing = self.workspace.closing_gap(l).map(|gap| gap / unit);
                 values[0] = closing.unwrap_or_else(occluded);
             }
-            ContactMode::ClosedUnloaded => values[0] = self.workspace.open_gap(l) / self.workspace.length + CLOSED_GAP,
+            ContactMode::ClosedUnloaded => values[0] = self.workspace.open_gap(l) / unit + CLOSED_GAP,
             ContactMode::Frictionless | ContactMode::Stick | ContactMode::PartialFriction(_) | ContactMode::Slip(_) => {
                 let margins = forces.map_or(vec![], |forces| self.workspace.margins(l, forces));
                 for (value, margin) in values.iter_mut().zip(margins) {
@@ -142,14 +143,15 @@ impl HybridSystem<'_> {
     /// The values of the guards of all joints with friction, at the state of the last solution.
     fn joint_friction_guards(&self, out: &mut [f64]) {
         for (friction, values) in out.chunks_exact_mut(SENSES.len()).enumerate() {
+            let lever = self.workspace.friction_lever(friction);
             values.fill(1.0);
             match self.mode.joint_friction[friction] {
                 ContactMode::Stick => {
-                    let reserve = self.workspace.joint_friction_reserve(friction).map(|r| r / self.strength);
+                    let reserve = self.workspace.joint_friction_reserve(friction).map(|r| r / (lever * self.strength));
                     values.copy_from_slice(&reserve);
                 }
                 ContactMode::Slip(sense) => {
-                    values[0] = sense * self.workspace.joint_sliding_rate(friction) / self.speed
+                    values[0] = sense * lever * self.workspace.joint_sliding_rate(friction) / self.speed
                 }
                 _ => {}
             }
@@ -158,14 +160,21 @@ impl HybridSystem<'_> {
 
     /// Positive while the gap of a unilateral constraint with a spring is open, or its damper would have to pull.
     fn compliant_gap(&self, l: usize) -> f64 {
-        let gap = self.workspace.constraint_gap(l) / self.workspace.length;
-        gap.max(-self.workspace.compliant_force(l) / self.strength)
+        let [gap, force] = self.compliant_state(l);
+        gap.max(-force)
     }
 
     /// Positive while the gap of a unilateral constraint with a spring is violated and the spring pushes.
     fn compliant_contact(&self, l: usize) -> f64 {
-        let gap = self.workspace.constraint_gap(l) / self.workspace.length;
-        (-gap).min(self.workspace.compliant_force(l) / self.strength)
+        let [gap, force] = self.compliant_state(l);
+        (-gap).min(force)
+    }
+
+    /// Gap and force of a unilateral constraint with a spring, over the mechanism's own.
+    fn compliant_state(&self, l: usize) -> [f64; 2] {
+        let lever = self.workspace.lever(l);
+        let gap = self.workspace.constraint_gap(l) * lever / self.workspace.length;
+        [gap, self.workspace.compliant_force(l) / (lever * self.strength)]
     }
 
     /// One guard of a contact, if it is of places and speeds alone: then nothing needs to be solved.

@@ -161,7 +161,7 @@ impl HybridSystem<'_> {
         let unloaded: Vec<usize> = unloaded.iter().map(|&i| contacts.constraints[i]).collect();
         let impacting = impacting.iter().map(|&i| ContactImpulse {
             name: m.groups[m.unilateral[contacts.constraints[i]].group].name.clone(),
-            normal: impact.normal[i],
+            normal: impact.normal[i] * self.workspace.lever(contacts.constraints[i]),
             tangent: impact.tangent[i],
             restitution: self.workspace.restitution(contacts.constraints[i]),
         });

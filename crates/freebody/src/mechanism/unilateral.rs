@@ -73,12 +73,17 @@ pub enum Gap {
 }
 
 impl Gap {
+    /// Whether it is an angle.
+    pub fn turns(&self, m: &Mechanism) -> bool {
+        matches!(self, Gap::Gauge(law) if m.turns(law))
+    }
+
     /// The force that keeps the unilateral constraint.
     pub fn card(&self, m: &Mechanism) -> LoadCard {
         match self {
             Gap::ContactPair(_) => LoadCard::press("normal force", "N"),
             Gap::Cable(_) => LoadCard::tension(),
-            Gap::Gauge(law) => LoadCard::force("force", "N", "F").along(m.turns(law)),
+            Gap::Gauge(_) => LoadCard::force("force", "N", "F").along(self.turns(m)),
         }
     }
 }

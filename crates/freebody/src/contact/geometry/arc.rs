@@ -1,6 +1,6 @@
 //! A circle with ends.
 
-use super::{turn, LocalSurface, ON_BORDER};
+use super::{turn, LocalSurface, SURFACE_END};
 use crate::kinematics::Poses;
 use crate::mechanism::{Arc, Disk, Mechanism};
 use crate::mode::Border;
@@ -48,7 +48,7 @@ impl Arc {
         let (half, off) = self.seen(m, poses, disk);
         let beside = match disk.radius {
             Some(_) => off.abs() > half,
-            None => self.ahead(m, poses, disk, nearer(off), ARC) > -ON_BORDER,
+            None => self.ahead(m, poses, disk, nearer(off), ARC) > -SURFACE_END * poses.value(self.radius),
         };
         if beside {
             nearer(off)

@@ -17,8 +17,9 @@ use crate::plane::{vec2, Turn};
 use crate::scalar::Scalar;
 use local_surface::LocalSurface;
 
-/// How far before the end of a surface, m, a point that slides has left it: it does not come back to it.
-const ON_BORDER: f64 = 1e-10;
+/// How far before the end of a surface, in parts of its size, a point that slides has left it: it does not come back to
+/// it.
+const SURFACE_END: f64 = 1e-10;
 
 impl ContactPair {
     /// The disk's body and the surface's body.

@@ -1,6 +1,6 @@
 //! Lines and arcs that go on in each other's direction.
 
-use super::{turn, LocalSurface, ON_BORDER};
+use super::{turn, LocalSurface, SURFACE_END};
 use crate::kinematics::Poses;
 use crate::mechanism::{Disk, Mechanism, Stretch, Track};
 use crate::mode::Border;
@@ -107,12 +107,12 @@ impl Track {
         let n = self.stretches.len();
         let radius = disk.radius.map_or(0.0, |id| poses.value(id));
         let gap = |feature: usize| self.local_surface(m, poses, disk, feature).gap(radius);
+        let length = |i: usize| (poses.arm(self.stretches[i].ends[1]) - poses.arm(self.stretches[i].ends[0])).norm();
         let mut past: Vec<f64> = (0..=n).map(|i| self.past(m, poses, disk, i)).collect();
         if disk.radius.is_none() {
-            past[0] -= ON_BORDER;
-            past[n] += ON_BORDER;
+            past[0] -= SURFACE_END * length(0);
+            past[n] += SURFACE_END * length(n - 1);
         }
-        let length = |i: usize| (poses.arm(self.stretches[i].ends[1]) - poses.arm(self.stretches[i].ends[0])).norm();
         let faced = |&i: &usize| past[i] >= 0.0 && past[i + 1] <= 0.0 && gap(i) > -radius - BEHIND * length(i);
         let nearer = |a: usize, b: usize| if gap(b).abs() < gap(a).abs() { b } else { a };
         (0..n).filter(faced).reduce(nearer).unwrap_or_else(|| nearer(n, n + 1))
