@@ -109,7 +109,8 @@ TUMBLING = SLOPE.replace(
 
 
 def test_newtons_laws_hold_while_a_box_comes_to_rest_on_springs():
-    run = motion(TUMBLING, 2.0, alpha=0.1)
+    # Of a motion with twenty stiff contacts the ledger leaves some 1.5 times the tolerance.
+    run = motion(TUMBLING, 2.0, {"rtol": 1e-10}, alpha=0.1)
     assert {"contact", "lift-off", "stick", "slip"} <= {kind for kind, _ in kinds(run)}
     times = within(run, 40, seed=3)
     ax, ay, _ = acceleration(run, "block", times)

@@ -157,7 +157,7 @@ class Closing:
 
     def rows(self, free: FreeBodies) -> Array:
         """What is closed, as rows among the rates."""
-        return np.array([[row.coefficients[name] for name in self.names] for row in free.rows]).reshape(-1, len(self.names))
+        return np.array([[row.coefficients[name] for name in self.names] for row in free.rows]).reshape(len(free.rows), len(self.names))
 
     def _gaps(self, q: Array) -> Array | None:
         """What is left of the gap of every row, 0 for one of friction; None where something is pierced, or stretched too far."""

@@ -5,6 +5,9 @@ use super::Workspace;
 use crate::bound_values::BoundValues;
 use crate::mechanism::{FrictionSource, Mechanism};
 
+/// Part of the way of a motion within which bodies are in one place.
+const ONE_PLACE: f64 = 1e-12;
+
 impl Mechanism {
     /// The median distance of the places from their bodies' joint origins; else of the lengths that the model tells, m.
     pub(super) fn characteristic_length(&self, n: &BoundValues) -> Option<f64> {
@@ -44,13 +47,17 @@ impl Workspace<'_> {
         }
     }
 
-    /// Where neither the mechanism nor the present state has a length, takes that of its way within a time, s.
+    /// Where the mechanism has no length, and its bodies are apart by round-off of its way within a time, s, takes the
+    /// length of that way.
     pub fn take_length_of_motion(&mut self, time: f64) {
-        if self.m.characteristic_length(&self.n).or(self.extent()).is_none() {
-            let accelerations = self.accelerations_unheld();
-            let shifts = (0..self.placed.u.len()).filter(|&i| self.m.coordinate(i).dimension == "m");
-            let ways = shifts.map(|i| time * (self.placed.u[i].abs() + time * accelerations[i].abs()));
-            self.length = median_length(ways).unwrap_or(self.length);
+        if self.m.characteristic_length(&self.n).is_some() {
+            return;
+        }
+        let accelerations = self.accelerations_unheld();
+        let shifts = (0..self.placed.u.len()).filter(|&i| self.m.coordinate(i).dimension == "m");
+        let ways = shifts.map(|i| time * (self.placed.u[i].abs() + time * accelerations[i].abs()));
+        if let Some(way) = median_length(ways).filter(|way| self.extent().is_none_or(|apart| apart < ONE_PLACE * way)) {
+            self.length = way;
         }
     }
 

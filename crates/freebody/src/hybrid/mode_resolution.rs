@@ -12,6 +12,9 @@ const ENERGY_NOISE: f64 = 1e-9;
 /// Impacts that one instant may hold, and those after which ever larger speeds count as none.
 const ROUNDS: usize = 100;
 const PATIENT_ROUNDS: usize = 50;
+/// How many moments ahead is looked where the present decides nothing, until that does: the nearest says most, but what
+/// grows slowly is hidden by round-off there.
+const LOOKAHEADS: [f64; 3] = [1.0, 10.0, 100.0];
 
 /// A joint whose friction at rest is used up, and the sense in which it begins to slide.
 #[derive(Clone, Copy, Debug)]
@@ -303,11 +306,14 @@ impl HybridSystem<'_> {
         let contacts = self.workspace.closed_contacts(constraints.to_vec())?;
         let slips = contacts.slips();
         let mut decision = self.workspace.decide_contact_modes(&contacts, &slips, tolerances)?;
-        if decision.is_doubtful {
+        for moments in LOOKAHEADS {
+            if !decision.is_doubtful {
+                break;
+            }
             // What nothing decides now is decided by what comes next.
-            let mode = self.workspace.share_friction(&contacts, &decision)?;
-            let (q, u) = self.extrapolate(&mode, t, y)?;
-            self.workspace.place(&mode, t + self.lookahead(), &q, &u);
+            let (mode, ahead) = (self.workspace.share_friction(&contacts, &decision)?, moments * self.lookahead());
+            let (q, u) = self.extrapolate(&mode, t, y, ahead)?;
+            self.workspace.place(&mode, t + ahead, &q, &u);
             let next = self.workspace.closed_contacts(contacts.constraints.clone())?;
             decision = self.workspace.decide_contact_modes(&next, &slips, tolerances)?;
             self.place_in(&mode, t, y);
@@ -331,9 +337,9 @@ impl HybridSystem<'_> {
         1e-6 * self.workspace.length / self.speed
     }
 
-    /// The state a glimpse later, in a mode.
-    fn extrapolate(&mut self, mode: &Mode, t: f64, y: &[f64]) -> Result<(Vec<f64>, Vec<f64>), DynamicsError> {
-        let (n, h) = (self.workspace.m.freedom(), self.lookahead());
+    /// The state a little later, by h, in a mode.
+    fn extrapolate(&mut self, mode: &Mode, t: f64, y: &[f64], h: f64) -> Result<(Vec<f64>, Vec<f64>), DynamicsError> {
+        let n = self.workspace.m.freedom();
         let mut u_dot = vec![0.0; n];
         self.place_in(mode, t, y);
         self.solve_stage(t, y)?;

@@ -57,7 +57,7 @@ def degrees(subject: SymbolicState) -> int:
     """Degrees of freedom, prescribed ones among them, with what holds now."""
     names = subject.names
     free = [row for row, stated in zip(subject.free.rows, subject.rows, strict=True) if stated.kind != "motion"]
-    table = np.array([[row.coefficients[name] for name in names] for row in free]).reshape(-1, len(names))
+    table = np.array([[row.coefficients[name] for name in names] for row in free]).reshape(len(free), len(names))
     return len(names) - int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max(initial=1.0)))
 
 
