@@ -112,8 +112,8 @@ def _derive(systems: list[System]) -> None:
 
 def _draw(systems: list[System], page: Path) -> None:
     """A page with the diagrams of all models of some systems."""
-    from freebody.cli import show
+    from freebody.cli.show import written
     from freebody.views.diagram.gallery import write_gallery
 
     models = ((f"{system.id}, {path.stem}: {system.title}", opened(path)) for system in systems for path in system.models)
-    show.written([write_gallery(models, page)])
+    written([write_gallery(models, page)])
