@@ -156,18 +156,18 @@ def _sentence(each: Lagrange, factors: Sequence[Tree], balances: Sequence[Stated
 
 def _at_state(subject: SymbolicState, found: Sequence[Lagrange]) -> str:
     """How far the accelerations and loads of the balances satisfy Lagrange's equations. Raises ``RuntimeError`` where they do not."""
-    values, tables = subject.values, subject.tables
-    largest = 0.0
-    for each in found:
-        terms = each.residual.terms if isinstance(each.residual, Add) else (each.residual,)
-        sizes = [float(evaluate(term, values, tables)) for term in terms]
-        largest = max(largest, abs(sum(sizes)))
-        if abs(sum(sizes)) > _ROUND_OFF * max(map(abs, sizes)):
+    residuals = [each.residual.terms if isinstance(each.residual, Add) else (each.residual,) for each in found]
+    sizes = [[float(evaluate(term, subject.values, subject.tables)) for term in terms] for terms in residuals]
+    # What is round-off beside another equation's terms says nothing of its own.
+    least = np.finfo(float).eps * max(abs(size) for terms in sizes for size in terms)
+    gaps = [abs(sum(terms)) for terms in sizes]
+    for each, terms, gap in zip(found, sizes, gaps, strict=True):
+        if gap > max(least, _ROUND_OFF * max(map(abs, terms))):
             raise RuntimeError(
-                f"Lagrange's equation of {each.coordinate} and the balance equations disagree by {abs(sum(sizes)):.1e} N or N·m, so "
+                f"Lagrange's equation of {each.coordinate} and the balance equations disagree by {gap:.1e} N or N·m, so "
                 "none of them is printed: this is a fault of freebody, please report the model"
             )
     return (
         "How they are made of balance equations is too long to be given symbolically. The accelerations and loads of the balances "
-        f"satisfy them at this state to {largest:.1e} N or N·m."
+        f"satisfy them at this state to {max(gaps):.1e} N or N·m."
     )
