@@ -47,7 +47,7 @@ def path(case, name, file="model.yaml"):
     return case.run(file, {"vx": vx, "vy": vy})
 
 
-@ask("In letters: the equations in x and y")
+@ask("In symbols: the equations in x and y")
 def in_letters(case):
     yield from case.in_letters({"x": "-k*x/m", "y": "-k*y/m"}, "Newton's law")
 

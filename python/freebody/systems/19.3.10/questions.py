@@ -19,7 +19,7 @@ M, A, W = 1.0, 1.0, 1.0
 INERTIAS = (2.0, 0.0, 1.0)
 
 
-@ask("(b) In letters: the equations, and the force between rod and bead")
+@ask("(b) In symbols: the equations, and the force between rod and bead")
 def in_letters(case):
     closed = {
         "theta": "-2*m*R*rate(R)*rate(theta)/(I_O + m*R^2)",

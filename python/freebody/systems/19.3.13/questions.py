@@ -31,7 +31,7 @@ def resultants(a, b, slid):
     return from_edge, a / 3 + FORCE * moment / FLOOR
 
 
-@ask("In letters: accelerations from rest")
+@ask("In symbols: accelerations from rest")
 def in_letters(case):
     below = "(n + sin(alpha)^2)"
     closed = {

@@ -26,7 +26,7 @@ def normal(gamma, a0=A0):
     return M * (G * cos(gamma) - a0 * sin(gamma - BETA))
 
 
-@ask("(a) In letters: the force does not depend on d₀, v₀, t")
+@ask("(a) In symbols: the force does not depend on d₀, v₀, t")
 def in_letters(case):
     closed = "m*(g*cos(gamma) - a0*sin(gamma - ramp))"
     yield from case.in_letters({"top.N": closed}, AGAINST)

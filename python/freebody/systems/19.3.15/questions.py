@@ -36,7 +36,7 @@ def quarter():
     return quad(integrand, 0, sqrt(pi / 2), epsabs=0, epsrel=1e-13)[0]
 
 
-@ask("In letters, at release")
+@ask("In symbols, at release")
 def in_letters(case):
     yield from case.in_letters(
         {"theta": "3*g/(2*l)", "x": "0"}, "closed form: the cart feels no force along x", at_rest=True, set={"theta": 0}

@@ -31,7 +31,7 @@ def accelerations(mc, mp, theta, omega=0.0):
     return xdd, -(G * sin(theta) + xdd * cos(theta)) / L
 
 
-@ask("In letters, just after release")
+@ask("In symbols, just after release")
 def in_letters(case):
     below = "(mc + mp*sin(theta)^2)"
     closed = {

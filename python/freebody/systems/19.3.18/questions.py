@@ -19,7 +19,7 @@ def tension(theta, omega, a=A, mass=M):
     return mass * (L * omega**2 - a * cos(theta))
 
 
-@ask("In letters: θ̈ depends on a_A, ℓ and θ only")
+@ask("In symbols: θ̈ depends on a_A, ℓ and θ only")
 def in_letters(case):
     yield from case.in_letters({"theta": "aA*sin(theta)/l"}, "closed form: balance across the rod")
 

@@ -77,7 +77,7 @@ class Pumped:
         return min(min(values), minimize_scalar(self.tension, bounds=near, method="bounded", options={"xatol": 1e-9}).fun)
 
 
-@ask("In letters: what the hand does to the angle")
+@ask("In symbols: what the hand does to the angle")
 def in_letters(case):
     yield from case.in_letters({"theta": "xsdd*sin(theta)/l"}, "closed form: balance across the string", "push.yaml")
 

@@ -48,7 +48,7 @@ def tension(y, theta, omega, k):
     return m * (L * omega**2 - relative(y, theta, omega, k) * cos(theta))
 
 
-@ask("In letters: the two equations, with the spring and without")
+@ask("In symbols: the two equations, with the spring and without")
 def in_letters(case):
     below = "(M + m*cos(theta)^2)"
     for file, spring in [("model.yaml", " - k*y"), ("free_fall.yaml", "")]:

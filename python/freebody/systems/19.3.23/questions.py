@@ -32,7 +32,7 @@ def solve(one, two, spin1, spin2):
     return np.linalg.solve(matrix, [across, up, 0.0])
 
 
-@ask("In letters: the two equations")
+@ask("In symbols: the two equations")
 def in_letters(case):
     force1 = "(-sin(theta1 - theta2)*rate(theta2)^2/2 - g*sin(theta1)/l)"
     force2 = "(sin(theta1 - theta2)*rate(theta1)^2/2 - g*sin(theta2)/(2*l))"

@@ -42,7 +42,7 @@ def reference(times, g, reduced):
     return motion(lambda t, s: (s[1], swing(t, s[0], g, reduced)), START, times)
 
 
-@ask("In letters: θ̈ from θ and r(t)")
+@ask("In symbols: θ̈ from θ and r(t)")
 def in_letters(case):
     pull = "b*nu^2*sin(nu*t)*cos(theta)"
     against = "closed form: moments about the support, r̈ = −b ν² sin νt"

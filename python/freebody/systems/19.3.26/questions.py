@@ -39,7 +39,7 @@ def rates(law):
     return f
 
 
-@ask("(a) In letters, the hand driven by its law")
+@ask("(a) In symbols, the hand driven by its law")
 def in_letters(case):
     law = "(a0 + Kx*s + Kv*rate(s) + Kp*theta + Kd*rate(theta))"
     for file, length in [("model.yaml", "(2*l/3)"), ("particle.yaml", "l")]:
@@ -47,7 +47,7 @@ def in_letters(case):
         yield from case.in_letters(closed, "closed form: moment about the hand", file, file)
 
 
-@ask("(b) In letters: the eigenvalues s of broom and hand")
+@ask("(b) In symbols: the eigenvalues s of broom and hand")
 def eigenvalues_in_letters(case):
     k = "(3/(2*l))"
     closed = f"s^4 + ({k}*Kd - Kv)*s^3 + ({k}*Kp - {k}*g - Kx)*s^2 + {k}*g*Kv*s + {k}*g*Kx"

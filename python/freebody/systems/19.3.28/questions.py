@@ -36,7 +36,7 @@ def solve(one, two, spin1, spin2):
     return np.linalg.solve(matrix, right)
 
 
-@ask("In letters, just after release")
+@ask("In symbols, just after release")
 def in_letters(case):
     closed = {"phi1": "0", "phi2": "-3*g/(2*l)", "elbow.Fy": "m*g/4", "ceiling.Fy": "5*m*g/4"}
     yield from case.in_letters(closed, LETTERS, at_rest=True, set={"phi1": 0, "phi2": "90 deg"})

@@ -27,7 +27,7 @@ def speeds(t):
     return V0 * cos(W * t) - W * R0 * sin(W * t)
 
 
-@ask("(a, b) In letters, Cartesian and polar")
+@ask("(a, b) In symbols, Cartesian and polar")
 def in_letters(case):
     against = "Newton's law; a_r = r̈ − r φ̇², a_φ = r φ̈ + 2 ṙ φ̇"
     yield from case.in_letters({"x": "-k*x/m", "y": "-k*y/m"}, against)

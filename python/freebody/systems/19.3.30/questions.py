@@ -113,7 +113,7 @@ def steady(case, w, **parameters):
     return w, step(case, w, **parameters)[0], multiplier
 
 
-@ask("In letters: a step of a hinged tip")
+@ask("In symbols: a step of a hinged tip")
 def in_letters(case):
     closed = "m*g*R*sin(wheel.angle)/(I + m*R^2)"
     yield from case.in_letters({"wheel.angle": closed}, "closed form: an upside-down pendulum", "hinged.yaml")

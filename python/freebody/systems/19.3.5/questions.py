@@ -44,7 +44,7 @@ def time(degrees, until=0.0):
     return quad(share, 0, sqrt(first - until), epsabs=0, epsrel=1e-13)[0]
 
 
-@ask("(a) In letters, just after release")
+@ask("(a) In symbols, just after release")
 def in_letters(case):
     closed = {"x": "-g*sin(phi)*cos(phi)/(1 + cos(phi)^2)", "phi": "-2*g*cos(phi)/(l*(1 + cos(phi)^2))"}
     yield from case.in_letters(closed, "closed form: three balances", at_rest=True)

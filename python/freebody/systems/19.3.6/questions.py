@@ -44,7 +44,7 @@ def fall_time(start):
     return sqrt(L / (6 * G)) * quad(slope, 0, acosh(sin(pi / 4) / s), epsabs=0, epsrel=1e-13, limit=200)[0]
 
 
-@ask("(c) In letters: one equation in θ, as the angle from the ice")
+@ask("(c) In symbols: one equation in θ, as the angle from the ice")
 def in_letters(case):
     closed = "3*cos(angle)*(l*rate(angle)^2*sin(angle) - 2*g)/(l*(1 + 3*cos(angle)^2))"
     yield from case.in_letters({"angle": closed}, "closed form: balance of energy, differentiated", "assumed.yaml")

@@ -26,7 +26,7 @@ def swinging(t, y):
     return [speed, turning, R * bend + (length * turning**2 + G * cos(tilt)) / 2, bend]
 
 
-@ask("(a) In letters, just after release")
+@ask("(a) In symbols, just after release")
 def in_letters(case):
     closed = {"hoop.y": "-g/2", "hoop.x": "0", "hoop.angle": "-g/(2*R)"}
     yield from case.in_letters(

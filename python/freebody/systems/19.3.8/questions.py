@@ -17,7 +17,7 @@ T = M * (G - A)
 AGAINST = "closed form: Mg − T = Mÿ, Tr = Iÿ/r"
 
 
-@ask("In letters, just after release")
+@ask("In symbols, just after release")
 def in_letters(case):
     below = "(R^2 + 2*r^2)"
     closed = {

@@ -43,7 +43,7 @@ def formula(m1, m2, alpha, mu):
     return G * s - G * c * (push + mu) / D, G * push / D, m1 * G * c / D
 
 
-@ask("In letters, the angle and the limits among them")
+@ask("In symbols, the angle and the limits among them")
 def in_letters(case):
     S, C = "sin(alpha)", "cos(alpha)"
     below = f"(m2 + m1*{S}*({S} - mu*{C}))"
