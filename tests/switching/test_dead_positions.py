@@ -36,3 +36,33 @@ def test_the_four_bar_stops_where_coupler_and_rocker_are_in_line(tmp_path: Path,
     assert run.outcome.name == "dead_position" and run.outcome.path == "motions.motor"
     assert f"the loop at `C` cannot close beyond theta = {math.degrees(theta):.1f}°" in run.outcome.sentence
     assert theta - 1e-3 < run.q[-1, 0] < theta
+
+
+LADDER = """
+freebody: 1
+parameters: {N: 2, l: 1 m}
+ground: {points: {"A[i = 0 .. N]": [i*l, 0]}}
+bodies:
+  post[i = 0 .. N]: {shape: rod, length: l, mass: 1 kg}
+  coupler[i = 1 .. N]: {shape: rod, length: l, mass: 1 kg}
+joints:
+  foot[i = 0 .. N]: {type: hinge, of: ["ground.A[i]", "post[i].start"], coordinate: "theta[i]"}
+  left[i = 1 .. N]: {type: hinge, of: ["post[i-1].end", "coupler[i].start"], coordinate: {name: "phi[i]", absolute: true}}
+  right[i = 1 .. N]: {type: hinge, of: ["coupler[i].end", "post[i].end"]}
+initial: {"theta[0]": 90 deg, rates: {"theta[0]": -1}, guess: {"theta[i = 0 .. N]": 90 deg}}
+"""
+
+
+@pytest.mark.parametrize("n", [12, 24])
+def test_a_row_of_four_bars_passes_its_flat_position_wherever_a_step_lands(tmp_path: Path, n: int) -> None:
+    """There all loops lose their independence: 2.5 s take some 80 steps, and not thousands of small ones near it."""
+    file = tmp_path / "ladder.yaml"
+    file.write_text(LADDER)
+    mechanism = fb.load(file)
+    mechanism.parameters["N"] = n
+    for k in range(12):
+        steps = iter(range(250))
+        run = mechanism.simulate(
+            until=2.5, rtol=1e-11, max_step=0.047 + 0.0026 * k, progress=lambda t, steps=steps: next(steps, None) is not None
+        )
+        assert run.outcome.ok, (k, run.outcome)

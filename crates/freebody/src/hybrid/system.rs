@@ -13,6 +13,8 @@ use crate::plane::Vec2;
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
 const NEAR_SINGULAR: f64 = 0.1;
+/// That below which the steps look out for a singular configuration: far enough to come to it by a step across.
+const WATCHED: f64 = 0.5;
 
 /// A phase of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]
@@ -329,7 +331,7 @@ impl System for HybridSystem<'_> {
 
     /// When the loops lose independence, from how fast they do so now.
     fn singular_stage_gap(&mut self, t: f64, y: &[f64]) -> Option<f64> {
-        if !self.near_singular {
+        if self.independence >= WATCHED {
             return None;
         }
         let (dt, [now, next]) = self.independence_ahead(t, y);
