@@ -156,7 +156,7 @@ class StatementSymbols:
     def _is_fixed(self, letter: Sym) -> bool:
         """Whether it is made of parameters alone."""
         words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
-        return words <= {*self.sampler.parameter_names, "pi", "sqrt", "sin", "cos", "tan"}
+        return words <= {*(p["name"] for p in self.sampler.spec["parameters"]), "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
     def _coordinates(self) -> list[Sym]:

@@ -60,16 +60,12 @@ class Correction:
         return not any(kind in _LEFT_OUT for kind, _, _ in self.edits)
 
     def __str__(self) -> str:
-        stated = " and ".join(_sentence(*edit) for edit in self.edits)
+        def said(kind: str, before: str, after: str) -> str:
+            both = f"{kind}: `{before}` should be `{after}`" if before and after else f"{kind} `{before or after}`"
+            return after if kind == "convention" else both
+
+        stated = " and ".join(said(*edit) for edit in self.edits)
         return f"{stated}: {self.equation}" + (f" (with {self.given})" if self.given else "")
-
-
-def _sentence(kind: str, before: str, after: str) -> str:
-    if kind == "convention":
-        return after
-    if not before:
-        return f"{kind} `{after}`"
-    return f"{kind} `{before}`" if not after else f"{kind}: `{before}` should be `{after}`"
 
 
 @dataclass(frozen=True)
@@ -145,7 +141,15 @@ class _Search:
 
     def singles(self) -> Iterator[_Found]:
         """Every single edit that may make it true."""
-        return ((_Found((edit,))) for edit in self._promising(self._all(self.equation)))
+        readable = self._residual(self.equation, self.few)
+        units = tuple(n for n in self.vocabulary.vectors if n in map(Sym, "ijk"))
+        found = chain(
+            () if readable else with_unit_vectors(self.equation, units),
+            edits(self.equation, self.vocabulary),
+            conventions(self.equation, self.vocabulary),
+            self._fitted(self.equation) if readable else (),
+        )
+        return (_Found((edit,)) for edit in self._promising(found))
 
     def other_terms(self) -> Iterator[_Found]:
         """Every term that should be quite another."""
@@ -158,30 +162,19 @@ class _Search:
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
         for first, second in chain(combinations(near, 2), combinations(plain, 2)):
-            if (both := _both(first, second)) is not None:
-                yield from (_Found((first, edit)) for edit in self._promising([both]))
+            if second.old is not None and (second.new is not None or second.kind == "extra term"):
+                both = exchange(first.after, second.old, second.new or Num(0.0, "0"))
+                made = [replace(second, after=both)] if both is not first.after else []
+                yield from (_Found((first, edit)) for edit in self._promising(made))
         for first in (*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES)):
             yield from (_Found((first, edit)) for edit in self._promising(self._fitted(first.after)))
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
         """The edits after which the least is left."""
-
-        def left(edit: Edit) -> float:
-            found = self._residual(edit.after, self.few)
-            size = np.mean(found.ratio**2) if found else 0.0
-            return size if size > 0 else float("inf")
-
-        return sorted(found, key=left)[:count]
-
-    def _all(self, equation: Equation) -> Iterator[Edit]:
-        readable, units = self._residual(equation, self.few), (Sym("i"), Sym("j"), Sym("k"))
-        return chain(
-            () if readable else with_unit_vectors(equation, tuple(n for n in self.vocabulary.vectors if n in units)),
-            edits(equation, self.vocabulary),
-            conventions(equation, self.vocabulary),
-            self._fitted(equation) if readable else (),
-        )
+        tried = ((edit, self._residual(edit.after, self.few)) for edit in found)
+        left = [(np.mean(each.ratio**2) if each else 0.0, edit) for edit, each in tried]
+        return [edit for _, edit in sorted(left, key=lambda pair: pair[0] if pair[0] > 0 else np.inf)[:count]]
 
     def _fitted(self, equation: Equation) -> Iterator[Edit]:
         with suppress(StatementError):
@@ -197,9 +190,12 @@ class _Search:
                 break
             mark = self._mark(each.after)
             idle = any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in each.edits)
-            if mark is None or idle or self._is_vacuous(each.after):
+            # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
+            own = self.said & {n.key for n in symbols_in(each.after)}
+            vacuous = own and self._worst(each.after, self.few | {key: self.free[key] for key in own}) < HOLDS
+            if mark is None or idle or vacuous or not self.fit(each.after):
                 continue
-            if (mark in kept and self.fit(each.after)) or self._confirmed(each.after):
+            if mark in kept or self._confirmed(each.after):
                 least = size if not kept else least
                 kept.setdefault(mark, []).append(each)
         return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
@@ -215,11 +211,6 @@ class _Search:
         """How large a correction is; larger where it adds what is always 0 here."""
         return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
-    def _is_vacuous(self, equation: Equation) -> bool:
-        """Whether it holds whatever the symbols are that it has from the equation given: T (R̈ − R θ̇²) = 0 says nothing of T."""
-        kept = self.said & {n.key for n in symbols_in(equation)}
-        return bool(kept) and self._worst(equation, self.few | {key: self.free[key] for key in kept}) < HOLDS
-
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""
         try:
@@ -228,9 +219,8 @@ class _Search:
             return True
 
     def _confirmed(self, equation: Equation) -> bool:
-        if not self.fit(equation) or (self.family.held and unreached(equation, self.values)):
-            return False  # what is held at 0 may hide what is wrong
-        return all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
+        holds = all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
+        return holds and not (self.family.held and unreached(equation, self.values))  # what is held at 0 may hide what is wrong
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
         return (edit for edit in found if self._worst(edit.after, self.few) < _PROMISING)
@@ -277,14 +267,6 @@ class _Search:
             return None
         slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
         return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
-
-
-def _both(first: Edit, second: Edit) -> Edit | None:
-    """The second edit after the first, where both can be made."""
-    if second.old is None or (second.new is None and second.kind != "extra term"):
-        return None
-    after = exchange(first.after, second.old, second.new or Num(0.0, "0"))
-    return None if after is first.after else replace(second, after=after)
 
 
 _SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)
