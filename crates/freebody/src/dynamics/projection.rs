@@ -233,8 +233,11 @@ impl Workspace<'_> {
     }
 
     /// How far the closing rows are from depending on one another: the least row, and where there are few rows the
-    /// least combination of rows, relative to the greatest, in units of the characteristic length.
+    /// least combination of rows, relative to the greatest, in units of the characteristic length; 1 where there is none.
     pub(crate) fn independence(&mut self) -> f64 {
+        if self.rows.is_empty() {
+            return 1.0;
+        }
         let (mut g, mut b) = (Matrix::default(), Matrix::default());
         rows_in_coordinates(self.at(), &self.rows, self.length, &mut g, &mut b);
         let columns = self.units();
