@@ -53,16 +53,21 @@ initial: {"theta[0]": 90 deg, rates: {"theta[0]": -1}, guess: {"theta[i = 0 .. N
 """
 
 
-@pytest.mark.parametrize("n", [12, 24])
-def test_a_row_of_four_bars_passes_its_flat_position_wherever_a_step_lands(tmp_path: Path, n: int) -> None:
+LONGEST_STEPS = [None, *(0.047 + 0.0026 * k for k in range(12))]
+
+
+@pytest.mark.parametrize(("n", "longest_steps"), [(12, LONGEST_STEPS), (24, LONGEST_STEPS), (100, [None])])
+def test_a_row_of_four_bars_passes_its_flat_position_wherever_a_step_lands(
+    tmp_path: Path, n: int, longest_steps: list[float | None]
+) -> None:
     """There all loops lose their independence: 2.5 s take some 80 steps, and not thousands of small ones near it."""
     file = tmp_path / "ladder.yaml"
     file.write_text(LADDER)
     mechanism = fb.load(file)
     mechanism.parameters["N"] = n
-    for k in range(12):
+    for longest in longest_steps:
         steps = iter(range(250))
         run = mechanism.simulate(
-            until=2.5, rtol=1e-11, max_step=0.047 + 0.0026 * k, progress=lambda t, steps=steps: next(steps, None) is not None
+            until=2.5, rtol=1e-11, max_step=longest, progress=lambda t, steps=steps: next(steps, None) is not None
         )
-        assert run.outcome.ok, (k, run.outcome)
+        assert run.outcome.ok, (longest, run.outcome)

@@ -66,8 +66,9 @@ pub struct HybridSystem<'m> {
     pub(super) set: Vec<(usize, f64)>,
     pub(super) phases: Vec<Phase>,
     pub(super) worst_gap: f64,
-    /// Whether the loops are near a configuration where they lose independence.
+    /// Whether the step being made begins near, or goes across, a configuration where the loops lose independence.
     near_singular: bool,
+    /// Independence of the closing rows at the end of the last step; 0 where a phase begins, before it is known.
     pub(super) independence: f64,
     scales: Vec<f64>,
     /// Size of a guard, for its round-off.
@@ -106,7 +107,7 @@ impl<'m> HybridSystem<'m> {
             phases: vec![],
             worst_gap: 0.0,
             near_singular: false,
-            independence: 1.0,
+            independence: 0.0,
             scales: vec![1.0; size],
             roundoff_scale: 1.0,
         }
@@ -157,6 +158,7 @@ impl<'m> HybridSystem<'m> {
     pub(super) fn begin_phase(&mut self, from: f64, jump: f64, impact: f64) {
         let (p, mode) = (self.workspace.at().n.p.clone(), self.mode.clone());
         self.phases.push(Phase { from, p, mode, jump, impact });
+        self.independence = 0.0;
     }
 
     /// The function whose zero is a discontinuity, at the present state.
@@ -213,7 +215,7 @@ impl<'m> HybridSystem<'m> {
     pub(super) fn independence_ahead(&mut self, t: f64, y: &[f64]) -> (f64, [f64; 2]) {
         let n = self.workspace.m.freedom();
         let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
-        let dt = 1e-3 * NEAR_SINGULAR / fastest;
+        let dt = if fastest > 0.0 { 1e-3 * NEAR_SINGULAR / fastest } else { 0.0 };
         let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
         let mut independence = |t: f64, y: &[f64]| {
             self.place(t, y);
@@ -310,7 +312,6 @@ impl System for HybridSystem<'_> {
         let moved = self.workspace.project_positions(&self.mode, t, q, &rest[..n])?;
         self.worst_gap = self.worst_gap.max(self.workspace.worst_gap());
         self.independence = self.workspace.independence();
-        self.near_singular = self.independence < NEAR_SINGULAR;
         let turned = self.workspace.project_velocities(&self.mode, t, q, &mut rest[..n])?;
         self.note_taut_segments();
         self.check_dead_position(t, y)?;
@@ -329,14 +330,19 @@ impl System for HybridSystem<'_> {
         }
     }
 
-    /// When the loops lose independence, from how fast they do so now.
-    fn singular_stage_gap(&mut self, t: f64, y: &[f64]) -> Option<f64> {
-        if self.independence >= WATCHED {
+    /// When the loops lose independence, from how fast they do so now. Where the next step may go across that place its
+    /// stages are brought onto the loops too: off them by its own error it would be accelerated beyond measure.
+    fn singular_stage_gap(&mut self, t: f64, y: &[f64], reach: f64) -> Option<f64> {
+        self.near_singular = false;
+        if !self.workspace.is_closed() || self.mode.resting || self.independence >= WATCHED {
             return None;
         }
         let (dt, [now, next]) = self.independence_ahead(t, y);
-        let when = now * dt / (now - next);
-        (when > 0.0 && when.is_finite()).then_some(t + when)
+        self.independence = now;
+        let left = now * dt / (now - next);
+        let ahead = left.is_finite() && left * reach > 0.0;
+        self.near_singular = now < NEAR_SINGULAR || ahead && left.abs() <= reach.abs();
+        ahead.then_some(t + left)
     }
 
     /// Twice the first flight after a bounce.

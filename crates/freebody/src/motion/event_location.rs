@@ -57,6 +57,7 @@ impl Runner<'_> {
             self.stepper.reset();
             self.system.rate_of(&mut self.now).map_err(ending)?;
             self.restart_steps();
+            self.look_ahead();
         }
         self.look_around(&hits, has_jumped)
     }

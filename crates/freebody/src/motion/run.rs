@@ -11,6 +11,8 @@ use super::system::System;
 
 /// The tightest relative tolerance that is accepted.
 const TIGHTEST: f64 = 1e-14;
+/// Steps within which one is laid astride a singular place: this one, or the next, so that it fits without a short one.
+const REACH: f64 = 1.5;
 
 /// What may be chosen about a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,6 +111,7 @@ impl<'a> Runner<'a> {
             Some(h) => self.steps.restart(h.abs() * self.sign()),
             None => self.restart_steps(),
         }
+        self.look_ahead();
         Ok(())
     }
 
@@ -217,7 +220,7 @@ impl<'a> Runner<'a> {
     fn step_across(&self) -> f64 {
         let (gap, Some(spot)) = self.singular_stage else { return self.steps.h };
         let (h, later) = (self.steps.h, spot - self.now.t);
-        if self.steps.is_fixed() || later * h <= 0.0 || later.abs() > 1.5 * h.abs() {
+        if self.steps.is_fixed() || later * h <= 0.0 || later.abs() > REACH * h.abs() {
             return h;
         }
         // Less than the least shortening after a rejection, lest the same step be tried again.
@@ -268,8 +271,14 @@ impl<'a> Runner<'a> {
         self.run.trajectory.segments.push(segment);
         self.run.accepted += 1;
         std::mem::swap(&mut self.now, &mut self.next);
-        self.norm.noise = self.system.system.noise();
-        self.singular_stage.1 = self.system.system.singular_stage_gap(self.now.t, &self.now.y);
+        self.look_ahead();
+    }
+
+    /// Learns what the next step may go across.
+    pub fn look_ahead(&mut self) {
+        let (system, reach) = (&mut *self.system.system, REACH * self.steps.h);
+        self.singular_stage.1 = system.singular_stage_gap(self.now.t, &self.now.y, reach);
+        self.norm.noise = system.noise();
     }
 
     fn finish(self, outcome: Outcome) -> Run {

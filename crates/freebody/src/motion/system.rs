@@ -75,14 +75,15 @@ pub trait System {
         Ok(0.0)
     }
 
-    /// Round-off of the rate after the last projection, relative to [`System::scale`], where it is more than usual.
+    /// Round-off of the rate in the step that was last looked ahead to, relative to [`System::scale`], where it is more than usual.
     fn noise(&self) -> f64 {
         0.0
     }
 
     /// The time at which the motion, as it goes at (t, y), passes a place where the rate is smooth but cannot be
-    /// evaluated accurately, if it goes there. An adaptive method then steps across it.
-    fn singular_stage_gap(&mut self, _t: f64, _y: &[f64]) -> Option<f64> {
+    /// evaluated accurately, if it goes there. An adaptive method steps across it by its next step from (t, y) where it
+    /// comes within the time `reach`, which has the sign of the run.
+    fn singular_stage_gap(&mut self, _t: f64, _y: &[f64], _reach: f64) -> Option<f64> {
         None
     }
 
