@@ -12,7 +12,7 @@ from store import SYSTEMS, every, mechanism, start
 from freebody.core.cards import joints
 from freebody.equations.topics import topic
 from freebody.model import Mechanism
-from freebody.views.diagram.configuration import Configuration, Places
+from freebody.views.diagram.configuration import Configuration
 from freebody.views.diagram.names import letter
 from freebody.views.dimension_lines import dimension_lines
 from freebody.views.sketch import sketch_of_state
@@ -44,9 +44,9 @@ VALUES = np.array([0.8, 0.5, -1.1])
 
 
 @cache
-def drawn(model, picture=Configuration):
+def drawn(model, each_body=False):
     state, notes = start(model)
-    return picture(mechanism(model).source(notes), state)
+    return Configuration(mechanism(model).source(notes), state, each_body)
 
 
 every_model = every(sorted(SYSTEMS))
@@ -61,9 +61,9 @@ def test_every_coordinate_has_its_mark_and_it_can_be_seen(model):
 
 
 @every_model
-@pytest.mark.parametrize("picture", [Configuration, Places])
-def test_no_two_labels_overlap_and_all_are_on_the_paper(model, picture):
-    [row] = drawn(model, picture).rows
+@pytest.mark.parametrize("each_body", [False, True])
+def test_no_two_labels_overlap_and_all_are_on_the_paper(model, each_body):
+    [row] = drawn(model, each_body).rows
     [panel] = row.panels
     low, high = panel.box()
     for label in panel.labels:
@@ -75,7 +75,7 @@ def test_no_two_labels_overlap_and_all_are_on_the_paper(model, picture):
 @every_model
 def test_every_body_is_placed_by_itself(model):
     """x and y of its mass centre from the origin, and its angle from the x axis, as the state is drawn."""
-    found = drawn(model, Places)
+    found = drawn(model, each_body=True)
     bodies = found.source.spec["bodies"]
     marks = {each.text: each for each in found.scenery.dimensions}
     assert list(marks) == [
@@ -100,7 +100,7 @@ def test_every_body_is_placed_by_itself(model):
 def test_the_sketch_with_constraints_has_their_coordinates(model):
     made = mechanism(model).equations("constraints")
     stated = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
-    assert sorted(letter(name) for name in stated) == sorted(each.text for each in drawn(model, Places).scenery.dimensions)
+    assert sorted(letter(name) for name in stated) == sorted(each.text for each in drawn(model, each_body=True).scenery.dimensions)
     html = made.document.html()
     assert html.count("<svg") == 1 and "[Figure" not in html
 

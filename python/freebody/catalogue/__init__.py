@@ -6,8 +6,7 @@ every answer is computed by freebody when it is asked for, and stands beside a v
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from freebody.catalogue.case import Case
 from freebody.catalogue.checks import FREE_QUESTIONS
 from freebody.catalogue.system import System
 
-__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "run", "systems", "to_json"]
+__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "rows", "run", "systems"]
 
 FOLDER = Path(__file__).parent.parent / "systems"
 
@@ -42,13 +41,12 @@ def run(system: System) -> Iterator[Asked]:
         yield question.put_to(case)
 
 
-def to_json(results: dict[str, list[Asked]]) -> str:
-    """What was asked and answered, by system, for scripts."""
-    rows: list[dict[str, Any]] = []
+def rows(results: Mapping[str, list[Asked]]) -> list[dict[str, Any]]:
+    """What was asked and answered, by system, as data for scripts."""
+    made: list[dict[str, Any]] = []
     for identity, asked in results.items():
         for question in asked:
             head = {"system": identity, "question": question.label}
-            rows += [{**head, **answer.as_dict()} for answer in question.answers]
-            if question.failure:
-                rows.append({**head, "failure": question.failure})
-    return json.dumps(rows, ensure_ascii=False, indent=1)
+            made += [{**head, **answer.as_dict()} for answer in question.answers]
+            made += [{**head, "failure": question.failure}] if question.failure else []
+    return made

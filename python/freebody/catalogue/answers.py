@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -12,9 +13,17 @@ import numpy as np
 
 if TYPE_CHECKING:
     from freebody.catalogue.case import Case
+    from freebody.symbolic.letters import Letters
+    from freebody.symbolic.tree import Tree
 
 Figure = float | Sequence[float] | np.ndarray
 MOST_DIGITS = 16.0
+PLACES = 4
+"""Places of random letters at which an answer and its closed form are compared."""
+RANGE = (0.3, 1.4)
+"""Of the letters: angles stay below a right angle."""
+TOLERANCE = 1e-9
+_SEED = 9
 
 
 @dataclass(frozen=True)
@@ -106,6 +115,22 @@ class Question:
 def ask(label: str) -> Callable[[Callable[[Case], Iterable[Answer]]], Question]:
     """Make a question of a generator of answers."""
     return lambda answers: Question(label, answers)
+
+
+def formula(label: str, found: Tree, closed: str, against: str, letters: Letters | None = None) -> Answer:
+    """A symbolic answer beside a closed form in the words of the model language, ``rate(theta)`` for a rate: both at random
+    values of all letters, of which neither knows anything."""
+    from freebody.equations.language import read_text
+    from freebody.symbolic.decimals import shown
+    from freebody.symbolic.evaluate import evaluate
+    from freebody.symbolic.printers.text import text
+    from freebody.symbolic.tree import symbols
+
+    true, draw = read_text(closed), random.Random(_SEED)
+    every = sorted(symbols(found, true), key=str)
+    places = [{letter: draw.uniform(*RANGE) for letter in every} for _ in range(PLACES)]
+    value, check = ([float(evaluate(tree, place)) for place in places] for tree in (found, true))
+    return Answer(label, value, "", check, against, TOLERANCE, said=text(shown(found), letters))
 
 
 def _plain(figure: Figure) -> Any:

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from freebody.catalogue.answers import Answer, formula
+
 if TYPE_CHECKING:
-    from freebody.catalogue.answers import Answer
     from freebody.model import Mechanism
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant
@@ -55,7 +56,6 @@ class Case:
     ) -> Iterator[Answer]:
         """Accelerations, reactions and motors symbolically, beside closed forms; ``asked`` is what ``solve_in_letters`` takes. With
         ``"theta, M → inf"`` a limit is asked for."""
-        from freebody.catalogue.formulas import formula
         from freebody.symbolic.printers.text import text
 
         pairs = {key: key.partition(", ")[::2] for key in closed}
@@ -64,16 +64,11 @@ class Case:
         found = self.mechanism(file).solve_in_letters(wanted, limits=limits, **asked)
         for key, (name, what) in pairs.items():
             tree = found.limits[name, what.split(" → ")[0]] if what else found[name]
-            label = (
-                text(found.wanted[name], found.letters)
-                + (f", {what}".replace("inf", "∞") if what else "")
-                + (f", {of}" if of else "")
-            )
-            yield formula(label, tree, closed[key], against, found.letters)
+            parts = [text(found.wanted[name], found.letters), what.replace("inf", "∞"), of]
+            yield formula(", ".join(filter(None, parts)), tree, closed[key], against, found.letters)
 
     def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
         """The characteristic polynomial, in s, of small perturbations from rest, beside a closed form."""
-        from freebody.catalogue.formulas import formula
         from freebody.document.blocks import Equation
         from freebody.equations.topics import topic
 

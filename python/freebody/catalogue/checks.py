@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -21,10 +21,17 @@ NOTHING = 1e-30
 
 
 def _routes(case: Case) -> Iterator[Answer]:
-    """Accelerations and determinate reactions by each route, and what is left of every body's balance."""
+    """Accelerations and determinate reactions by each route, and what is left of every body's balance: at every instant that was
+    asked for, and a few of every run."""
+    from freebody.solve.instant import Instant
+
     if not case.runs and not case.instants:
         case.instant()
-    for name, states in _states(case):
+    asked = [(name, [partial(Instant, each.core, each.state)]) for name, each in case.instants.items()]
+    for name, run in case.runs.items():
+        times = np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN).tolist()
+        asked.append((name, [partial(run.instant, t) for t in times]))
+    for name, states in asked:
         accelerations, reactions, residuals = [0.0], [0.0], [0.0]
         for solved in states:
             one, *others = (solved(route) for route in ROUTES)
@@ -51,22 +58,10 @@ def _ledgers(case: Case) -> Iterator[Answer]:
         yield Answer(f"{name}: left over", left, "", 0.0, "conservation: energy stored − work done", 1e-9, 1.0)
 
 
-def _states(case: Case) -> Iterator[tuple[str, list[Callable[[str], Instant]]]]:
-    """Every instant that was asked for, and a few of every run, each to be solved by a route."""
-    from freebody.solve.instant import Instant
-
-    for name, instant in case.instants.items():
-        yield name, [partial(Instant, instant.core, instant.state)]
-    for name, run in case.runs.items():
-        yield name, [partial(run.instant, float(t)) for t in np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN)]
-
-
 def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
     pairs = [(one.reactions[name], other.reactions[name]) for name in one.reactions]
-    known = [a.determined & b.determined for a, b in pairs]
-    left = [a.values[k] for (a, _), k in zip(pairs, known, strict=True)]
-    right = [b.values[k] for (_, b), k in zip(pairs, known, strict=True)]
-    return np.concatenate([*left, []]), np.concatenate([*right, []])
+    known = [(a.values[k], b.values[k]) for a, b in pairs for k in [a.determined & b.determined]]
+    return np.concatenate([*(a for a, _ in known), []]), np.concatenate([*(b for _, b in known), []])
 
 
 def _apart(a: np.ndarray, b: np.ndarray, size: float) -> float:

@@ -51,7 +51,11 @@ def show_statements(system: System, judged: Iterable[Judged]) -> None:
     shown.add_column("what is stated, and what is behind the verdict", overflow="fold")
     for one in judged:
         kind = one.verdict.kind
-        shown.add_row(one.statement.id, Text(kind.short + _UNEXPECTED * (one.as_expected is False), kind.colour), _behind(one))
+        lines = [Text(one.statement.says.strip())]
+        lines += [Text(f"→ {line}", "dim" if one.verdict.ok else "") for line in one.verdict.details]
+        lines += [Text(f"note: {one.statement.note}", "italic")] if one.statement.note else []
+        verdict = Text(kind.short + _UNEXPECTED * (one.as_expected is False), kind.colour)
+        shown.add_row(one.statement.id, verdict, Text("\n").join(lines))
     rich.print(shown)
 
 
@@ -74,14 +78,6 @@ def show_totals(judged: Iterable[Judged]) -> None:
     rich.print(Text(f"{len(every)} statements: {stated}", "bold"))
     if wrong := [one.statement.id for one in every if one.as_expected is False]:
         rich.print(Text(f"not as expected: {', '.join(wrong)}", "bold red"))
-
-
-def _behind(one: Judged) -> Text:
-    lines = [Text(one.statement.says.strip())]
-    lines += [Text(f"→ {line}", "dim" if one.verdict.ok else "") for line in one.verdict.details]
-    if one.statement.note:
-        lines.append(Text(f"note: {one.statement.note}", "italic"))
-    return Text("\n").join(lines)
 
 
 def show_summary(results: dict[str, list[Asked]]) -> None:

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, get_args
+from typing import Annotated, Literal, get_args
 
 import typer
 
 from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
-from freebody.cli.models import moment, obtained, opened, pairs, simulated
+from freebody.cli.models import moment, obtained, opened, pairs, print_json, simulated, written
 from freebody.cli.options import AsJson, Changes, Command, Model, Until
 from freebody.cli.systems import systems
 from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
-
-if TYPE_CHECKING:
-    from freebody.run.simulation import Run
 
 app = typer.Typer(
     cls=Guarded,
@@ -50,11 +45,19 @@ def run(
     """Simulate; print what happened and write a report. A model that it continues with follows, with files of its own."""
     from freebody.cli import show
 
-    done = simulated(model, changes, until=until, method=method, rtol=rtol)
-    page = None if no_report else report or Path(f"{model.stem}.html")
-    runs = [(stage, files_of(stage, i, output, page)) for i, stage in enumerate(legs(done), 1)]
-    show.runs(runs, as_json)
-    if not all(stage.outcome.ok for stage, _ in runs):
+    runs, page = [simulated(model, changes, until=until, method=method, rtol=rtol)], report or Path(f"{model.stem}.html")
+    while (after := runs[-1].next) is not None:
+        runs.append(after)
+    files: list[list[Path]] = []
+    for stage, each in enumerate(runs, 1):
+        ending = f"-{stage}" if stage > 1 else ""  # the files of a model that it continues with have their number in the name
+        files.append([each.save(output.with_stem(output.stem + ending))] if output else [])
+        if not no_report:
+            from freebody.views.report import write_report
+
+            files[-1].append(write_report(each, page.with_stem(page.stem + ending)))
+    show.runs(list(zip(runs, files, strict=True)), as_json)
+    if not all(each.outcome.ok for each in runs):
         raise typer.Exit(NOT_TRUE)
 
 
@@ -94,7 +97,7 @@ def validate(
     if output:
         mechanism.drawing().figure.savefig(output)
         if not as_json:
-            show.written([output])
+            written(output)
 
 
 @app.command(cls=Command)
@@ -120,8 +123,6 @@ def diagram(
     as_json: AsJson = False,
 ) -> None:
     """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of an impact."""
-    from freebody.cli import show
-
     (time, state), mechanism = moment(at), opened(model, changes)
     if impact is None:
         drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, column=column, **state)
@@ -130,11 +131,11 @@ def diagram(
     else:
         drawn = mechanism.impulse_diagram(of, impact, at=time, to_scale=to_scale, effective=effective, column=column)
     if as_json:
-        typer.echo(json.dumps(drawn.data, ensure_ascii=False, indent=1))
+        print_json(drawn.data)
     if output or not as_json:
         saved = drawn.save(output or Path("fbd.svg"))
         if not as_json:
-            show.written([saved])
+            written(saved)
 
 
 @app.command(cls=Command)
@@ -147,10 +148,9 @@ def animate(
     until: Until = None,
 ) -> None:
     """Simulate and write the motion as a film."""
-    from freebody.cli import show
     from freebody.views.animate import animate as film
 
-    show.written([film(simulated(model, changes, until=until), output)])
+    written(film(simulated(model, changes, until=until), output))
 
 
 @app.command(cls=Command)
@@ -177,7 +177,7 @@ def schema() -> None:
     """Print the JSON Schema of the model file."""
     from freebody.model.schema import schema as model_schema
 
-    typer.echo(json.dumps(model_schema(), ensure_ascii=False, indent=1))
+    print_json(model_schema())
 
 
 @app.command(cls=Command)
@@ -186,25 +186,3 @@ def version() -> None:
     from importlib.metadata import version as installed
 
     typer.echo(installed("freebody"))
-
-
-def legs(first: Run) -> Iterator[Run]:
-    """The run, then those of the models to which it hands over."""
-    run: Run | None = first
-    while run is not None:
-        yield run
-        run = run.next
-
-
-def files_of(done: Run, number: int, output: Path | None, page: Path | None) -> list[Path]:
-    """Saves a run and writes its report; those after the first have their number in the name."""
-
-    def numbered(path: Path) -> Path:
-        return path if number == 1 else path.with_stem(f"{path.stem}-{number}")
-
-    written = [done.save(numbered(output))] if output else []
-    if page:
-        from freebody.views.report import write_report
-
-        written.append(write_report(done, numbered(page)))
-    return written

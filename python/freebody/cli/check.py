@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened
+from freebody.cli.models import opened, print_json
 from freebody.cli.options import AsJson, Changes
 from freebody.cli.user_errors import NOT_TRUE
 
@@ -30,38 +28,29 @@ def check(
     as_json: AsJson = False,
 ) -> None:
     """Say whether equations and claims are true of every motion of a model, and correct the wrong ones."""
-    found, fine = [], True
-    for heading, verdict, expected, data in _stated(model, statements, where, changes) if statements else _in_file(model):
-        found.append(data)
-        fine &= verdict.ok if expected is None else expected
-        if not as_json:
-            show(heading, verdict, expected is False)
-    if as_json:
-        typer.echo(json.dumps(found, ensure_ascii=False, indent=1))
-    if not fine:
-        raise typer.Exit(NOT_TRUE)
-
-
-_Judged: TypeAlias = "tuple[str, Verdict, bool | None, Any]"
-"""What is stated, its verdict, whether that is what the file expects (None where it expects nothing), and all as plain data."""
-
-
-def _stated(path: Path, texts: list[str], where: list[str] | None, changes: list[str] | None) -> Iterator[_Judged]:
     from freebody.check import Checker
-    from freebody.check.file import as_json, judged_alone
+    from freebody.check import file as stated
     from freebody.check.symbols import declarations
 
-    checker = Checker(opened(path, changes), declarations(where or []))
-    for text in texts:
-        verdict = checker.check(text) if len(texts) == 1 else judged_alone(checker, text)
-        yield text, verdict, None, as_json(verdict)
-
-
-def _in_file(path: Path) -> Iterator[_Judged]:
-    from freebody.check.file import judge
-
-    for judged in judge(path):
-        yield f"{judged.statement.id}: {judged.statement.says}", judged.verdict, judged.as_expected, judged.to_json()
+    found, fine = [], True
+    if statements:
+        checker, alone = Checker(opened(model, changes), declarations(where or [])), len(statements) == 1
+        for text in statements:
+            verdict = checker.check(text) if alone else stated.judged_alone(checker, text)
+            found.append(stated.as_json(verdict))
+            fine &= verdict.ok
+            if not as_json:
+                show(text, verdict)
+    else:
+        for judged in stated.judge(model):
+            found.append(judged.to_json())
+            fine &= judged.verdict.ok if judged.as_expected is None else judged.as_expected
+            if not as_json:
+                show(f"{judged.statement.id}: {judged.statement.says}", judged.verdict, judged.as_expected is False)
+    if as_json:
+        print_json(found)
+    if not fine:
+        raise typer.Exit(NOT_TRUE)
 
 
 def show(text: str, verdict: Verdict, unexpected: bool = False) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from freebody.cli.models import opened
+from freebody.cli.models import opened, written
 from freebody.cli.options import Changes, Model, offering
 from freebody.codegen.languages import LANGUAGES
 
@@ -22,8 +22,6 @@ def code(
     **asked: bool,
 ) -> None:
     """Print functions that compute accelerations and all reactions by themselves."""
-    from freebody.cli.show import written
-
     ending = output.suffix.removeprefix(".") if output else ""
     fitting = [word for word, each in LANGUAGES.items() if asked[word] or (ending == each.ending and not any(asked.values()))]
     text = opened(model, changes).code(fitting[0] if fitting else _FIRST)
@@ -31,4 +29,4 @@ def code(
         typer.echo(text.rstrip("\n"))
     else:
         output.write_text(text, encoding="utf-8")
-        written([output])
+        written(output)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened, pairs
+from freebody.cli.models import opened, pairs, written
 from freebody.cli.options import Model, offering
 from freebody.cli.user_errors import UserError
 from freebody.codegen.languages import LANGUAGES
@@ -72,10 +72,14 @@ def equations(
     wanted = [name.strip() for each in want or () for name in each.split(",")]
     if form != SOLVED and len(wanted) > 1:
         raise UserError("several unknowns are wanted", "ask for one, or take --form solved")
-    if form == SOLVED:
-        found = solved(opened(model), wanted, at_rest, pairs(fixed), pairs(limits))
-    else:
-        found = derived(opened(model), form, wanted[0] if wanted else None, at_rest, pairs(fixed))
+    mechanism, substituted = opened(model), pairs(fixed)
+    try:
+        if form == SOLVED:
+            found = mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=substituted, limits=pairs(limits)).document
+        else:
+            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted)
+    except KeyError as error:
+        raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
     if len(kinds) > 1:
         raise UserError(
@@ -87,8 +91,6 @@ def equations(
     if kind not in FORMATS:
         raise UserError(f"files that end in .{kind} cannot be written", f"take one of {_ENDINGS}")
     if output:
-        from freebody.cli.show import written
-
         written(found.save(output, kind))
     else:
         typer.echo(found.printed(kind).rstrip("\n"))
@@ -107,15 +109,4 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
         return topic(mechanism, form, **fixed)
     if form not in FORMS:
         raise UserError(f"there is no form {form!r}", f"there are {', '.join((*FORMS, SOLVED, *TOPICS))}")
-    try:
-        return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed)
-    except KeyError as error:
-        raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
-
-
-def solved(mechanism: Mechanism, wanted: list[str], at_rest: bool, fixed: dict[str, str], limits: dict[str, str]) -> Document:
-    """Accelerations, or what is wanted, solved symbolically."""
-    try:
-        return mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=fixed, limits=limits).document
-    except KeyError as error:
-        raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
+    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed)

@@ -1,9 +1,14 @@
-"""What the commands open: models with changes, runs, and NAME=VALUE as words."""
+"""What the commands open and write: models with changes, runs, NAME=VALUE as words; JSON, and the names of files."""
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import typer
 
 from freebody.cli.user_errors import UserError
 
@@ -66,3 +71,22 @@ def moment(at: list[str] | None) -> tuple[str | None, dict[str, str]]:
     if times and len(at or []) > 1:
         raise UserError("--at takes one time, or coordinates", "write it like --at '200 ms', or --at 'theta=30 deg'")
     return (times[0], {}) if times else (None, pairs(at))
+
+
+def print_json(data: Any) -> None:
+    """Data for a script; what is not a finite number is null."""
+    typer.echo(json.dumps(_finite(data), ensure_ascii=False, indent=1, allow_nan=False))
+
+
+def _finite(data: Any) -> Any:
+    if isinstance(data, Mapping):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_finite(value) for value in data]
+    return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def written(*files: Path) -> None:
+    """Says which files were made."""
+    for path in files:
+        print(f"wrote {path}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -14,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from freebody.cli.models import print_json, written
 from freebody.solve.rich_tables import table
 from freebody.views.peaks import peak_reactions
 
@@ -26,19 +26,6 @@ if TYPE_CHECKING:
 Row = Sequence[Any]
 _FIRST, _LAST = 12, 3
 _SWITCHED = ("t [s]", "kind", "what", "energy lost [J]", "work of motions [J]", "")
-
-
-def dumped(data: Any) -> str:
-    """JSON text; what is not a finite number is null."""
-    return json.dumps(_plain(data), ensure_ascii=False, indent=1, allow_nan=False)
-
-
-def _plain(data: Any) -> Any:
-    if isinstance(data, Mapping):
-        return {key: _plain(value) for key, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [_plain(value) for value in data]
-    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def put(*things: Any) -> None:
@@ -57,12 +44,25 @@ def put(*things: Any) -> None:
 def runs(done: Sequence[tuple[Run, Sequence[Path]]], as_json: bool) -> None:
     """Runs one after the other, each with the files that were made; of several, JSON is a list."""
     if as_json:
-        data = [_run_as_dict(each, files) for each, files in done]
-        print(dumped(data if len(data) > 1 else data[0]))
+        data = [
+            {
+                "name": each.name,
+                "outcome": asdict(each.outcome),
+                "events": [asdict(event) for event in each.events],
+                "changes": [asdict(change) for change in each.changes],
+                "report": {label: asdict(reported) for label, reported in each.report.items()},
+                "energy": {"balance": float(abs(each.energy.balance).max(initial=0.0)), "relative": closure(each)},
+                "peaks": [asdict(peak) for peak in peak_reactions(each)],
+                "stats": each.stats,
+                "files": [str(path) for path in files],
+            }
+            for each, files in done
+        ]
+        print_json(data if len(data) > 1 else data[0])
         return
     for each, files in done:
         run(each)
-        written(files)
+        written(*files)
 
 
 def run(done: Run) -> None:
@@ -104,20 +104,6 @@ def closure(done: Run) -> float:
     return float(worst / entries) if entries else float(worst)
 
 
-def _run_as_dict(done: Run, files: Sequence[Path]) -> dict[str, Any]:
-    return {
-        "name": done.name,
-        "outcome": asdict(done.outcome),
-        "events": [asdict(event) for event in done.events],
-        "changes": [asdict(change) for change in done.changes],
-        "report": {label: asdict(reported) for label, reported in done.report.items()},
-        "energy": {"balance": float(abs(done.energy.balance).max(initial=0.0)), "relative": closure(done)},
-        "peaks": [asdict(peak) for peak in peak_reactions(done)],
-        "stats": done.stats,
-        "files": [str(path) for path in files],
-    }
-
-
 def switch_rows(changes: Sequence[Change]) -> list[Row]:
     """Rows of a table; of many only the first and the last, with one between that says how many there are."""
     rows: list[Row] = [(c.t, c.kind, ", ".join(c.of), c.lost if c.impulses or c.before else "", c.work, c.note) for c in changes]
@@ -138,7 +124,7 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
             changes = {"changes": [asdict(change) for change in opened(opening)]}
             after["after_opening"] = changes | _instant_as_dict(opening.instant(opening.start.t), joint_axes)
         data = [_instant_as_dict(instant, joint_axes) | after for instant in solved]
-        print(dumped(data if others else data[0]))
+        print_json(data if others else data[0])
         return
     if opening:
         put(Text("just before the events at the start\n", "bold"))
@@ -209,13 +195,13 @@ def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float]:
     return {"Fs": along, "Fn": across, "M": couple} if joint_axes else {"Fx": x, "Fy": y, "M": couple}
 
 
-# A mechanism, a comparison, files
+# A mechanism, a comparison
 
 
 def mechanism(metadata: Mapping[str, Any], freedom: str, as_json: bool) -> None:
     """Model assumptions: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
     if as_json:
-        print(dumped(metadata))
+        print_json(metadata)
         return
     bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in metadata["bodies"]]
     coordinates = [(c["name"], c["dimension"], c["doc"]) for c in metadata["coordinates"]]
@@ -246,19 +232,10 @@ def _later(part: Mapping[str, Any]) -> str:
 def comparison(found: Comparison, as_json: bool) -> None:
     """How far two runs lie apart, column by column."""
     if as_json:
-        print(dumped({"columns": [asdict(d) for d in found.differences], "only": found.only, "parting": found.parting}))
+        print_json({"columns": [asdict(d) for d in found.differences], "only": found.only, "parting": found.parting})
         return
     same = sum(not d.largest for d in found.differences)
-    alike = f"{same} of {len(found.differences)} columns are the same at all {len(found.t)} common times"
-    put(
-        *([found, ""] if same < len(found.differences) else []),
-        alike,
-        *([found.parting] if found.parting else []),
-        *([f"only in one of the two: {', '.join(found.only)}"] if found.only else []),
-    )
-
-
-def written(files: Sequence[Path]) -> None:
-    """The files that were made."""
-    for path in files:
-        print(f"wrote {path}")
+    stated = [f"{same} of {len(found.differences)} columns are the same at all {len(found.t)} common times"]
+    stated += [found.parting] * bool(found.parting)
+    stated += [f"only in one of the two: {', '.join(found.only)}"] * bool(found.only)
+    put(*([found, ""] if same < len(found.differences) else []), *stated)

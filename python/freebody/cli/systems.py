@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened
+from freebody.cli.models import opened, print_json, written
 from freebody.cli.options import AsJson
 from freebody.cli.user_errors import NOT_TRUE, UserError
 
@@ -42,7 +41,7 @@ def systems(
         _judge(chosen, as_json)
     elif identity is None and not everything:
         if as_json:
-            typer.echo(json.dumps([{"id": system.id, "title": system.title} for system in listed], indent=1))
+            print_json([{"id": system.id, "title": system.title} for system in listed])
         else:
             from freebody.catalogue import show
 
@@ -67,7 +66,7 @@ def _answer(systems: list[System], briefly: bool, as_json: bool) -> None:
             if not as_json:
                 show.show_asked(asked)
     if as_json:
-        typer.echo(catalogue.to_json(results))
+        print_json(catalogue.rows(results))
     elif briefly:
         show.show_summary(results)
     else:
@@ -89,8 +88,7 @@ def _judge(systems: list[System], as_json: bool) -> None:
             show.show_statements(system, found)
     every = [one for _, found in results for one in found]
     if as_json:
-        stated = [{"system": system.id, **one.to_json()} for system, found in results for one in found]
-        typer.echo(json.dumps(stated, ensure_ascii=False, indent=1))
+        print_json([{"system": system.id, **one.to_json()} for system, found in results for one in found])
     else:
         show.show_totals(every)
     if any(one.as_expected is False for one in every):
@@ -112,8 +110,7 @@ def _derive(systems: list[System]) -> None:
 
 def _draw(systems: list[System], page: Path) -> None:
     """A page with the diagrams of all models of some systems."""
-    from freebody.cli.show import written
     from freebody.views.diagram.gallery import write_gallery
 
     models = ((f"{system.id}, {path.stem}: {system.title}", opened(path)) for system in systems for path in system.models)
-    written([write_gallery(models, page)])
+    written(write_gallery(models, page))

@@ -191,14 +191,10 @@ def integral(signal: Signal, window: Window, rtol: float = 1e-11) -> float:
 
 def reduce(how: str, signal: Signal, window: Window) -> tuple[float | None, float]:
     """Time (None where it is not one) and value of an extreme, mean, rms or integral over a window."""
-    if how == "max":
-        return maximum(signal, window)
-    if how == "min":
-        return minimum(signal, window)
-    if how == "integral":
-        return None, integral(signal, window)
-    if how == "mean":
-        return None, integral(signal, window) / window.length
+    if how in ("max", "min"):
+        return (maximum if how == "max" else minimum)(signal, window)
+    if how in ("integral", "mean"):
+        return None, integral(signal, window) / (1.0 if how == "integral" else window.length)
     if how == "rms":
         return None, float(np.sqrt(integral(lambda t: signal(t) ** 2, window) / window.length))
     raise ValueError(f"no such reduction: {how!r}; there are max, min, mean, rms, integral")

@@ -210,18 +210,16 @@ class Run:
             when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
             return Reported.of(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
         at, before = (item.at[len(BEFORE) :], True) if str(item.at).startswith(BEFORE) else (item.at, False)
-        moments = self._moments(at)
+        if at in ("start", "end"):
+            moments = [float(self.edges[0 if at == "start" else -1])]
+        elif isinstance(at, str):
+            moments = [event.t for event in self.events if event.name == at]
+        else:
+            moments = [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
         if not moments:
             return Reported(None, "", note=f"{at} did not happen")
         note = ", ".join(["just before"] * before + [f"the first of {len(moments)}"] * (len(moments) > 1))
         return Reported.of(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
-
-    def _moments(self, at: str | float) -> list[float]:
-        if at in ("start", "end"):
-            return [float(self.edges[0 if at == "start" else -1])]
-        if isinstance(at, str):
-            return [event.t for event in self.events if event.name == at]
-        return [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
 
     @cached_property
     def edges(self) -> Array:

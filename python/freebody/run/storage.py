@@ -160,7 +160,8 @@ def need(module: str) -> Any:
 def to_pandas(run: Run) -> pandas.DataFrame:
     """One row a time, one column each of ``run.columns``; the reported quantities in ``attrs``."""
     units = {column.name: column.unit for column in run.columns}
-    table = need("pandas").DataFrame(_matrix(run), columns=list(units), index=need("pandas").Index(run.t, name="t"))
+    values = np.hstack(list(run.blocks.values()))
+    table = need("pandas").DataFrame(values, columns=list(units), index=need("pandas").Index(run.t, name="t"))
     table.attrs.update(title=run.name, units=units, report={label: asdict(value) for label, value in run.report.items()})
     return table
 
@@ -209,10 +210,6 @@ def load(path: Path) -> tuple[CompiledModel, Recorded]:
     return source, Recorded(t, blocks, header, source.metadata)
 
 
-def _matrix(run: Run) -> Array:
-    return np.hstack(list(run.blocks.values()))
-
-
 def versions() -> dict[str, str]:
     """Versions of what made the file."""
     try:
@@ -229,7 +226,7 @@ def _write_csv(run: Run, path: Path) -> None:
         writer = csv.writer(file)
         writer.writerow(["t", *(column.name for column in run.columns)])
         # repr gives the shortest text that reads back as the same number.
-        writer.writerows([repr(float(x)) for x in row] for row in np.column_stack([run.t, _matrix(run)]))
+        writer.writerows([repr(float(x)) for x in row] for row in np.column_stack([run.t, *run.blocks.values()]))
 
 
 def _read_csv(path: Path) -> tuple[Array, dict[str, Array], Header]:
@@ -240,10 +237,6 @@ def _read_csv(path: Path) -> tuple[Array, dict[str, Array], Header]:
         t, *columns = np.loadtxt(file, delimiter=",", skiprows=1, ndmin=2).T
     blocks = {kind: [y for y, column in zip(columns, header.columns, strict=True) if column.kind == kind] for kind in KINDS}
     return t, {kind: np.reshape(values, (-1, len(t))).T for kind, values in blocks.items()}, header
-
-
-def _write_netcdf(run: Run, path: Path) -> None:
-    to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT")
 
 
 def _read_netcdf(path: Path) -> tuple[Array, dict[str, Array], Header]:
@@ -258,5 +251,5 @@ def _read_netcdf(path: Path) -> tuple[Array, dict[str, Array], Header]:
         return t, {kind: values.reshape(len(t), -1) for kind, values in found.items()}, Header.read(data.attrs["freebody"])
 
 
-FORMATS = Formats("a run is saved as", {".nc": (_write_netcdf, _read_netcdf), ".csv": (_write_csv, _read_csv)})
+FORMATS = Formats("a run is saved as", {".nc": (lambda run, path: to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT"), _read_netcdf), ".csv": (_write_csv, _read_csv)})
 """What writes and what reads each kind of file."""

@@ -17,7 +17,6 @@ from freebody.views.scene import Scene, of_run
 from freebody.views.style import axes, colour, quiet
 
 if TYPE_CHECKING:
-    from matplotlib.animation import AbstractMovieWriter
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -48,21 +47,13 @@ def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
     return np.unique(run.t[np.abs(run.t[:, None] - times).argmin(axis=0)])
 
 
-def _write_gif(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
-    from matplotlib.animation import PillowWriter
+def _write_film(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
+    from matplotlib.animation import FFMpegWriter, PillowWriter
 
-    return _filmed(PillowWriter(fps=fps), path, figure, frames)
-
-
-def _write_mp4(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
-    from matplotlib.animation import FFMpegWriter
-
-    if not shutil.which("ffmpeg"):
+    gif = path.suffix == ".gif"
+    if not gif and not shutil.which("ffmpeg"):
         raise RuntimeError("an MP4 needs the program ffmpeg, which is not on PATH; a .gif needs nothing more")
-    return _filmed(FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"]), path, figure, frames)
-
-
-def _filmed(writer: AbstractMovieWriter, path: Path, figure: Figure, frames: Iterator[None]) -> Path:
+    writer = PillowWriter(fps=fps) if gif else FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"])
     with writer.saving(figure, str(path), dpi=110):
         for _ in frames:
             writer.grab_frame()
@@ -77,7 +68,7 @@ def _write_frames(path: Path, figure: Figure, frames: Iterator[None], count: int
     return names[0]
 
 
-FORMATS = Formats("an animation is", {".gif": _write_gif, ".mp4": _write_mp4, ".svg": _write_frames})
+FORMATS = Formats("an animation is", {".gif": _write_film, ".mp4": _write_film, ".svg": _write_frames})
 
 
 def _canvas(scene: Scene) -> Axes:
@@ -94,9 +85,12 @@ def _canvas(scene: Scene) -> Axes:
 
 def _frames(scene: Scene, ax: Axes, lasting: float) -> Iterator[None]:
     """Draw frame by frame on the same axes; an impact is seen for ``lasting`` s."""
-    at = scene.points()
-    paths = [np.array([scene.place(at[n][0], np.array([at[n][1]]), k)[0] for k in range(len(scene.t))]) for n in scene.traces]
-    lines = [ax.plot([], [], color=colour(at[n][0] - 1), lw=1.2, alpha=0.7, zorder=1.5)[0] for n in scene.traces]
+    paths, lines = [], []
+    for name in scene.traces:
+        i = next(i for i, figure in enumerate(scene.figures) if name in figure.points)
+        point = np.array([scene.figures[i].points[name]])
+        paths.append(np.array([scene.place(i, point, k)[0] for k in range(len(scene.t))]))
+        lines += ax.plot([], [], color=colour(i - 1), lw=1.2, alpha=0.7, zorder=1.5)
     clock = ax.text(0.01, 0.99, "", transform=ax.transAxes, va="top", fontsize=10)
     shown: list[Artist] = []
     for k, t in enumerate(scene.t):

@@ -29,8 +29,14 @@ def draw_contacts(sketch: Sketch) -> None:
         [(kind, shape)] = json.loads(text).items()
         if kind == "line":
             _draw_line(sketch, shape, others)
+        elif kind == "circle" and (shape.get("ends") or shape.get("hollow")):
+            body, at = sketch.at[shape["centre"]]
+            start, end = (sketch.number(angle) for angle in shape.get("ends") or (0.0, 2 * np.pi))
+            # What is solid lies on the right as one goes along it.
+            way = np.linspace(start, end, 121) if shape.get("hollow") else np.linspace(end, start, 121)
+            sketch.hatched(body, at + sketch.number(shape["radius"]) * np.column_stack([np.cos(way), np.sin(way)]))
         elif kind == "circle":
-            _draw_circle(sketch, shape)
+            sketch.wheel(shape, _solid(sketch.at[shape["centre"]][0]))
         elif kind == "track":
             sketch.hatched(sketch.at[shape["start"]][0], _track(sketch, shape))
         elif kind in ("polyline", "polygon") and all(name in sketch.at for name in shape):
@@ -80,17 +86,6 @@ def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, flo
     owner = sketch.owners[name]
     far = max((float(np.hypot(*stroke.points.T).max()) for stroke in sketch.figures[owner].strokes), default=0.0)
     return sketch.seen_from(seen_from, f"{owner}.origin"), far
-
-
-def _draw_circle(sketch: Sketch, circle: Surface) -> None:
-    body, at = sketch.at[circle["centre"]]
-    if not circle.get("ends") and not circle.get("hollow"):
-        sketch.wheel(circle, _solid(body))
-        return
-    start, end = (sketch.number(angle) for angle in circle.get("ends") or (0.0, 2 * np.pi))
-    # What is solid lies on the right as one goes along it.
-    way = np.linspace(start, end, 121) if circle.get("hollow") else np.linspace(end, start, 121)
-    sketch.hatched(body, at + sketch.number(circle["radius"]) * np.column_stack([np.cos(way), np.sin(way)]))
 
 
 def _solid(body: str) -> str:

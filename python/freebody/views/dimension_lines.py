@@ -50,8 +50,8 @@ class _Asked:
     second: str
     word: str
     dimension: str
-    sense: int
     value: float
+    sense: int = 1
 
 
 def dimension_lines(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
@@ -102,19 +102,18 @@ def _asked(sketch: Sketch) -> Iterator[_Asked]:
         joint = stated.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
         name = coordinate["name"]
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
-        yield _Asked(name, joint, first, second, coordinate["word"], coordinate["dimension"], given.get("sense", 1), float(value))
+        yield _Asked(name, joint, first, second, coordinate["word"], coordinate["dimension"], float(value), given.get("sense", 1))
 
 
 def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
     for body in sketch.spec["bodies"]:
         name = body["name"]
         joint = {"type": "free", "with": {"of": [f"{GROUND}.O", f"{name}.G"]}}
-        x, y = sketch.place(f"{name}.G") - sketch.place(f"{GROUND}.O")
-        yield _Asked(f"x_{name}", joint, GROUND, name, "x", "m", 1, float(x))
-        yield _Asked(f"y_{name}", joint, GROUND, name, "y", "m", 1, float(y))
+        place = sketch.place(f"{name}.G") - sketch.place(f"{GROUND}.O")
+        yield from (_Asked(f"{axis}_{name}", joint, GROUND, name, axis, "m", x) for axis, x in zip("xy", place.tolist(), strict=True))
         if not body["particle"]:
             angle = float(sketch.poses[0, sketch.names.index(name), 2])
-            yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", 1, angle)
+            yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", angle)
 
 
 def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> tuple[Array, list[Array]]:

@@ -48,6 +48,13 @@ class _Drawing:
             head = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 11}
             self.ax.annotate("", points[-1], points[-2], arrowprops=head, zorder=4)
 
+    def force(self, vector: Array, at: Array, text: str) -> None:
+        """An arrow of one length that ends where a force acts, unless the force is 0."""
+        if size := float(np.hypot(*vector)):
+            tail = at - vector / size * 6 * self.scene.size
+            self.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
+            self.label(text, tail, _LOAD)
+
     def label(self, text: str, anchor: Array, tone: str = INK, size: float = 9.0, bold: bool = False) -> None:
         """A label, to be placed when everything is drawn."""
         self.labels.append(Label(text.replace("$", r"\$"), np.reshape(anchor, (1, 2)), size, tone, bold))
@@ -137,50 +144,35 @@ def _draw_coordinates(sheet: _Drawing) -> None:
 
 
 def _draw_forces(sheet: _Drawing) -> None:
+    """Given torques and forces; and the force of every contact that carries, as it pushes the body that is not ground."""
     for force in sheet.sketch.spec.get("forces", []):
         fields = force["with"]
         if force["type"] == "torque" and fields["on"] != GROUND:
-            _draw_torque(sheet, force["name"], fields)
+            x, y, _ = sheet.sketch.poses[0, sheet.sketch.names.index(fields["on"])]
+            sense = np.sign(sheet.sketch.number(fields["value"])) or 1.0
+            bow = shapes.arc((x, y), 2.2 * sheet.scene.size, -sense * 0.7, sense * 3.4)
+            sheet.line(bow, _LOAD, arrow=True, lw=1.6)
+            sheet.label(force["name"], bow[-1], _LOAD)
         elif force["type"] == "force":
-            _draw_force(sheet, force["name"], fields)
-    _draw_contact_forces(sheet)
-
-
-def _draw_contact_forces(sheet: _Drawing) -> None:
-    """The force of every contact that carries, as it pushes the body that is not ground at the place where it acts."""
+            sheet.force(_vector(sheet.sketch, fields), sheet.sketch.place(fields["at"]), force["name"])
     for limit in sheet.sketch.limits():
-        if limit.kind != "contact" or limit.at is None or limit.N <= 0:
-            continue
-        force = np.array([limit.Fx, limit.Fy]) * (-1 if limit.first == GROUND else 1)
-        at = np.array(limit.at)
-        tail = at - force / np.hypot(*force) * 6 * sheet.scene.size
-        sheet.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
-        sheet.label(f"{limit.name}: {digits(float(np.hypot(*force)))} N", tail, _LOAD)
+        if limit.kind == "contact" and limit.at is not None and limit.N > 0:
+            vector = np.array([limit.Fx, limit.Fy]) * (-1 if limit.first == GROUND else 1)
+            sheet.force(vector, np.array(limit.at), f"{limit.name}: {digits(float(np.hypot(*vector)))} N")
 
 
-def _draw_torque(sheet: _Drawing, name: str, fields: Mapping[str, Any]) -> None:
-    x, y, _ = sheet.sketch.poses[0, sheet.sketch.names.index(fields["on"])]
-    sense = np.sign(sheet.sketch.number(fields["value"])) or 1.0
-    bow = shapes.arc((x, y), 2.2 * sheet.scene.size, -sense * 0.7, sense * 3.4)
-    sheet.line(bow, _LOAD, arrow=True, lw=1.6)
-    sheet.label(name, bow[-1], _LOAD)
-
-
-def _draw_force(sheet: _Drawing, name: str, fields: Mapping[str, Any]) -> None:
-    number, at = sheet.sketch.number, sheet.sketch.place(fields["at"])
+def _vector(sketch: Sketch, fields: Mapping[str, Any]) -> Array:
+    """A given force (2,) in N, fixed axes."""
+    number = sketch.number
     if fields.get("x") is not None or fields.get("y") is not None:
         vector = np.array([number(fields.get("x") or 0.0), number(fields.get("y") or 0.0)])
     else:
         size, angle = number(fields["value"]), number(fields.get("direction") or 0.0)
         vector = size * np.array([np.cos(angle), np.sin(angle)])
     if fields.get("frame") == "body":
-        body = sheet.sketch.at[fields["at"]][0]
-        vector = shapes.turn(vector[None], float(sheet.sketch.poses[0, sheet.sketch.names.index(body), 2]))[0]
-    length = np.hypot(*vector)
-    if length > 0:
-        tail = at - vector / length * 6 * sheet.scene.size
-        sheet.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
-        sheet.label(name, tail, _LOAD)
+        body = sketch.at[fields["at"]][0]
+        vector = shapes.turn(vector[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
+    return vector
 
 
 def _draw_springs(sheet: _Drawing) -> None:

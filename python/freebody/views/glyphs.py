@@ -41,14 +41,13 @@ def draw_forces(sketch: Sketch) -> None:
         fields = force["with"]
         if "between" not in fields:
             continue
-        width, ends = 0.9 * sketch.size, fields["between"]
-        there = force.get("engaged", True)
+        width, there = 0.9 * sketch.size, force.get("engaged", True)
         spring, damper = force["type"] == "spring", bool(fields.get("damping"))
         apart = 1.3 * sketch.size if spring and damper else 0.0
-        if spring:
-            sketch.pair(force["name"], "spring", ends, [_beside(shapes.zigzag(width), apart)], there)
-        if damper:
-            sketch.pair(force["name"], "damper", ends, [_beside(line, -apart) for line in shapes.dashpot(width)], there)
+        looks = {"spring": [_beside(shapes.zigzag(width), apart)]} if spring else {}
+        looks |= {"damper": [_beside(line, -apart) for line in shapes.dashpot(width)]} if damper else {}
+        for kind, lines in looks.items():
+            sketch.pair(force["name"], kind, fields["between"], lines, there)
 
 
 def _beside(line: Array, across: float) -> Array:
@@ -67,10 +66,9 @@ def _hinge(sketch: Sketch, name: str, fields: Fields) -> None:
 
 def _support(sketch: Sketch, at: Array) -> None:
     """A bearing block standing on hatched ground."""
-    s, ground = sketch.size, sketch.figures[GROUND]
+    s = sketch.size
     feet = at + np.array([[-1.1 * s, -2.0 * s], [1.1 * s, -2.0 * s]])
-    tent = np.vstack([feet[0], shapes.arc(at, 0.9 * s, np.pi, 0.0), feet[1]])
-    ground.add(tent, "block")
+    sketch.figures[GROUND].add(np.vstack([feet[0], shapes.arc(at, 0.9 * s, np.pi, 0.0), feet[1]]), "block")
     sketch.hatched(GROUND, at + np.array([[-1.9 * s, -2.0 * s], [1.9 * s, -2.0 * s]]))
 
 
@@ -114,27 +112,19 @@ def _slot(sketch: Sketch, name: str, fields: Fields) -> None:
     sketch.pin(fields["point"], 0.45)
 
 
-def _curved_slot(sketch: Sketch, name: str, fields: Fields) -> None:
-    _curve(sketch, name, fields["along"])
-    sketch.pin(fields["point"], 0.45)
-
-
-def _cam(sketch: Sketch, name: str, fields: Fields) -> None:
-    _curve(sketch, name, fields["along"])
-    sketch.wheel(fields["follower"], "block")
-
-
-def _curve(sketch: Sketch, joint: str, name: str) -> None:
-    """The stretch of a curve that the motion runs along, and a little more at both ends."""
-    curve = next((c for c in sketch.spec.get("curves", []) if c["name"] == name), None)
-    metadata = next(j for j in sketch.metadata["joints"] if j["name"] == joint)
-    if curve is None or not metadata["coordinates"]:
-        return
-    start, end = sketch.travel(metadata["coordinates"][0])
-    near = points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
-    margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
-    points = points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
-    sketch.figures[curve["body"]].add(points, "rail", closed=False)
+def _curve(sketch: Sketch, name: str, fields: Fields) -> None:
+    """The stretch of a curve that the motion runs along, and a little more at both ends, with the pin or follower on it."""
+    curve = next(c for c in sketch.spec["curves"] if c["name"] == fields["along"])
+    if coordinates := next(j for j in sketch.metadata["joints"] if j["name"] == name)["coordinates"]:
+        start, end = sketch.travel(coordinates[0])
+        near = points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
+        margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
+        points = points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
+        sketch.figures[curve["body"]].add(points, "rail", closed=False)
+    if "follower" in fields:
+        sketch.wheel(fields["follower"], "block")
+    else:
+        sketch.pin(fields["point"], 0.45)
 
 
 def points_of_curve(sketch: Sketch, curve: Mapping[str, Any], parameter: Array) -> Array:
@@ -195,8 +185,8 @@ GLYPHS: dict[str, Callable[[Sketch, str, Fields], None]] = {
     "block": _slider,
     "rollers": _rollers,
     "slot": _slot,
-    "curve": _curved_slot,
-    "follower": _cam,
+    "curve": _curve,
+    "follower": _curve,
     "link": _link,
     "wheel": _rolling,
     "wheels": _rolling_circles,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import Array
-from freebody.impact.impacts import Impact, impacts
+from freebody.impact.impacts import impacts
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -48,12 +48,11 @@ def impact_markers(run: Run) -> list[ImpactMarker]:
         sizes = impact.change.impulses.sizes if impact.change.impulses else {}
         struck += [(impact, name, size) for name, size in sizes.items() if name in impact.change.of]
     largest = max((size for _, _, size in struck), default=0.0)
-    seen = [(impact, name, size) for impact, name, size in struck if size > _FAINT * largest]
-    places = ((impact.change.t, _place(impact, name), size) for impact, name, size in seen)
-    return [ImpactMarker(t, at, float(np.sqrt(size / largest))) for t, at, size in places if at is not None]
-
-
-def _place(impact: Impact, name: str) -> tuple[float, float] | None:
-    """Where the load of a contact, string or stop takes hold, in the middle of its places on what is struck."""
-    places = [part.point for load in impact.free.loads if load.name == name for part in load.on if not part.idle]
-    return None if not places else (float(np.mean([x for x, _ in places])), float(np.mean([y for _, y in places])))
+    made = []
+    for impact, name, size in struck:
+        if size > _FAINT * largest:
+            places = [part.point for load in impact.free.loads if load.name == name for part in load.on if not part.idle]
+            if places:  # in the middle of those where the load of a contact, string or stop acts
+                x, y = np.mean(places, axis=0).tolist()
+                made.append(ImpactMarker(impact.change.t, (x, y), float(np.sqrt(size / largest))))
+    return made

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
-from functools import wraps
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -23,20 +22,8 @@ _MEASURED = {"rad": "angle", "m": "length", "rad/s": "angular velocity", "m/s": 
              "W": "power"}  # fmt: skip
 """What is measured in a unit, for the axis of several curves."""
 
-P = ParamSpec("P")
-R = TypeVar("R")
 
-
-def _styled(plot: Callable[P, R]) -> Callable[P, R]:
-    @wraps(plot)
-    def inner(*args: P.args, **kwargs: P.kwargs) -> R:
-        with quiet():
-            return plot(*args, **kwargs)
-
-    return inner
-
-
-@_styled
+@quiet()
 def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
     """Columns or expressions over time; without names, the coordinates.
 
@@ -70,7 +57,7 @@ def phase(run: Run, name: str, rate: str | None = None, ax: Axes | None = None) 
     return against(run, name, rate or f"rate({name})", ax)
 
 
-@_styled
+@quiet()
 def against(run: Run, x: str, y: str, ax: Axes | None = None) -> Axes:
     """One quantity against another."""
     ax = axes(ax, (5.2, 4.4))
@@ -82,7 +69,7 @@ def against(run: Run, x: str, y: str, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@_styled
+@quiet()
 def polar(run: Run, angle: str, radius: str, ax: Axes | None = None) -> Axes:
     """A quantity over an angle, in polar axes."""
     if ax is None:
@@ -94,7 +81,7 @@ def polar(run: Run, angle: str, radius: str, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@_styled
+@quiet()
 def paths(run: Run, *points: str, ax: Axes | None = None) -> Axes:
     """Paths of points in the plane; without names, those at which nothing is joined."""
     from freebody.views.scene import of_run
@@ -110,7 +97,7 @@ def paths(run: Run, *points: str, ax: Axes | None = None) -> Axes:
     return ax
 
 
-@_styled
+@quiet()
 def energy(run: Run, ax: Axes | None = None) -> Axes:
     """The energy ledger: what is stored, what was put in, and (in the title) how well the books close."""
     run = refined_at_jumps(run)
@@ -120,14 +107,22 @@ def energy(run: Run, ax: Axes | None = None) -> Axes:
     return _over_time(run, drawn, "energy  [J]", f"balance within {np.abs(ledger.balance).max():.1e} J", ax)
 
 
-@_styled
+@quiet()
 def reactions(run: Run, *names: str, part: str = "size", ax: Axes | None = None) -> Axes:
     """A part of the reactions of joints over time (``Fx``, ``Fy``, ``M``, ``size``), and the forces of contacts, strings and
     stops; indeterminate ones are named, not drawn. Without names, all that can carry a load."""
     run = refined_at_jumps(run)
     shown = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *limit_forces(run)]
     silent = [name for name in shown if name in run.reactions and not run.reactions[name].determinate]
-    drawn = [(name, values, "-") for name, values in _forces(run, shown, part)]
+    limits = limit_forces(run)
+    drawn: list[tuple[str, Array, str]] = []
+    for name in shown:
+        if name not in limits:
+            drawn += [] if name in silent else [(name, getattr(run.reactions[name], part), "-")]
+        elif part == "size":
+            drawn += [(text, values, "-") for text, values in limits[name].items()]
+        elif part != "M":
+            drawn.append((name, run[f"{quote(name)}.{part}"], "-"))
     title = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
     return _over_time(run, drawn, "couple  [N·m]" if part == "M" else "force  [N]", title, ax)
 
@@ -143,19 +138,6 @@ def _over_time(run: Run, curves: Sequence[tuple[str, Array, str]], what: str, ti
         ax.set_title(title, fontsize=10, color=GROUND, pad=16)
     _legend(ax)
     return ax
-
-
-def _forces(run: Run, names: Sequence[str], part: str) -> Iterator[tuple[str, Array]]:
-    """The curves of ``reactions``: name and values."""
-    limits = limit_forces(run)
-    for name in names:
-        if name not in limits:
-            if run.reactions[name].determinate:
-                yield name, getattr(run.reactions[name], part)
-        elif part == "size":
-            yield from limits[name].items()
-        elif part != "M":
-            yield name, run[f"{quote(name)}.{part}"]
 
 
 def limit_forces(run: Run) -> dict[str, dict[str, Array]]:
@@ -192,7 +174,7 @@ def gaps(run: Run) -> Callable[..., Array]:
     return insert
 
 
-@_styled
+@quiet()
 def overlay(a: Run, b: Run, names: Sequence[str], ax: Axes | None = None) -> Axes:
     """Columns of two runs over time, the second dashed."""
     ax = axes(ax)
@@ -239,11 +221,8 @@ def _mark_events(run: Run, ax: Axes) -> None:
 
 
 def _legend(ax: Axes, *others: Axes, needed: bool = True) -> None:
-    """A legend above or beside the curves, never on them."""
-    pairs: list[tuple[Any, str]] = [
-        pair for side in (ax, *others) for pair in zip(*side.get_legend_handles_labels(), strict=True)
-    ]
+    """A legend beside the curves, never on them."""
+    pairs: list[Any] = [pair for side in (ax, *others) for pair in zip(*side.get_legend_handles_labels(), strict=True)]
     if needed and pairs:
         handles, labels = zip(*pairs, strict=True)
-        beside = 1.14 if others else 1.01
-        ax.legend(handles, labels, loc="upper left", bbox_to_anchor=(beside, 1.0), borderaxespad=0.0)
+        ax.legend(handles, labels, loc="upper left", bbox_to_anchor=(1.14 if others else 1.01, 1.0), borderaxespad=0.0)

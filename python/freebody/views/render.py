@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from freebody.views.scene import Scene
-from freebody.views.style import GROUND, IMPACT, INK, PAPER, colour
+from numpy.typing import ArrayLike
+
+from freebody.views.scene import Drawn, Scene
+from freebody.views.style import GROUND, IMPACT, INK, PAPER
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -17,12 +19,7 @@ ORDER = ("hatch", "dash", "band", "body", "rail", "block", "mark", "slot", "mass
 
 def render(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
     """Draw one frame; returns what was added."""
-    artists: list[Artist] = []
-    for i, figure in enumerate(scene.figures):
-        tint = GROUND if i == 0 else colour(i - 1)
-        for stroke in (s for s in figure.strokes if s.is_there(frame)):
-            points = scene.place(i, stroke.points, frame)
-            artists.append(ax.add_patch(patch(stroke.style, points, tint, stroke.closed)))
+    artists: list[Artist] = [ax.add_patch(patch(stroke)) for stroke in scene.strokes(frame)]
     for pair in scene.pairs:
         for line in scene.pair_lines(pair, frame):
             artists += ax.plot(*line.T, color=INK, lw=1.3, zorder=2.37, solid_joinstyle="round")
@@ -43,11 +40,12 @@ def render_markers(scene: Scene, ax: Axes, t: float, lasting: float) -> list[Art
     return artists
 
 
-def patch(style: str, points: Any, tint: str, closed: bool = True) -> Any:
-    """A stroke where its points (k, 2) are on the axes; ``tint`` is the colour of its body."""
+def patch(stroke: Drawn, shift: ArrayLike = (0.0, 0.0)) -> Any:
+    """A stroke on the axes, moved by a ``shift``."""
     from matplotlib.patches import Polygon
 
-    return Polygon(points, closed=closed, zorder=2 + 0.05 * ORDER.index(style), joinstyle="round", **_look(style, tint))
+    order, look = 2 + 0.05 * ORDER.index(stroke.style), _look(stroke.style, stroke.tint)
+    return Polygon(stroke.points + shift, closed=stroke.closed, zorder=order, joinstyle="round", **look)
 
 
 def _look(style: str, tint: str) -> dict[str, Any]:

@@ -5,7 +5,7 @@ Matplotlib and the browser draw the same scene.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -18,11 +18,29 @@ from freebody.views.contact_glyphs import draw_contacts, draw_strings
 from freebody.views.glyphs import draw_forces, draw_joints
 from freebody.views.impact_markers import LASTING, ImpactMarker, impact_markers
 from freebody.views.sketch import Cord, Figure, Pair, Sketch, Stroke, named_points
+from freebody.views.style import GROUND as GREY
+from freebody.views.style import colour
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
 _OWN_POINTS = ("origin", "G", "centre", "start")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A stroke where its body is, points (k, 2); ``tint`` and ``body``: colour and name of its body."""
+
+    style: str
+    points: Array
+    tint: str
+    closed: bool
+    body: str
+
+    @property
+    def line(self) -> Array:
+        """Its polyline (k, 2), back to the first point where it is closed."""
+        return np.vstack([self.points, self.points[:1]]) if self.closed else self.points
 
 
 @dataclass(frozen=True)
@@ -58,17 +76,18 @@ class Scene:
         """Everything that is drawn at a time, as polylines in the fixed axes; of a small solid mass, the inside as well."""
         found = [line for pair in self.pairs for line in self.pair_lines(pair, frame)]
         found += [cord.path[frame] for cord in self.cords if cord.shown[frame]]
-        for i, figure in enumerate(self.figures):
-            for stroke in (s for s in figure.strokes if s.is_there(frame)):
-                points = self.place(i, stroke.points, frame)
-                line = np.vstack([points, points[:1]]) if stroke.closed else points
-                inside = (0.7, 0.4) if stroke.style == "mass" else ()
-                found += [line, *(line.mean(axis=0) + part * (line - line.mean(axis=0)) for part in inside)]
+        for stroke in self.strokes(frame):
+            line, inside = stroke.line, (0.7, 0.4) if stroke.style == "mass" else ()
+            found += [line, *(line.mean(axis=0) + part * (line - line.mean(axis=0)) for part in inside)]
         return found
 
-    def points(self) -> dict[str, tuple[int, tuple[float, float]]]:
-        """Named points: figure and place in its frame."""
-        return {name: (i, at) for i, figure in enumerate(self.figures) for name, at in figure.points.items()}
+    def strokes(self, frame: int = 0) -> Iterator[Drawn]:
+        """The strokes of all figures in the fixed axes."""
+        for i, figure in enumerate(self.figures):
+            for each in figure.strokes:
+                if each.shown is None or each.shown[frame]:
+                    tint = colour(i - 1) if i else GREY
+                    yield Drawn(each.style, self.place(i, each.points, frame), tint, each.closed, figure.name)
 
     def bounds(self) -> tuple[float, float, float, float]:
         """x from, x to, y from, y to: a box about everything that is drawn at any time."""
@@ -87,40 +106,31 @@ class Scene:
         """The scene for the browser, figures rounded to what a screen can show."""
         digits = 3 - int(np.floor(np.log10(self.size)))
         places = np.concatenate([self.poses[..., :2].round(digits), self.poses[..., 2:].round(5)], axis=2)
-        at = self.points()
+        at = {name: (i, place) for i, figure in enumerate(self.figures) for name, place in figure.points.items()}
+
+        def short(values: Any) -> Any:
+            return values.round(digits).tolist() if isinstance(values, np.ndarray) else values
+
+        def item(each: Stroke | Pair | Cord, **stated: Any) -> dict[str, Any]:
+            sometimes = {} if each.shown is None or each.shown.all() else {"shown": each.shown.tolist()}
+            return {key: short(value) for key, value in stated.items()} | sometimes
+
         return {
             "size": self.size,
             "bounds": self.bounds(),
             "t": self.t.tolist(),
             "poses": places.reshape(len(self.t), -1).tolist(),
             "figures": [
-                {
-                    "name": figure.name,
-                    "strokes": [
-                        {"points": s.points.round(digits).tolist(), "style": s.style, "closed": s.closed, **_shown(s)}
-                        for s in figure.strokes
-                    ],
-                }
-                for figure in self.figures
+                {"name": f.name, "strokes": [item(s, points=s.points, style=s.style, closed=s.closed) for s in f.strokes]}
+                for f in self.figures
             ],
-            "pairs": [
-                {"kind": p.kind, "ends": p.ends, "lines": [line.round(max(digits, 4)).tolist() for line in p.lines], **_shown(p)}
-                for p in self.pairs
-            ],
-            "cords": [
-                {"path": c.path.reshape(len(self.t), -1).round(digits).tolist(), "taut": c.taut.tolist(), **_shown(c)}
-                for c in self.cords
-            ],
+            "pairs": [item(p, kind=p.kind, ends=p.ends, lines=[line.round(max(digits, 4)).tolist() for line in p.lines])
+                      for p in self.pairs],
+            "cords": [item(c, path=c.path.reshape(len(self.t), -1), taut=c.taut.tolist()) for c in self.cords],
             "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
-            "flashes": [
-                {"t": marker.t, "rays": marker.rays(self.spark).round(digits).tolist()} for marker in self.impact_markers
-            ],
+            "flashes": [{"t": each.t, "rays": short(each.rays(self.spark))} for each in self.impact_markers],
             "lasting": LASTING,
-        }
-
-
-def _shown(item: Stroke | Pair | Cord) -> dict[str, Any]:
-    return {} if item.shown is None or item.shown.all() else {"shown": item.shown.tolist()}
+        }  # fmt: skip
 
 
 def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Sequence[str] | None = None) -> Scene:
@@ -151,7 +161,12 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     if outline == "none":
         return
     if outline is not None:
-        named = np.array([_corner(sketch, body["name"], corner) for corner in outline])
+        # A corner is two numbers or a point, with or without its body's name.
+        named = np.array([
+            [sketch.number(x) for x in corner] if not isinstance(corner, str)
+            else sketch.at[corner if corner in sketch.at else f"{body['name']}.{corner}"][1]
+            for corner in outline
+        ])  # fmt: skip
         figure.add(named if len(named) > 2 else shapes.rounded_hull(named, thickness), "body")
         return
     for piece in body["pieces"]:
@@ -166,13 +181,6 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         _reach_out(figure, own, thickness)
     else:
         figure.add(shapes.rounded_hull(own, thickness), "body")
-
-
-def _corner(sketch: Sketch, body: str, corner: str | Sequence[float | str]) -> Array:
-    """Place (2,) of a corner of an outline, which may be a point with or without its body's name, in the body's frame."""
-    if isinstance(corner, str):
-        return sketch.at[corner if corner in sketch.at else f"{body}.{corner}"][1]
-    return np.array([sketch.number(x) for x in corner])
 
 
 def _reach_out(figure: Figure, points: Array, thickness: float) -> None:

@@ -34,10 +34,6 @@ class Stroke:
     closed: bool = True
     shown: Array | None = None
 
-    def is_there(self, frame: int) -> bool:
-        """Whether it is drawn."""
-        return self.shown is None or bool(self.shown[frame])
-
 
 @dataclass(frozen=True)
 class Figure:
@@ -156,12 +152,10 @@ class Sketch:
     def seen_from(self, body: str, name: str) -> Array:
         """The path (nt, 2) of a named point in the frame of a body."""
         owner, at = self.at[name]
-        x, y, angle = self.poses[:, self.names.index(owner)].T
-        c, s = np.cos(angle), np.sin(angle)
-        px, py = x + at[0] * c - at[1] * s, y + at[0] * s + at[1] * c
-        x, y, angle = self.poses[:, self.names.index(body)].T
-        c, s = np.cos(angle), np.sin(angle)
-        return np.column_stack([c * (px - x) + s * (py - y), c * (py - y) - s * (px - x)])
+        own, other = (self.poses[:, self.names.index(each)].T for each in (owner, body))
+        place = own[0] + 1j * own[1] + complex(*at) * np.exp(1j * own[2])
+        seen = (place - other[0] - 1j * other[1]) * np.exp(-1j * other[2])
+        return np.column_stack([seen.real, seen.imag])
 
     def pair(self, name: str, kind: str, ends: Sequence[str], lines: list[Array], engaged: bool = True) -> None:
         """Something stretched between two named points, as long as it is there."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -22,8 +23,9 @@ def colour(i: int) -> str:
     return PALETTE[i % len(PALETTE)]
 
 
-def quiet() -> AbstractContextManager[None]:
-    """Matplotlib settings for a plot, in force within a ``with``."""
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Matplotlib settings for a plot, in force within a ``with``; as a decorator, in a function."""
     import matplotlib
 
     settings: Any = {
@@ -46,7 +48,8 @@ def quiet() -> AbstractContextManager[None]:
         "mathtext.fontset": "dejavusans",
         "legend.frameon": False,
     }
-    return matplotlib.rc_context(settings)
+    with matplotlib.rc_context(settings):
+        yield
 
 
 def axes(ax: Axes | None, size: tuple[float, float] = (7.2, 4.0)) -> Axes:

@@ -36,7 +36,7 @@ _STARTS = {"place_x": "x", "place_y": "y", "angle": "phi", "x": "x", "y": "y", "
 
 def constrained(subject: SymbolicState) -> tuple[Form, Letters]:
     """The form of a subject, and its letters: the places of the bodies are the coordinates here."""
-    from freebody.views.diagram.configuration import Places
+    from freebody.views.diagram.configuration import Configuration
 
     [stated] = subject.ask([{"ask": "constraints"}])
     names, rows = stated["coordinates"], list(map(Row.read, stated["rows"]))
@@ -47,7 +47,7 @@ def constrained(subject: SymbolicState) -> tuple[Form, Letters]:
     letters = _letters(names, subject)
     form = Form.of(letters, equations + loop_closure.printed(rows))
     made: list[Block] = [Heading("Coordinates"), Paragraph(_INTRODUCTION.format(len(names)))]
-    made.append(Figure(Places(subject.source, subject.state), _CAPTION, "sketch"))
+    made.append(Figure(Configuration(subject.source, subject.state, each_body=True), _CAPTION, "sketch"))
     made += loop_closure.section(rows, names, everywhere=True) if rows else []
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]

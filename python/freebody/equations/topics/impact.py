@@ -65,7 +65,7 @@ def impact(
 
 
 def _what(found: Impact) -> list[Block]:
-    from freebody.views.diagram.impulses import Impulses
+    from freebody.views.diagram.impulses import impulse_diagram
 
     said = "During the short impact the configuration does not change, and the velocities jump. Impulses are the integrals of forces over it."
     if found.subject.blow.given:
@@ -76,8 +76,7 @@ def _what(found: Impact) -> list[Block]:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
         items: list[Words] = [[found.letter(load), f", {_named(found, load, body)}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
-    drawn = Impulses(f"blow of {found.subject.source.name}", found.subject.blow)
-    made.append(Figure(drawn, "Impulses, and the jumps of momentum.", "impulses"))
+    made.append(Figure(impulse_diagram(found.subject.blow), "Impulses, and the jumps of momentum.", "impulses"))
     missing = found.subject.blow.absent()
     return [*made, Paragraph("No impulse comes from:"), Bullets(missing)] if missing else made
 

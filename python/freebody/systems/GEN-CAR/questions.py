@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.catalogue import Answer, ask
-from freebody.catalogue.formulas import formula
+from freebody.catalogue.answers import formula
 from freebody.catalogue.reference import motion
 from freebody.equations import Sym
 from freebody.systems._linkages import cross, dot

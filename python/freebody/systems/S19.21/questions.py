@@ -6,7 +6,7 @@ forces follow from linear momentum. See ``_linkages.py``.
 """
 
 from freebody.catalogue import Answer, ask
-from freebody.catalogue.formulas import formula
+from freebody.catalogue.answers import formula
 from freebody.equations import Sym
 from freebody.systems._linkages import FourBar, nearest_turn
 

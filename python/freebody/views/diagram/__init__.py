@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,6 @@ from freebody.solve.symbols import Naming
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
-from freebody.views.diagram.describe import described
 from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.names import Labels
 from freebody.views.diagram.panel import Panel
@@ -47,11 +47,16 @@ class Cut:
 
 @dataclass(frozen=True)
 class Diagram(Picture):
-    """Free-body diagrams on one sheet, one cut below the other."""
+    """Free-body diagrams on one sheet, one cut below the other, drawn when they are asked for."""
 
     name: str
-    cuts: tuple[Cut, ...]
     free: FreeBodies
+    draw: Callable[[], Iterable[Cut]]
+
+    @cached_property
+    def cuts(self) -> tuple[Cut, ...]:
+        """The diagrams."""
+        return tuple(self.draw())
 
     @property
     def data(self) -> list[dict[str, Any]]:
@@ -71,7 +76,11 @@ class Diagram(Picture):
     @property
     def description(self) -> str:
         """In words, what the diagrams show."""
-        return " ".join(described(cut.group, [mark.action for mark in cut.forces]) for cut in self.cuts)
+        made = []
+        for cut in self.cuts:
+            stated = [f"{mark.action.sign.plain} {mark.action.way} on {mark.action.body}" for mark in cut.forces]
+            made.append(f"On {' and '.join(cut.group)} {'act: ' if stated else 'nothing acts'}{'; '.join(stated)}.")
+        return " ".join(made)
 
 
 def diagram(
@@ -89,7 +98,7 @@ def diagram(
     laws = None if scaled else Laws(source, state, free)
     builder = DiagramBuilder(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective, column, laws)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
-    return Diagram(f"free-body diagrams of {source.name}", tuple(builder.cut(group) for group in chosen), free)
+    return Diagram(f"free-body diagrams of {source.name}", free, lambda: map(builder.cut, chosen))
 
 
 @dataclass(frozen=True)
@@ -122,7 +131,7 @@ class DiagramBuilder:
         if per_newton is not None:
             short = [a.sign.plain for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
-        loaded, bare = drawn.loaded() if crowd else drawn, drawn.bare()
+        loaded, bare = replace(drawn, dimensions=[]) if crowd else drawn, drawn.bare()
         panels = [Panel(loaded, arranged(forces, loaded, per_newton), group if len(group) > 1 else (), oriented=True)]
         if terms:
             panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))

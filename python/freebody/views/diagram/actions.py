@@ -19,6 +19,8 @@ _NOTHING = 1e-30
 """N and N·m: what is left of nothing where everything else is nothing, too."""
 _ACROSS = 50.0
 """Sizes of symbols in a mechanism: how far a force may be from where its moment is taken."""
+_WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to the left", "down and to the left", "down",
+         "down and to the right")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,13 @@ class Action:
     def size(self) -> float:
         """In N or N·m, to scale."""
         return abs(self.couple) if self.turns else float(np.hypot(*self.force))
+
+    @property
+    def way(self) -> str:
+        """Its direction in words."""
+        if self.turns:
+            return "counter-clockwise" if self.couple > 0 else "clockwise"
+        return _WAYS[round(float(np.arctan2(*self.force[::-1])) / (np.pi / 4)) % 8]
 
 
 def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels: Labels, sketch: Sketch) -> Iterator[Action]:

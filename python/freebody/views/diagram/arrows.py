@@ -85,9 +85,8 @@ def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | No
         if all(new is old for new, old in zip(chosen, before, strict=True)):
             break
     marks: list[Mark] = [arrow for arrow in chosen if arrow is not None]
-    for action in actions:
-        if action.turns:
-            marks.append(_bow(action, scenery, marks))
+    for action in (each for each in actions if each.turns):
+        marks.append(_bow(action, scenery, marks))
     return marks
 
 
@@ -165,12 +164,8 @@ def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow
             for gap in _GAPS:
                 start = gap + turn * _OPEN / 2
                 line = shapes.arc(place, radius, start, start + turn * (2 * np.pi - _OPEN))
-                covered = (
-                    5.0 * _near(line[::2], others, 3.5)
-                    + 1.0 * _near(line[::2], obstacles, 2.5)
-                    + 12.0 * _near(line[-2:], others, 7.0)
-                )
-                cost = covered + 5.0 * rank + 0.6 * radius
+                covered = 5.0 * _near(line[::2], others, 3.5) + _near(line[::2], obstacles, 2.5)
+                cost = covered + 12.0 * _near(line[-2:], others, 7.0) + 5.0 * rank + 0.6 * radius
                 if best is None or cost < best[0]:
                     best = cost, CoupleArrow(action, place, line)
     assert best is not None

@@ -16,16 +16,18 @@ from freebody.views.dimension_lines import places
 from freebody.views.sketch import sketch_of_state
 
 _TURNED = 0.2  # rad, below which an angle can hardly be seen
-_MORE = np.array([3.0, 1.9, 2.4])
-_FURTHER = np.array([12.0, 9.0, 15.0])  # sizes of symbols
+_MORE = 3.0, 1.9, 2.4
+_FURTHER = 12.0, 9.0, 15.0  # sizes of symbols
 
 
 @dataclass(frozen=True)
 class Configuration(Picture):
-    """The drawing of a mechanism at a state."""
+    """The drawing of a mechanism at a state, with its coordinates; or, ``each_body``, with those of bodies that are placed each by
+    itself: x and y of the mass centre, and the angle."""
 
     source: CompiledModel
     state: State
+    each_body: bool = False
 
     @property
     def name(self) -> str:
@@ -35,7 +37,11 @@ class Configuration(Picture):
     @cached_property
     def scenery(self) -> Scenery:
         """What is seen, with a dimension for every coordinate."""
-        return whole(self.source, _opened(self.source, self.state))
+        opened = _opened(self.source, self.state)
+        if not self.each_body:
+            return whole(self.source, opened)
+        drawn = whole(self.source, opened, places)
+        return replace(drawn, points=drawn.points + [Tag("", centre) for centre in drawn.centres.values()])
 
     @cached_property
     def rows(self) -> list[Row]:
@@ -46,24 +52,10 @@ class Configuration(Picture):
     @property
     def description(self) -> str:
         """In words, what the drawing shows."""
+        if self.each_body:
+            return f"{self.source.name}, drawn with x and y of each mass centre from the origin O, and the angle of each body."
         stated = [f"{each['name']}, {each['doc'].replace('`', '')}" for each in self.source.metadata["coordinates"]]
         return f"{self.source.name}, drawn with its coordinates: {'; '.join(stated)}."
-
-
-@dataclass(frozen=True)
-class Places(Configuration):
-    """The same with the coordinates of bodies that are placed each by itself: x and y of the mass centre, and the angle."""
-
-    @cached_property
-    def scenery(self) -> Scenery:
-        """What is seen, with a dimension for every coordinate."""
-        drawn = whole(self.source, _opened(self.source, self.state), places)
-        return replace(drawn, points=drawn.points + [Tag("", centre) for centre in drawn.centres.values()])
-
-    @property
-    def description(self) -> str:
-        """In words, what the drawing shows."""
-        return f"{self.source.name}, drawn with x and y of each mass centre from the origin O, and the angle of each body."
 
 
 def _opened(source: CompiledModel, state: State) -> State:
@@ -73,10 +65,7 @@ def _opened(source: CompiledModel, state: State) -> State:
     if coupled or source.metadata["limits"] or any(joint["cut"] for joint in source.metadata["joints"]):
         return state
     size = sketch_of_state(source, state).size
-    least = {"rad": _TURNED, "m": size}
-    away = {"rad": _TURNED * _MORE, "m": size * _FURTHER}
-    q = [
-        float(x) if abs(x) > least.get(c["dimension"], -1.0) else float(away[c["dimension"]][i % 3])
-        for i, (c, x) in enumerate(zip(source.metadata["coordinates"], state.q, strict=True))
-    ]
-    return replace(state, q=np.array(q))
+    dimensions = [c["dimension"] for c in source.metadata["coordinates"]]
+    least = [{"rad": _TURNED, "m": size}.get(each, -1.0) for each in dimensions]
+    away = [_TURNED * _MORE[i % 3] if each == "rad" else size * _FURTHER[i % 3] for i, each in enumerate(dimensions)]
+    return replace(state, q=np.where(np.abs(state.q) > least, state.q, away))

@@ -22,24 +22,18 @@ def write_gallery(models: Iterable[tuple[str, Mechanism]], path: Path) -> Path:
     several; and the impulses of the first impact of each kind in its run. A model whose start has no answer is named with the reason."""
     shown = []
     for i, (heading, mechanism) in enumerate(models):
-        prefix = f"d{i}-"
-        pictures, refusal = _pictures(mechanism, prefix)
+        prefix, drawn, refusal = f"d{i}-", [], ""
+        try:
+            drawn.append(mechanism.diagram())
+            drawn += [mechanism.diagram("all")] if len(drawn[0].cuts) > 1 else []
+        except MotionError as error:
+            refusal = error.what
+        pictures = [each.inline(f"{prefix}{i}") for i, each in enumerate(drawn)]
         struck = list(_impacts(mechanism, f"{prefix}b"))
         place = re.sub(r"\W+", "-", heading).strip("-")
         shown.append({"place": place, "heading": heading, "pictures": pictures, "refusal": refusal, "impacts": struck})
     path.write_text(template(__package__, "gallery.html").render(models=shown), encoding="utf-8")
     return path
-
-
-def _pictures(mechanism: Mechanism, prefix: str) -> tuple[list[str], str]:
-    """The diagrams of a model, or why there are none."""
-    try:
-        drawn = [mechanism.diagram()]
-        if len(drawn[0].cuts) > 1:
-            drawn.append(mechanism.diagram("all"))
-    except MotionError as error:
-        return [], error.what
-    return [each.inline(f"{prefix}{i}") for i, each in enumerate(drawn)], ""
 
 
 def _impacts(mechanism: Mechanism, prefix: str) -> Iterator[dict[str, Any]]:

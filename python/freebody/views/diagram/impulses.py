@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import ClassVar
 
 from freebody.core import FreeBodies
 from freebody.impact.impacts import Impulsive
 from freebody.impact.symbols import ImpulseNaming
-from freebody.views.diagram import Diagram, DiagramBuilder
+from freebody.views.diagram import Cut, Diagram, DiagramBuilder
 from freebody.views.diagram.names import Labels, Sign
-from freebody.views.diagram.picture import Picture
-from freebody.views.diagram.rows import COLUMN, Row
+from freebody.views.diagram.rows import COLUMN
 
 
 @dataclass(frozen=True)
@@ -40,29 +38,6 @@ def _jump(of: Sign) -> Sign:
     return Sign(rf"\Delta{of.latex}", f"Δ{of.plain}")
 
 
-@dataclass(frozen=True)
-class Impulses(Picture):
-    """The impulse diagrams of every body during an impact, drawn when they are asked for."""
-
-    name: str
-    impact: Impulsive
-
-    @cached_property
-    def drawn(self) -> Diagram:
-        """The diagrams."""
-        return impulse_diagram(self.impact)
-
-    @property
-    def rows(self) -> list[Row]:
-        """A row for every body."""
-        return self.drawn.rows
-
-    @property
-    def description(self) -> str:
-        """In words, what acts on each body."""
-        return self.drawn.description
-
-
 def impulse_diagram(
     impact: Impulsive,
     groups: Sequence[Sequence[str]] | None = None,
@@ -75,10 +50,13 @@ def impulse_diagram(
     # A body that no impulse acts on: nothing of its momentum jumps.
     moved = {name: body if free.on(name) else replace(body, mass=0.0, inertia=0.0) for name, body in free.bodies.items()}
     touched = FreeBodies(moved, free.loads)
-    builder = DiagramBuilder(source, impact.state, touched, touched, _Jumps(ImpulseNaming.of(impact)), scaled, effective, column)
-    cuts = []
-    for group in [(name,) for name in free.bodies] if groups is None else map(tuple, groups):
-        cut = builder.cut(group)
-        absent = [f"Absent: {sentence}." for sentence in impact.absent(*group)]
-        cuts.append(replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent])))
-    return Diagram(f"impulse diagrams of {source.name}", tuple(cuts), free)
+
+    def draw() -> Iterator[Cut]:
+        labels = _Jumps(ImpulseNaming.of(impact))
+        builder = DiagramBuilder(source, impact.state, touched, touched, labels, scaled, effective, column)
+        for group in [(name,) for name in free.bodies] if groups is None else map(tuple, groups):
+            cut = builder.cut(group)
+            absent = [f"Absent: {sentence}." for sentence in impact.absent(*group)]
+            yield replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent]))
+
+    return Diagram(f"impulse diagrams of {source.name}", free, draw)

@@ -42,7 +42,7 @@ class Panel:
         """Every letter in its place."""
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
         obstacles = Obstacles.of((self.scenery.obstacles, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
-        return placed([*_letters(self.marks), *_others(self.scenery, self.names)], obstacles)
+        return placed(list(self._wanted()), obstacles)
 
     @cached_property
     def axes(self) -> Array | None:
@@ -59,30 +59,23 @@ class Panel:
     def _arrows(self) -> Array:
         return dense([mark.line for mark in self.marks], 1.5)
 
+    def _wanted(self) -> Iterator[Label]:
+        for mark in self.marks:
+            around = mark.line[[-1, len(mark.line) // 2, 0, -len(mark.line) // 4]]
+            anchors = np.array([mark.free, mark.line.mean(axis=0)]) if isinstance(mark, Arrow) else around
+            yield Label(f"${mathtext(mark.action.label)}$", anchors, 10.0, tone(mark.action))
+        for dimension in self.scenery.dimensions:
+            n = len(dimension.arrow)
+            yield Label(f"${mathtext(dimension.text)}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
+            if dimension.axis is not None:
+                yield Label(f"${mathtext(dimension.axis.text)}$", dimension.axis.at[None], 8.0, MEASURE)
+        for tag in filter(lambda tag: tag.text, self.scenery.points):
+            yield Label(f"${mathtext(tag.text)}$", tag.at[None], 9.0, INK)
+        for name in self.names:
+            yield Label(name.replace("$", r"\$"), self.scenery.centres[name][None], 9.0, GREY, bold=True)
+
     def _inside(self) -> list[Array]:
         return [self.scenery.obstacles, *(mark.line for mark in self.marks), *_corners(self.labels)]
-
-
-def _letters(marks: Sequence[Mark]) -> Iterator[Label]:
-    for mark in marks:
-        text = f"${mathtext(mark.action.label)}$"
-        if isinstance(mark, Arrow):
-            anchors = np.array([mark.free, mark.line.mean(axis=0)])
-        else:
-            anchors = mark.line[[-1, len(mark.line) // 2, 0, -len(mark.line) // 4]]
-        yield Label(text, anchors, 10.0, tone(mark.action))
-
-
-def _others(scenery: Scenery, names: Sequence[str]) -> Iterator[Label]:
-    for dimension in scenery.dimensions:
-        n = len(dimension.arrow)
-        yield Label(f"${mathtext(dimension.text)}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
-        if dimension.axis is not None:
-            yield Label(f"${mathtext(dimension.axis.text)}$", dimension.axis.at[None], 8.0, MEASURE)
-    for tag in filter(lambda tag: tag.text, scenery.points):
-        yield Label(f"${mathtext(tag.text)}$", tag.at[None], 9.0, INK)
-    for name in names:
-        yield Label(name.replace("$", r"\$"), scenery.centres[name][None], 9.0, GREY, bold=True)
 
 
 def _corners(labels: Sequence[Placed]) -> list[Array]:

@@ -81,7 +81,7 @@ def _row(ax: Axes, row: Row, placed: Laid, corner: Array) -> None:
 def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
     scenery = panel.scenery
     for stroke in scenery.strokes:
-        ax.add_patch(patch(stroke.style, stroke.points + shift, stroke.tint, stroke.closed))
+        ax.add_patch(patch(stroke, shift))
     for line in scenery.inner:
         ax.plot(*(line + shift).T, color=INK, lw=1.1, zorder=2.4)
     for dimension in scenery.dimensions:
@@ -96,8 +96,11 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
     for mark in panel.marks:
         _arrow(ax, mark.line + shift, tone(mark.action), 1.3 if isinstance(mark, CoupleArrow) else 1.6, 9.0)
     write(ax, panel.labels, lambda at: at + shift)
-    if panel.axes is not None:
-        _axes(ax, panel.axes + shift)
+    for way, text in () if panel.axes is None else ((np.array([1.0, 0.0]), "$x$"), (np.array([0.0, 1.0]), "$y$")):
+        corner = panel.axes + shift
+        _arrow(ax, np.array([corner, corner + AXES * way]), GREY, 1.0, 7.0)
+        at = corner + (AXES + 7.0) * way
+        ax.text(*at, text, fontsize=9.0, color=GREY, ha="center", va="center", zorder=6, label="label")
 
 
 def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> None:
@@ -107,13 +110,6 @@ def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> Non
     if len(line) > 2:
         ax.plot(*line[:-1].T, color=colour, lw=width, zorder=5, solid_capstyle="butt")
     ax.annotate("", line[-1], line[-2], arrowprops=look, zorder=5)
-
-
-def _axes(ax: Axes, corner: Array) -> None:
-    for way, text in ((np.array([1.0, 0.0]), "$x$"), (np.array([0.0, 1.0]), "$y$")):
-        _arrow(ax, np.array([corner, corner + AXES * way]), GREY, 1.0, 7.0)
-        at = corner + (AXES + 7.0) * way
-        ax.text(*at, text, fontsize=9.0, color=GREY, ha="center", va="center", zorder=6, label="label")
 
 
 def _scale(ax: Axes, per_newton: float, unit: str, corner: Array) -> None:

@@ -64,15 +64,16 @@ def _write_svg(picture: Picture, path: Path) -> None:
     path.write_text(picture.svg(), encoding="utf-8")
 
 
+@quiet()
 def _write_png(picture: Picture, path: Path) -> None:
-    with quiet():
-        picture.figure.savefig(path, dpi=220)
+    picture.figure.savefig(path, dpi=220)
 
 
+@quiet()
 def _write_pages(picture: Picture, path: Path) -> None:
     from matplotlib.backends.backend_pdf import PdfPages
 
-    with quiet(), PdfPages(path) as pages:
+    with PdfPages(path) as pages:
         for rows in parted(picture.rows):
             pages.savefig(sheet(rows))
 

@@ -16,10 +16,8 @@ from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import letter
 from freebody.views.dimension_lines import DimensionLine, dimension_lines
 from freebody.views.draw import UNNAMED
-from freebody.views.scene import Scene, drawn
+from freebody.views.scene import Drawn, Scene, drawn
 from freebody.views.sketch import Sketch, sketch_of_state
-from freebody.views.style import GROUND as GREY
-from freebody.views.style import colour
 
 SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
 _ROOM = 130.0, 115.0  # pt, what a single body may take
@@ -39,17 +37,6 @@ _SOLID = ("body", "block", "band", "mass")
 _CUT = ("pin", "weld")
 Dimensioned: TypeAlias = Callable[[Sketch, float], Iterable[DimensionLine]]
 """What finds coordinates to draw in a sketch; the number is the radius of arcs in sizes of symbols."""
-
-
-@dataclass(frozen=True)
-class Drawn:
-    """A stroke on paper: style of ``Stroke``, points (k, 2), colour and name of its body."""
-
-    style: str
-    points: Array
-    tint: str
-    closed: bool
-    body: str
 
 
 @dataclass(frozen=True)
@@ -91,11 +78,7 @@ class Scenery:
 
     def bare(self) -> Scenery:
         """The same without coordinates and points other than mass centres."""
-        return replace(self.loaded(), points=[tag for tag in self.points if tag.text == "G"])
-
-    def loaded(self) -> Scenery:
-        """The same without coordinates, with room for loads."""
-        return replace(self, dimensions=[])
+        return replace(self, dimensions=[], points=[tag for tag in self.points if tag.text == "G"])
 
     @property
     def solids(self) -> list[Array]:
@@ -114,18 +97,8 @@ class Scenery:
     @cached_property
     def obstacles(self) -> Array:
         """Places (k, 2) all along what is drawn, a few pt apart."""
-        lines = (
-            [closed(stroke) for stroke in self.strokes]
-            + self.inner
-            + [d.arrow for d in self.dimensions]
-            + [guide for d in self.dimensions for guide in d.guides]
-        )
-        return shapes.dense(lines)
-
-
-def closed(stroke: Drawn) -> Array:
-    """The line (k, 2) of a stroke."""
-    return np.vstack([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
+        dimensions = [line for each in self.dimensions for line in (each.arrow, *each.guides)]
+        return shapes.dense([*(stroke.line for stroke in self.strokes), *self.inner, *dimensions])
 
 
 def scenery(
@@ -139,7 +112,10 @@ def scenery(
     strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
     inner = [scale * line for line in _joining(scene, {load.name for load in free.inside(*group)})]
-    pins = scale * _pins(sketch, free, group)
+    pinned = {joint["name"] for joint in sketch.metadata["joints"] if joints()[joint["type"]].pinned}
+    cut = [(load, part) for load in free.loads if load.name in pinned for part in load.on if part.body in group]
+    places = np.reshape([attached(load, part, sketch) for load, part in cut], (-1, 2))
+    pins = scale * np.unique(np.round(places, 12), axis=0)
     points = _points(sketch, group, centres, scale)
     across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
     dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR), dimension_lines(sketch, _RADIUS))
@@ -186,12 +162,8 @@ def _fitted(
 
 def _strokes(scene: Scene, group: Collection[str], scale: float, hidden: Collection[str] = _CUT) -> list[Drawn]:
     """All strokes of the group's bodies but those of some styles, by default the symbols of joints."""
-    return [
-        Drawn(stroke.style, scale * scene.place(i, stroke.points), colour(i - 1) if i else GREY, stroke.closed, figure.name)
-        for i, figure in enumerate(scene.figures)
-        for stroke in figure.strokes
-        if figure.name in group and stroke.style not in hidden
-    ]
+    seen = (stroke for stroke in scene.strokes() if stroke.body in group and stroke.style not in hidden)
+    return [replace(stroke, points=scale * stroke.points) for stroke in seen]
 
 
 def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collection[str], scale: float) -> list[Drawn]:
@@ -201,7 +173,7 @@ def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collect
     for load, part in cuts:
         own = [stroke for stroke in strokes if stroke.body == part.body and stroke.style not in _LOOSE]
         solid = [stroke for stroke in own if stroke.style in _SOLID]
-        at, seen = scale * attached(load, part, sketch), shapes.dense([closed(stroke) for stroke in own])
+        at, seen = scale * attached(load, part, sketch), shapes.dense([stroke.line for stroke in own])
         if not solid or any(shapes.inside(stroke.points, at[None]) for stroke in solid):
             continue
         gaps = np.hypot(*(seen - at).T)
@@ -215,14 +187,6 @@ def _joining(scene: Scene, among: Collection[str] | None = None) -> list[Array]:
     """Springs, links and strings, all of them or those of some names."""
     lines = [line for pair in scene.pairs if among is None or pair.name in among for line in scene.pair_lines(pair)]
     return lines + [cord.path[0] for cord in scene.cords if (among is None or cord.name in among) and cord.shown[0]]
-
-
-def _pins(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> Array:
-    """Where the group's bodies are pinned, to each other or to others, (k, 2) in m."""
-    pinned = {joint["name"] for joint in sketch.metadata["joints"] if joints()[joint["type"]].pinned}
-    cut = [(load, part) for load in free.loads if load.name in pinned for part in load.on]
-    places = [attached(load, part, sketch) for load, part in cut if part.body in group]
-    return np.unique(np.round(np.reshape(places, (-1, 2)), 12), axis=0)
 
 
 def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], scale: float) -> list[Tag]:
@@ -276,7 +240,7 @@ def _dimensions(
 def _axis(body: str, guide: Array, strokes: Sequence[Drawn]) -> Tag | None:
     """The name of a body's x axis at the end of a guide that runs along it, unless the body lies there."""
     own = [stroke for stroke in strokes if stroke.body == body]
-    seen = shapes.dense([closed(stroke) for stroke in own])
+    seen = shapes.dense([stroke.line for stroke in own])
     lies = any(shapes.inside(stroke.points, guide[1:]) for stroke in own if stroke.style in _SOLID)
     if not own or lies or np.hypot(*(seen - guide[1]).T).min() < SYMBOL:
         return None

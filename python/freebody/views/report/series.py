@@ -39,7 +39,9 @@ def plots(run: Run) -> list[dict[str, Any]]:
         for unit in dict.fromkeys(units):
             made.append(_plot(title, unit, shown, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
     made += _reactions(shown)
-    made += _energy(shown)
+    ledger = shown.energy
+    stored = [*ledger.entries.items(), ("kinetic + potential", ledger.kinetic + ledger.potential)]
+    made += [_plot("Energy", "J", shown, stored), _plot("Energy error", "J", shown, [("balance", ledger.balance)])]
     return made if run.recorded else made + _asked(shown)
 
 
@@ -78,15 +80,6 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     limits = [(plain(text), y) for forces in limit_forces(run).values() for text, y in forces.items()]
     made += [_plot("Contacts, strings and stops", "N", run, limits)] if limits else []
     return made + ([_plot("Reactions, couple", "N*m", run, couples)] if couples else [])
-
-
-def _energy(run: Run) -> list[dict[str, Any]]:
-    ledger = run.energy
-    curves = [*ledger.entries.items(), ("kinetic + potential", ledger.kinetic + ledger.potential)]
-    return [
-        _plot("Energy", "J", run, curves),
-        _plot("Energy error", "J", run, [("balance", ledger.balance)]),
-    ]
 
 
 def _asked(run: Run) -> list[dict[str, Any]]:

@@ -41,12 +41,35 @@ def ending(run: Run) -> list[str]:
 
 def beside(run: Run) -> list[Table]:
     """What stands beside the moving mechanism: reported quantities and events."""
-    return [table for table in (_reported(run), _events(run)) if table.rows]
+    reported = []
+    for label, r in run.report.items():
+        value = r.note if r.value is None else f"{_figure(r.value, 8)} {pretty_unit(r.unit)}".strip()
+        when = f"{_figure(r.t)} ({r.note})" if r.note and r.value is not None else _figure(r.t)
+        reported.append((label, value, when))
+    ways = {1: "rising", -1: "falling"}
+    events = [(e.name, _figure(e.t, 9), e.kind, ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
+    remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
+    tables = (
+        Table("Report", ("quantity", "value", "at t / s"), reported),
+        Table("Events", ("event", "t / s", "kind", "direction"), events, remark),
+    )
+    return [table for table in tables if table.rows]
 
 
 def below(run: Run) -> list[Table]:
     """Mode changes, peak reactions, the energy ledger and bodies."""
-    return [table for table in (_mode_changes(run), _peaks(run), _ledger(run), _bodies(run)) if table.rows]
+    ledger, bodies = run.energy, run.metadata["bodies"]
+    stored = [(name, *map(_figure, (y[0], y[-1], y.min(), y.max()))) for name, y in ledger.entries.items()]
+    worst = f"{np.abs(ledger.balance).max():.1e}".replace("e-", "e−")
+    remark = f"Energy error below {worst} J at all output times."
+    masses = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in bodies]
+    tables = (
+        _mode_changes(run),
+        _peaks(run),
+        Table("Energy ledger", ("J", "start", "end", "least", "most"), stored, remark),
+        Table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), masses),
+    )
+    return [table for table in tables if table.rows]
 
 
 def sentence(text: str) -> str:
@@ -73,22 +96,6 @@ def _figure(value: float | None, digits: int = 6) -> str:
     return (f"{mantissa} × 10^{int(power)}" if power else text).replace("-", "−")
 
 
-def _reported(run: Run) -> Table:
-    rows = []
-    for label, r in run.report.items():
-        value = r.note if r.value is None else f"{_figure(r.value, 8)} {pretty_unit(r.unit)}".strip()
-        when = f"{_figure(r.t)} ({r.note})" if r.note and r.value is not None else _figure(r.t)
-        rows.append((label, value, when))
-    return Table("Report", ("quantity", "value", "at t / s"), rows)
-
-
-def _events(run: Run) -> Table:
-    ways = {1: "rising", -1: "falling"}
-    rows = [(e.name, _figure(e.t, 9), e.kind, ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
-    remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
-    return Table("Events", ("event", "t / s", "kind", "direction"), rows, remark)
-
-
 def _mode_changes(run: Run) -> Table:
     """Mode changes; of very much the first and the last."""
     many = len(run.changes) > _FIRST + _LAST
@@ -112,19 +119,6 @@ def _peaks(run: Run) -> Table:
         rows.append([p.joint, p.body, *figures, *["" if p.determinate else "indeterminate"] * (not known)])
     remark = "Forces as they act on the body named, in the fixed axes, when the force is largest."
     return Table("Peak reactions", heads, rows, remark, "across")
-
-
-def _ledger(run: Run) -> Table:
-    ledger = run.energy
-    rows = [(name, *map(_figure, (y[0], y[-1], y.min(), y.max()))) for name, y in ledger.entries.items()]
-    worst = f"{np.abs(ledger.balance).max():.1e}".replace("e-", "e−")
-    remark = f"Energy error below {worst} J at all output times."
-    return Table("Energy ledger", ("J", "start", "end", "least", "most"), rows, remark)
-
-
-def _bodies(run: Run) -> Table:
-    rows = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in run.metadata["bodies"]]
-    return Table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), rows)
 
 
 def settings(run: Run) -> Table:
