@@ -71,7 +71,7 @@ def test_the_other_side_is_the_jump_of_momentum(name):
 def test_what_is_absent_is_said_below(name):
     impact, diagram = drawn(name)
     for cut in diagram.cuts:
-        assert [f"Absent: {sentence}." for sentence in impact.absent(*cut.group)] == list(cut.row.notes)
+        assert [f"Absent: {sentence}." for sentence in impact.absent(*cut.group)] == list(cut.notes)
 
 
 @every_model
@@ -93,7 +93,7 @@ def test_no_two_labels_overlap(name, scaled):
 def test_to_scale_the_arrows_add_up(name):
     [impact, *_] = struck(name)
     for cut in impulse_diagram(impact, scaled=True).cuts:
-        if cut.row.per_newton is None or any("not determined" in note or "longer" in note for note in cut.row.notes):
+        if cut.per_newton is None or any("not determined" in note or "longer" in note for note in cut.notes):
             continue
         sums = [sum((mark.head - mark.tail for mark in marks if isinstance(mark, Arrow)), np.zeros(2))
                 for marks in (cut.forces, cut.effective)]  # fmt: skip

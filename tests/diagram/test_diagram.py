@@ -191,7 +191,7 @@ def test_a_time_of_the_motion(gun):
     [then] = gun.diagram("collar", at="0.5 s", to_scale=True).cuts
     run = gun.simulate("0.5 s")
     [normal] = then.forces
-    size = np.hypot(*(normal.head - normal.tail)) / then.row.per_newton
+    size = np.hypot(*(normal.head - normal.tail)) / then.per_newton
     assert size == pytest.approx(abs(run.evaluate("track.Fn", 0.5)), rel=1e-9)
 
 

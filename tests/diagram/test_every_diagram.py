@@ -210,7 +210,7 @@ def test_the_couple_of_a_motor_stands_at_its_joint(model):
     hinges = {j["name"]: (j["with"]["of"][1], {j["first"], j["second"]}) for j in joints(model) if j["type"] == "hinge"}
     now = store.instant(model)
     for cut in drawn(model).cuts:
-        scale = cut.row.panels[0].scenery.scale
+        scale = cut.panels[0].scenery.scale
         for mark in cut.forces:
             [load] = mark.action.loads
             places = [point for point, pair in hinges.values() if pair == set(load.of)]
@@ -277,7 +277,7 @@ def test_a_sheet_is_no_wider_than_its_column(model):
 @pytest.mark.parametrize("of", [None, "all"])
 def test_no_leader_runs_through_a_label(model, of):
     for cut in drawn(model, of).cuts:
-        for panel in cut.row.panels:
+        for panel in cut.panels:
             for led, other in permutations((label for label in panel.labels), 2):
                 if led.leader is not None:
                     way = dense([led.leader], 1.0)
@@ -290,7 +290,7 @@ def test_forces_of_hinges_touch_their_pins(model):
     now = store.instant(model)
     joints = {j["name"]: j["with"]["of"] for j in mechanism(model).source().spec["joints"] if j["type"] == "hinge"}
     for cut in drawn(model).cuts:
-        scale = cut.row.panels[0].scenery.scale
+        scale = cut.panels[0].scenery.scale
         for mark in cut.forces:
             if mark.action.kind == "joint" and mark.action.name in joints:
                 pin = scale * np.array([[now[f"x({p})"], now[f"y({p})"]] for p in joints[mark.action.name]])
@@ -328,21 +328,21 @@ def test_arrows_can_be_seen(model):
 @every_model
 def test_to_scale_the_arrows_on_a_body_add_up_to_the_effective_side(model):
     for cut in drawn(model, None, True).cuts:
-        if cut.row.per_newton is None or any("not determined" in note or "longer" in note for note in cut.row.notes):
+        if cut.per_newton is None or any("not determined" in note or "longer" in note for note in cut.notes):
             continue
-        scale = cut.row.panels[0].scenery.scale
+        scale = cut.panels[0].scenery.scale
         sides = []
         for marks in (cut.forces, cut.effective):
             rows = [np.zeros(3)]
             for mark in marks:
                 if isinstance(mark, Arrow):
-                    force, at = (mark.head - mark.tail) / cut.row.per_newton, mark.action.at
+                    force, at = (mark.head - mark.tail) / cut.per_newton, mark.action.at
                     rows.append(np.array([*force, at[0] * force[1] - at[1] * force[0]]))
                 else:
                     rows.append(np.array([0.0, 0.0, mark.action.couple]))
             sides.append(np.array(rows))
         size = np.abs(np.vstack(sides)).max(axis=0)
-        particle = cut.row.panels[0].scenery.sketch.spec["bodies"]
+        particle = cut.panels[0].scenery.sketch.spec["bodies"]
         only_forces = any(body["particle"] and body["name"] in cut.group for body in particle)
         gap = np.abs(sides[0].sum(axis=0) - sides[1].sum(axis=0))
         assert (gap[:2] <= 1e-8 * size[:2].max()).all()

@@ -62,12 +62,12 @@ def test_what_is_more_than_a_letter_is_told_and_can_be_printed(model, column):
     source, state, free = moved(model)
     parser = MathTextParser("path")
     for cut in diagram(source, state, free, column=column).cuts:
-        stated = " ".join(cut.row.laws)
+        stated = " ".join(cut.laws)
         for mark in cut.forces:
             size = Laws(source, state, free).size(mark.action) if mark.action.kind == "force" else None
             if size is not None:
                 assert (f"{mark.action.label} =" in stated) == (latex(size) != mark.action.label)
-        for line in cut.row.laws:
+        for line in cut.laws:
             width, *_ = parser.parse(line, dpi=72)
             assert 0 < width <= 1.7 * (column - 2 * MARGIN)  # at 12 pt of the default font, where notes have 8
 
@@ -80,12 +80,12 @@ def test_a_spring_aslant_is_told_by_its_length():
     m.spring(name="spring", between=[rod.end, particle.centre], stiffness=2, damping=1, rest_length=3)
     m.initial(x=1, y=2, X=3, Y=5)
     length = r"\overline{b_{\text{end}} a}"
-    first, second = m.diagram("a").cuts[0].row.laws
+    first, second = m.diagram("a").cuts[0].laws
     assert first == rf"where $F_{{\text{{spring}}}} = 2\,\left({length} - 3\right)$".replace(r"} a}", r"}\,a}")
     assert second == rf"$F_{{\text{{damper}}}} = \frac{{d}}{{dt}}{length}$".replace(r"} a}", r"}\,a}")
 
 
 def test_nothing_is_told_below_a_diagram_to_scale():
     spring = mechanism("19.3.20/model")
-    assert spring.diagram("block").cuts[0].row.laws == [r"where $F_{\text{spring}} = k\,y$"]
-    assert not spring.diagram("block", to_scale=True).cuts[0].row.laws
+    assert spring.diagram("block").cuts[0].laws == [r"where $F_{\text{spring}} = k\,y$"]
+    assert not spring.diagram("block", to_scale=True).cuts[0].laws

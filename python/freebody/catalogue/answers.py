@@ -64,14 +64,14 @@ class Answer:
         return bool(self.error <= self.tolerance)
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON: null stands for a figure that is missing."""
+        """As plain data; NaN where a figure is missing."""
         return {
             "label": self.label,
-            "value": _plain(self.value),
+            "value": np.asarray(self.value, float).tolist(),
             "unit": self.unit,
-            "check": _plain(self.check),
+            "check": np.asarray(self.check, float).tolist(),
             "against": self.against,
-            "digits": _plain(round(self.digits, 1)),
+            "digits": round(self.digits, 1),
             "tolerance": self.tolerance,
             "ok": self.ok,
             **({"letters": self.said} if self.said else {}),
@@ -131,10 +131,3 @@ def formula(label: str, found: Tree, closed: str, against: str, letters: Letters
     places = [{letter: draw.uniform(*RANGE) for letter in every} for _ in range(PLACES)]
     value, check = ([float(evaluate(tree, place)) for place in places] for tree in (found, true))
     return Answer(label, value, "", check, against, TOLERANCE, said=text(shown(found), letters))
-
-
-def _plain(figure: Figure) -> Any:
-    numbers = np.asarray(figure, float)
-    if numbers.ndim:
-        return [_plain(x) for x in numbers]
-    return float(numbers) if np.isfinite(numbers) else None

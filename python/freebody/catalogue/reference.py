@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -50,10 +51,7 @@ def event(rates: Rates, start: Sequence[float], when: Callable[[float, Array], f
 
 def _ending(when: Callable[[float, Array], float]) -> Callable[[float, Array], float]:
     """An event of SciPy's that ends the integration."""
-
-    def event(t: float, y: Array) -> float:
-        return when(t, y)
-
+    event = partial(when)
     event.terminal = True  # type: ignore[attr-defined]
     return event
 

@@ -28,21 +28,20 @@ _STEP = 1e-3  # m, rad and their rates: enough for a spring at rest to pull
 
 
 @dataclass(frozen=True)
-class Cut:
+class Cut(Row):
     """A group of bodies cut free and drawn: ``forces`` act on it, ``effective`` is the other side of its balance."""
 
-    group: tuple[str, ...]
-    row: Row
+    group: tuple[str, ...] = ()
 
     @property
     def forces(self) -> list[Mark]:
         """The arrows of all that acts."""
-        return self.row.panels[0].marks
+        return self.panels[0].marks
 
     @property
     def effective(self) -> list[Mark]:
         """The arrows of m a and I α; none where they were not asked for."""
-        return self.row.panels[1].marks if len(self.row.panels) > 1 else []
+        return self.panels[1].marks if len(self.panels) > 1 else []
 
 
 @dataclass(frozen=True)
@@ -69,9 +68,9 @@ class Diagram(Picture):
         return made
 
     @property
-    def rows(self) -> list[Row]:
+    def rows(self) -> tuple[Cut, ...]:
         """A row for every cut."""
-        return [cut.row for cut in self.cuts]
+        return self.cuts
 
     @property
     def description(self) -> str:
@@ -118,11 +117,11 @@ class DiagramBuilder:
     def cut(self, group: tuple[str, ...]) -> Cut:
         """The diagram of a group, as large as the column allows."""
         size = 1.0
-        while not fits(row := self._row(group, size)) and size > _SMALLEST:
+        while not fits(cut := self._cut(group, size)) and size > _SMALLEST:
             size *= _SMALLER
-        return Cut(group, row)
+        return cut
 
-    def _row(self, group: tuple[str, ...], size: float) -> Row:
+    def _cut(self, group: tuple[str, ...], size: float) -> Cut:
         drawn = scenery(self.source, self.state, self.free, group, self.scaled, size)
         crowd = len(group) > CROWD
         forces, terms, notes = self._sides(group, drawn)
@@ -135,7 +134,7 @@ class DiagramBuilder:
         panels = [Panel(loaded, arranged(forces, loaded, per_newton), group if len(group) > 1 else (), oriented=True)]
         if terms:
             panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))
-        return Row(
+        return Cut(
             "all bodies" if len(group) == len(self.free.bodies) > CROWD else " + ".join(group),
             panels,
             per_newton,
@@ -145,6 +144,7 @@ class DiagramBuilder:
             apart=Panel(drawn, [], (), oriented=False) if crowd and drawn.dimensions else None,
             column=self.column,
             laws=self.laws.stated(forces, self.column - 2 * MARGIN) if self.laws else (),
+            group=group,
         )
 
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:

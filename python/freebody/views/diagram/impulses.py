@@ -57,6 +57,6 @@ def impulse_diagram(
         for group in [(name,) for name in free.bodies] if groups is None else map(tuple, groups):
             cut = builder.cut(group)
             absent = [f"Absent: {sentence}." for sentence in impact.absent(*group)]
-            yield replace(cut, row=replace(cut.row, notes=[*cut.row.notes, *absent]))
+            yield replace(cut, notes=[*cut.notes, *absent])
 
     return Diagram(f"impulse diagrams of {source.name}", free, draw)
