@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from freebody.core import BEFORE, ReportItem, Settings, cards
@@ -29,85 +29,78 @@ def timed(item: ReportItem, values: Mapping[str, float]) -> ReportItem:
     return replace(item, at=time(item.at), over=item.over and (float(time(item.over[0])), float(time(item.over[1]))))
 
 
-@dataclass
-class AnswerWriter:
-    """Reads ``run`` and ``report`` of the whole model."""
+def run(write: Writer) -> dict[str, Any]:
+    """What the model says of ``Settings``; some may be expressions of parameters."""
+    stated = write.scope.model.run or Run()
+    units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
+    if cards.methods()[stated.method].fixed_step and stated.step is None:
+        hint = f"add `step: 1 ms`, or choose `{Settings.method}`"
+        write.scope.complain(("run", "method"), f"`{stated.method}` needs a fixed step", hint)
+    given = stated.model_dump(exclude_none=True)
+    return {n: write.number(("run", n), v, units_of[n], f"`{n}`") if n in units_of else v for n, v in given.items()}
 
-    write: Writer
 
-    def run(self) -> dict[str, Any]:
-        """What the model says of ``Settings``; some may be expressions of parameters."""
-        run, write = self.write.scope.model.run or Run(), self.write
-        units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
-        given = run.model_dump(exclude_none=True)
-        if cards.methods()[run.method].fixed_step and run.step is None:
-            hint = f"add `step: 1 ms`, or choose `{Settings.method}`"
-            write.scope.complain(("run", "method"), f"`{run.method}` needs a fixed step", hint)
-        return {n: write.number(("run", n), v, units_of[n], f"`{n}`") if n in units_of else v for n, v in given.items()}
+def report(write: Writer) -> list[ReportItem]:
+    """The quantities to report, in order."""
+    found: list[ReportItem] = []
+    for label, asked in write.scope.model.report.items():
+        path: Path = ("report", label)
+        with write.scope.noting(path):
+            found.append(_item(write, path, asked if isinstance(asked, Question) else _question(asked)))
+    return found
 
-    def report(self) -> list[ReportItem]:
-        """The quantities to report, in order."""
-        found: list[ReportItem] = []
-        for label, asked in self.write.scope.model.report.items():
-            path: Path = ("report", label)
-            try:
-                found.append(self._mapping(path, asked) if isinstance(asked, Question) else self._text(path, asked))
-            except ModelProblem as complaint:
-                self.write.scope.complain(path, complaint.what, complaint.hint)
-        return found
 
-    def _text(self, path: Path, text: str, unit: str | None = None) -> ReportItem:
-        if statistic := _STATISTIC.fullmatch(text):
-            kind, rest = statistic.groups()
-            window = _OVER.fullmatch(rest)
-            if "@" in rest:
-                raise ModelProblem(f"`{kind} of` looks at a whole run, not at a moment", "for a window write `over 1 s .. 2 s`")
-            return self._item(path, kind, window[1] if window else rest, None, window.group(2, 3) if window else None, unit)
-        expression, sign, moment = text.rpartition("@")
-        return self._item(path, "value", expression if sign else text, moment.strip() if sign else None, None, unit)
+def _question(text: str, unit: str | None = None) -> Question:
+    """What a line like ``max of speed(P) over 1 s .. 2 s`` or ``theta @ end`` asks for."""
+    if statistic := _STATISTIC.fullmatch(text):
+        kind, rest = statistic.groups()
+        if "@" in rest:
+            raise ModelProblem(f"`{kind} of` looks at a whole run, not at a moment", "for a window write `over 1 s .. 2 s`")
+        window = _OVER.fullmatch(rest)
+        return Question.model_construct(**{kind: window[1] if window else rest}, over=window and window.group(2, 3), unit=unit)
+    expression, sign, moment = text.rpartition("@")
+    return Question.model_construct(value=expression if sign else text, at=moment.strip() if sign else None, unit=unit)
 
-    def _mapping(self, path: Path, asked: Question) -> ReportItem:
-        kind = next(word for word in ("value", *EXTREMES) if getattr(asked, word) is not None)
-        text = getattr(asked, kind)
-        if kind == "value" and asked.at is None:
-            return self._text(path, text, asked.unit)
-        return self._item(path, kind, text, asked.at, asked.over, asked.unit)
 
-    def _item(self, path: Path, kind: str, text: str, at: Any, over: Sequence[Any] | None, unit: str | None) -> ReportItem:
-        expression, dimension = self.write.measured(text.strip())
-        moment = "end" if at is None else self._moment(at)
-        window = None if over is None else (self._window_end(over[0]), self._window_end(over[1]))
-        own = units.TIME if expression == "t" else dimension
-        own = own.times(units.TIME) if own and kind == "integral" else own
-        asked = None if unit is None else units.convert(unit)[1]
-        if asked is not None and own is not None and not own.fits(asked):
-            hint = f"write e.g. `unit: {own.unit()}`" if own.unit() else "leave the unit out"
-            what = f"the value is {own.words()}; `{unit}` is the unit of {asked.words()}"
-            self.write.scope.complain((*path, "unit"), what, hint)
-        return ReportItem(str(path[1]), expression, "at" if kind == "value" else kind, moment, window, unit or "")
+def _item(write: Writer, path: Path, asked: Question) -> ReportItem:
+    kind = next(word for word in ("value", *EXTREMES) if getattr(asked, word) is not None)
+    if kind == "value" and asked.at is None and ("@" in asked.value or _STATISTIC.fullmatch(asked.value)):
+        return _item(write, path, _question(asked.value, asked.unit))
+    expression, dimension = write.measured(getattr(asked, kind).strip())
+    moment = "end" if asked.at is None else _moment(write, asked.at)
+    window = None if asked.over is None else tuple(_window_end(write, end) for end in asked.over)
+    own = units.TIME if expression == "t" else dimension
+    own = own.times(units.TIME) if own and kind == "integral" else own
+    wanted = None if asked.unit is None else units.unit(asked.unit).dimension
+    if wanted is not None and own is not None and not own.fits(wanted):
+        hint = f"write e.g. `unit: {own.unit()}`" if own.unit() else "leave the unit out"
+        what = f"the value is {own.words()}; `{asked.unit}` is the unit of {wanted.words()}"
+        write.scope.complain((*path, "unit"), what, hint)
+    return ReportItem(str(path[1]), expression, "at" if kind == "value" else kind, moment, window, asked.unit or "")
 
-    def _window_end(self, moment: Any) -> Moment:
-        found = self._moment(moment)
-        if isinstance(found, str) and not found.startswith("="):
-            raise ModelProblem(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
-        return found
 
-    def _moment(self, moment: Any) -> Moment:
-        if not isinstance(moment, str):
-            return float(moment)
-        full = self.write.full(moment)
-        if moment in _WORDS or full in self.write.meanings.events:
-            return moment if moment in _WORDS else full
-        event = self.write.full(moment.removeprefix(BEFORE).strip())
-        if moment.startswith(BEFORE) and event in self.write.meanings.events:
-            return BEFORE + event
-        try:
-            number, dimension = self.write.number_of(moment)
-        except ModelProblem:
-            events = self.write.meanings.seen_from(self.write.scope, self.write.meanings.events)
-            raise ModelProblem(
-                f"`{moment}` is no moment", suggestion(moment, [*events, *_WORDS]) + "; or a time like `0.3 s`"
-            ) from None
-        if dimension is not None and not dimension.fits(units.TIME):
-            raise ModelProblem(f"a moment is a time (s); `{moment}` is {dimension.words()}", "write e.g. `@ 0.3 s`")
-        return number if isinstance(number, float) else f"={number}"
+def _window_end(write: Writer, moment: Any) -> Moment:
+    found = _moment(write, moment)
+    if isinstance(found, str) and not found.startswith("="):
+        raise ModelProblem(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
+    return found
+
+
+def _moment(write: Writer, moment: Any) -> Moment:
+    if not isinstance(moment, str):
+        return float(moment)
+    if moment in _WORDS:
+        return moment
+    before = BEFORE if moment.startswith(BEFORE) else ""
+    for name, prefix in ((moment, ""), (moment.removeprefix(before).strip(), before)):
+        if (event := write.full(name)) in write.meanings.events:
+            return prefix + event
+    try:
+        number, dimension = write.number_of(moment)
+    except ModelProblem:
+        events = write.meanings.seen_from(write.scope, write.meanings.events)
+        hint = suggestion(moment, [*events, *_WORDS]) + "; or a time like `0.3 s`"
+        raise ModelProblem(f"`{moment}` is no moment", hint) from None
+    if dimension is not None and not dimension.fits(units.TIME):
+        raise ModelProblem(f"a moment is a time (s); `{moment}` is {dimension.words()}", "write e.g. `@ 0.3 s`")
+    return number if isinstance(number, float) else f"={number}"

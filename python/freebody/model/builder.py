@@ -18,8 +18,7 @@ from .lower import Lowered, lower
 from .meanings import EVERY_BODY, SHAPE_POINTS
 from .names import spell, suggestion
 from .scope import Folder
-from .source import Source
-from .source_locations import SourceLocations, called, caller
+from .source import Source, SourceLocations, called, caller
 from .start import Assembly, Start, evaluate, initial_state, parameter_values
 
 

@@ -49,19 +49,13 @@ _KINDS: dict[str, Any] = {
 }
 
 
-def _type(field: cards.Field) -> Any:
-    if field.kind == "choice":
-        return Literal[field.choices]
-    if field.kind in ("number", "law"):
-        return number_in(field.unit or "")
-    return _KINDS[field.kind]
-
-
 def _model(card: cards.Card, more: dict[str, Any]) -> type[Element]:
     fields: dict[str, Any] = {"type": (Literal[card.type], Field(description=card.doc))}
     for field in card.fields:
-        default = ... if field.required else None
-        fields[field.name] = (_type(field), Field(default, description=field.doc[:1].upper() + field.doc[1:] + "."))
+        number = number_in(field.unit or "") if field.kind in ("number", "law") else None
+        type_ = Literal[field.choices] if field.kind == "choice" else number or _KINDS[field.kind]
+        described = Field(... if field.required else None, description=f"{field.doc[:1].upper()}{field.doc[1:]}.")
+        fields[field.name] = (type_, described)
     name = "".join(word.capitalize() for word in card.type.split("_"))
     return create_model(name, __base__=Element, __doc__=card.doc, **fields, **more)
 
@@ -87,10 +81,8 @@ def _switches(card: cards.Card) -> dict[str, Any]:
     if card.has_friction:
         stated = "Coefficient of sliding friction, by the size of the force that the joint carries."
         words["friction"] = (Number, Field(None, description=stated))
-        words["static_friction"] = (
-            Number,
-            Field(None, description="Coefficient of friction at rest; that of sliding by default."),
-        )
+        stated = "Coefficient of friction at rest; that of sliding by default."
+        words["static_friction"] = (Number, Field(None, description=stated))
         if card.coordinates[0].unit == "rad":
             words["bearing_radius"] = (number_in("m"), Field(None, description="Radius at which the friction of a hinge acts."))
     return words
@@ -117,11 +109,6 @@ FORCES = {word: _model(card, {}) for word, card in cards.forces().items()}
 
 Joint = Annotated[Union[tuple(JOINTS.values())], Field(discriminator="type")]  # noqa: UP007
 Force = Annotated[Union[tuple(FORCES.values())], Field(discriminator="type")]  # noqa: UP007
-
-
-def of(section: str) -> dict[str, type[Element]]:
-    """The types of ``joints`` or ``forces`` by their words."""
-    return {"joints": JOINTS, "forces": FORCES}[section]
 
 
 def given(element: Element, name: str) -> Any:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from freebody.core import Spec, cards
 
 from . import elements, scope
-from .arithmetic import Number, distance, text
+from .arithmetic import distance, text
 from .errors import Path
 from .names import spell
 
@@ -36,61 +35,56 @@ def release(name: str, when: str, released: Sequence[str]) -> Spec:
     return {"name": name, "when": when} | plain | {"then": [{"release": list(released)}]}
 
 
-@dataclass
-class GuideWriter:
-    """Writes what the ends and the one side of the joints of a scope come to. ``places`` are the coordinates of all named points in
-    their bodies."""
+def ends_and_side(write: Writer, name: str, joint: elements.Element, written: Spec) -> None:
+    """The stops and events that the ends and the one side of a joint come to, which has been ``written``."""
+    path: Path = ("joints", name)
+    full = written["name"]
+    if ends := elements.given(joint, "ends"):
+        _ends(write, (*path, "ends"), name, joint, written, ends)
+    elif elements.given(joint, "end_restitution") is not None:
+        here = (*path, "end_restitution")
+        write.scope.complain(here, "`end_restitution` belongs to the stops of `ends: stop`", "leave it out")
+    if elements.given(joint, "one_sided"):
+        for event, push in lifting(name, joint):
+            _event(write, event, push.format(spell(full)), full, (*path, "one_sided"))
 
-    write: Writer
-    places: Mapping[str, list[Number]]
 
-    def joint(self, name: str, joint: elements.Element, written: Spec) -> None:
-        """The stops and events of one joint, which has been written."""
-        path: Path = ("joints", name)
-        full = written["name"]
-        if ends := elements.given(joint, "ends"):
-            self._ends((*path, "ends"), name, joint, written, ends)
-        elif elements.given(joint, "end_restitution") is not None:
-            here = (*path, "end_restitution")
-            self.write.scope.complain(here, "`end_restitution` belongs to the stops of `ends: stop`", "leave it out")
-        if elements.given(joint, "one_sided"):
-            for event, push in lifting(name, joint):
-                self._event(event, push.format(spell(full)), full, (*path, "one_sided"))
+def _ends(write: Writer, path: Path, name: str, joint: elements.Element, written: Spec, ends: str) -> None:
+    line = written["with"]["along"]
+    if "towards" not in line:
+        what = "a guide with ends runs from one point to another, and this line has only one"
+        write.scope.complain(path, what, "write `along: [P, Q]`")
+        return
+    first, second = line["point"], line["towards"]
+    known = first in write.places and second in write.places
+    length = distance(write.places[first], write.places[second]) if known else f"distance({spell(first)}, {spell(second)})"
+    at = _place(write, name, joint, written)
+    beyond = at if at.isidentifier() else f"({at})"
+    gaps = (at, f"{text(length)} - {beyond}")
+    if ends == "free":
+        for event, gap in zip(leaving(name), gaps, strict=True):
+            _event(write, event, gap, written["name"], path)
+        return
+    given = elements.given(joint, "end_restitution")
+    restitution = write.fraction((*path[:-1], "end_restitution"), 0 if given is None else given, "a restitution")
+    for side, gap in zip(("start", "end"), gaps, strict=True):
+        stop = f"{written['name']}.{side}"
+        write.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
+        write.items[f"stops.{stop}"] = (write.scope, path)
 
-    def _ends(self, path: Path, name: str, joint: elements.Element, written: Spec, ends: str) -> None:
-        line = written["with"]["along"]
-        if "towards" not in line:
-            what = "a guide with ends runs from one point to another, and this line has only one"
-            self.write.scope.complain(path, what, "write `along: [P, Q]`")
-            return
-        first, second = line["point"], line["towards"]
-        known = first in self.places and second in self.places
-        length = distance(self.places[first], self.places[second]) if known else f"distance({spell(first)}, {spell(second)})"
-        at = self._place(name, joint, written)
-        beyond = at if at.isidentifier() else f"({at})"
-        gaps = (at, f"{text(length)} - {beyond}")
-        if ends == "free":
-            for event, gap in zip(leaving(name), gaps, strict=True):
-                self._event(event, gap, written["name"], path)
-            return
-        given = elements.given(joint, "end_restitution")
-        restitution = self.write.fraction((*path[:-1], "end_restitution"), 0 if given is None else given, "a restitution")
-        for side, gap in zip(("start", "end"), gaps, strict=True):
-            stop = f"{written['name']}.{side}"
-            self.write.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
-            self.write.items[f"stops.{stop}"] = (self.write.scope, path)
 
-    def _place(self, name: str, joint: elements.Element, written: Spec) -> str:
-        """How far along its line the joint is, by its first coordinate."""
-        (own, _), *_ = scope.coordinate_names(name, joint)
-        coordinate = spell(self.write.prefix + own)
-        given = written["coordinates"][0] if written["coordinates"] else {}
-        zero, sign = given.get("zero", 0.0), "-" if given.get("sense") == -1 else "+"
-        if zero == 0.0:
-            return coordinate if sign == "+" else f"-{coordinate}"
-        return f"{text(zero)} {sign} {coordinate}"
+def _place(write: Writer, name: str, joint: elements.Element, written: Spec) -> str:
+    """How far along its line the joint is, by its first coordinate."""
+    (own, _), *_ = scope.coordinate_names(name, joint)
+    coordinate = spell(write.prefix + own)
+    given = written["coordinates"][0] if written["coordinates"] else {}
+    zero, sign = given.get("zero", 0.0), "-" if given.get("sense") == -1 else "+"
+    if zero == 0.0:
+        return coordinate if sign == "+" else f"-{coordinate}"
+    return f"{text(zero)} {sign} {coordinate}"
 
-    def _event(self, name: str, when: str, joint: str, path: Path) -> None:
-        full = self.write.prefix + name
-        self.write.spec["events"].append(release(full, when, [joint]))
-        self.write.items[f"events.{full}"] = (self.write.scope, path)
+
+def _event(write: Writer, name: str, when: str, joint: str, path: Path) -> None:
+    full = write.prefix + name
+    write.spec["events"].append(release(full, when, [joint]))
+    write.items[f"events.{full}"] = (write.scope, path)

@@ -38,7 +38,9 @@ def _shape_method(shape: str, sizes: tuple[str, ...]) -> Callable[..., Body]:
     parameters = [_keyword(s, True) for s in sizes] + [_keyword(w, w == "mass") for w in taken]
     article = "A uniform" if sizes else "A"
     described = "\n".join(f"    {s}: {schema.Shaped.model_fields[s].description}" for s in (*sizes, "mass"))
-    return _dressed(method, shape, f"{article} {shape}.\n\n{described}", [inspect.Parameter("name", _POSITIONAL), *parameters], Body)
+    return _dressed(
+        method, shape, f"{article} {shape}.\n\n{described}", [inspect.Parameter("name", _POSITIONAL), *parameters], Body
+    )
 
 
 def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
@@ -58,7 +60,7 @@ def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
 
     fields = [_keyword(f.name, f.required) for f in card.fields if f.name not in several]
     own = {"type", *(f.name for f in card.fields)}
-    more = [_keyword(word, False) for word in elements.of(section)[card.type].model_fields if word not in own]
+    more = [_keyword(word, False) for word in {"joints": elements.JOINTS, "forces": elements.FORCES}[section][card.type].model_fields if word not in own]
     points = [inspect.Parameter(several[0], inspect.Parameter.VAR_POSITIONAL)] if several else []
     doc = "\n".join(f"    {_PYTHON.get(f.name, f.name)}: {f.doc}{f' ({f.unit})' if f.unit else ''}" for f in card.fields)
     return _dressed(method, card.type, f"{card.doc}\n\n{doc}", [*points, _keyword("name", False), *fields, *more], Element)

@@ -18,8 +18,7 @@ HIDDEN = "outline"
 class Outlines:
     """The outlines of all bodies, with the corners among the points of the spec."""
 
-    def __init__(self, writers: Sequence[Writer], spec: Spec) -> None:
-        self.spec = spec
+    def __init__(self, writers: Sequence[Writer]) -> None:
         self.bodies: dict[str, tuple[Writer, Path, Body]] = {
             write.prefix + name: (write, ("bodies", name), body)
             for write in writers
@@ -49,7 +48,7 @@ class Outlines:
     def _surface(self, full: str, write: Writer, path: Path, shaped: Shaped, frame: tuple[list[Number], Number] | None) -> Spec:
         def point(i: int, place: list[Number]) -> str:
             name = f"{full}.{HIDDEN}[{i}]"
-            self.spec["points"].append({"name": name, "body": full, "at": placed(place, *frame) if frame else place})
+            write.spec["points"].append({"name": name, "body": full, "at": placed(place, *frame) if frame else place})
             return name
 
         match shaped.shape:

@@ -7,9 +7,9 @@ from graphlib import CycleError, TopologicalSorter
 
 from freebody.symbolic.dimensions import Dimension
 
-from . import syntax, units
+from . import syntax
 from .errors import Consequence, ModelProblem
-from .names import fault, suggestion
+from .names import suggestion
 
 Number = float | int | str
 
@@ -21,11 +21,8 @@ class Parameters:
     kept in ``faults`` and raised when its value is asked for.
     """
 
-    def __init__(
-        self, given: Mapping[str, Number], overruled: Mapping[str, tuple[float, Dimension | None]] | None = None
-    ) -> None:
-        self.given = given
-        self.overruled = dict(overruled or {})
+    def __init__(self, given: Mapping[str, Number], overruled: Mapping[str, tuple[float, Dimension | None]]) -> None:
+        self.given, self.overruled = given, overruled
         self.faults: dict[str, ModelProblem] = {}
         self._values = {name: value for name, (value, _) in self.overruled.items()}
         self._dimensions = {name: dimension for name, (_, dimension) in self.overruled.items()}
@@ -57,59 +54,36 @@ class Parameters:
         return self._dimensions.get(name)
 
     def number(self, text: Number) -> float:
-        """The value of a number of the model: bare, a quantity or an expression of parameters. Raises ``ModelProblem``."""
-        if not isinstance(text, str):
-            return float(text)
-        if (found := units.quantity(text)) is not None:
-            return found.value
-        try:
-            return float(syntax.evaluate(syntax.parse(text).tree, self.value))
-        except (ArithmeticError, ValueError) as error:
-            hint = "check for a division by 0 or a root of a negative number"
-            raise ModelProblem(f"`{text}` has no value: {error}", hint) from None
+        """The value of a number of the model. Raises ``ModelProblem``."""
+        return syntax.number(text, self.value)
 
     def whole(self, text: str) -> int:
         """The value of a whole number, for repetitions and indices. Raises ``ModelProblem``."""
         value = self.number(text)
         if not abs(value) <= 1e9 or value != round(value):
-            raise ModelProblem(
-                f"`{text}` is {value:g}, which is no whole number", "repetitions and indices count in whole numbers"
-            )
+            what = f"`{text}` is {value:g}, which is no whole number"
+            raise ModelProblem(what, "repetitions and indices count in whole numbers")
         return round(value)
 
     def measured(self, text: Number) -> tuple[float, Dimension | None]:
         """Value and dimension of a number of the model. Raises ``ModelProblem``."""
-        if not isinstance(text, str):
-            return float(text), None
-        if (found := units.quantity(text)) is not None:
-            return found.value, found.dimension
-        expression = syntax.parse(text)
-        return self.number(text), syntax.Measure(expression, self.dimension).of(expression.tree)
+        return self.number(text), syntax.dimension(text, self.dimension)
 
     def _order(self) -> list[str]:
         uses: dict[str, list[str]] = {}
         for name, text in self.given.items():
             try:
-                if (what := fault(name)) or name in syntax.CONSTANTS:
-                    raise ModelProblem(
-                        what or f"`{name}` has a meaning of its own in expressions", "give the parameter another name"
-                    )
-                is_expression = isinstance(text, str) and units.quantity(text) is None
-                uses[name] = syntax.names(syntax.parse(text).tree) if is_expression else []
+                uses[name] = syntax.names_in(text)
             except ModelProblem as complaint:
-                self.faults[name] = complaint
-                uses[name] = []
+                self.faults[name], uses[name] = complaint, []
         while True:
             try:
                 return list(TopologicalSorter(uses).static_order())
             except CycleError as error:
                 circle = list(dict.fromkeys(reversed(error.args[1])))
-                shown = " → ".join([*circle, circle[0]])
-                for name in circle:
-                    self.faults[name] = ModelProblem(
-                        f"parameters are defined by one another in a circle: {shown}", "give one of them a number"
-                    )
-                    uses[name] = []
+                what = f"parameters are defined by one another in a circle: {' → '.join([*circle, circle[0]])}"
+                self.faults |= dict.fromkeys(circle, ModelProblem(what, "give one of them a number"))
+                uses |= {name: [] for name in circle}
 
     def _child(self, name: str) -> tuple[Parameters, str] | None:
         head, dot, rest = name.partition(".")

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import cycle
 from pathlib import Path as FilePath
 from typing import Any, Protocol
 
@@ -12,12 +16,15 @@ from freebody.core import cards
 from freebody.symbolic.dimensions import Dimension
 
 from . import elements, reading
-from .errors import Consequence, ModelFileError, ModelProblem, Path, Problem, Where, path_text
+from .errors import Consequence, ModelFileError, ModelProblem, Path, Problem, Where
 from .expand import Expansion, repeats
+from .names import suggestion
 from .parameters import Parameters
 from .schema import Model
 
 MAX_DEPTH = 16
+ITEMS = ("parameters", "tables", "bodies", "gauges", "joints", "forces", "motions", "contacts", "strings", "stops", "events")
+"""Sections of named items."""
 
 
 class Places(Protocol):
@@ -75,7 +82,6 @@ class Scope:
     problems: list[Problem]
     origin: dict[Path, Path] = field(default_factory=dict)
     parts: dict[str, Scope] = field(default_factory=dict)
-    heads: set[str] = field(default_factory=set)
 
     def where(self, path: Path, at_key: bool = False) -> Where:
         """The place of an item as it was written."""
@@ -86,127 +92,97 @@ class Scope:
 
     def complain(self, path: Path, what: str, hint: str = "", at_key: bool = False) -> None:
         """Notes a problem."""
-        where = self.where(path, at_key)
-        self.problems.append(
-            Problem(
-                where if where.path else Where(where.file, where.line, where.column, path_text(path), where.excerpt), what, hint
-            )
-        )
+        self.problems.append(Problem(self.where(path, at_key), what, hint))
+
+    @contextmanager
+    def noting(self, path: Path, at_key: bool = False) -> Iterator[None]:
+        """Notes the ``ModelProblem`` that is raised within and goes on behind; what only follows from another is not said again."""
+        try:
+            yield
+        except Consequence:
+            pass
+        except ModelProblem as problem:
+            self.complain(path, problem.what, problem.hint, at_key)
 
     def all(self) -> list[Scope]:
         """This scope and those of all parts, outer ones first."""
         return [self] + [inner for part in self.parts.values() for inner in part.all()]
 
+    @cached_property
+    def heads(self) -> set[str]:
+        """What a name of this scope may begin with."""
+        m = self.model
+        own = {c.split(".")[0] for name, joint in m.joints.items() for c, _ in coordinate_names(name, joint)}
+        welds = {weld for name, event in m.events.items() for weld, _, _ in event.welds(name)}
+        return own | welds | {name for section in (*ITEMS, "parts") for name in getattr(m, section)}
+
+
+Overruled = dict[str, tuple[float, Dimension | None]]
+"""Values and dimensions that parameters of a part are given from outside."""
+
 
 def open_scope(
-    model: Model,
-    places: Places,
-    folder: Folder,
-    problems: list[Problem],
-    prefix: str = "",
-    overruled: dict[str, tuple[float, Dimension | None]] | None = None,
+    model: Model, places: Places, folder: Folder, problems: list[Problem], prefix: str = "", overruled: Overruled | None = None
 ) -> Scope:
     """The model in use. What is wrong goes to ``problems``; the scope is then as complete as can be."""
     parameters, model, origin = _written_out(model, places, problems, overruled or {})
     scope = Scope(prefix, model, places, parameters, problems, origin)
     for name, fault in parameters.faults.items():
-        if not isinstance(fault, Consequence):
-            scope.complain(("parameters", name), fault.what, fault.hint)
+        with scope.noting(("parameters", name)):
+            raise fault
     for name in model.parts:
         _open_part(scope, name, folder)
-    scope.heads = _heads(scope)
     return scope
 
 
-Written = tuple[Parameters, Model, dict[Path, Path]]
-
-
 def _written_out(
-    model: Model, places: Places, problems: list[Problem], overruled: dict[str, tuple[float, Dimension | None]]
-) -> Written:
-    data = model.written()
+    model: Model, places: Places, problems: list[Problem], overruled: Overruled
+) -> tuple[Parameters, Model, dict[Path, Path]]:
+    data, parameters = model.written(), Parameters(model.parameters, overruled)
     if not repeats(data):
-        return Parameters(model.parameters, overruled), model, {}
-
-    def complain(path: Path, what: str, hint: str, at_key: bool) -> None:
-        problems.append(Problem(places.where(path, at_key), what, hint))
-
-    try:
-        known = Parameters(model.parameters, overruled)
-        data["parameters"] = Expansion(known.whole, complain).of(data.get("parameters", {}), ("parameters",), ("parameters",))
-        parameters = Parameters(data["parameters"], overruled)
-        expansion = Expansion(parameters.whole, complain)
-        return parameters, Model.model_validate(expansion.of(data)), expansion.origin
-    except ModelProblem as complaint:
-        problems.append(Problem(places.where(()), complaint.what, complaint.hint))
-    except ValidationError as error:
-        scope = Scope("", model, places, parameters, problems, expansion.origin)
-        for path, what, hint, at_key in reading.complaints(error):
-            scope.complain(path, what, hint, at_key)
+        return parameters, model, {}
+    scope = Scope("", model, places, parameters, problems)
+    with scope.noting(()):
+        given = Expansion(parameters.whole, scope).of(data.get("parameters", {}), ("parameters",), ("parameters",))
+        parameters = Parameters(given, overruled)
+        expansion = Expansion(parameters.whole, scope)
+        written = expansion.of(data | {"parameters": given})
+        try:
+            return parameters, Model.model_validate(written), expansion.origin
+        except ValidationError as error:
+            scope.origin = expansion.origin
+            for complaint in reading.complaints(error):
+                scope.complain(*complaint)
     raise ModelFileError(problems)
 
 
 def _open_part(scope: Scope, name: str, folder: Folder) -> None:
-    part = scope.model.parts[name]
-    try:
+    part, at = scope.model.parts[name], ("parts", name, "file")
+    with scope.noting(at):
         path = folder.file(part.file)
-    except ModelProblem as complaint:
-        return scope.complain(("parts", name, "file"), complaint.what, complaint.hint)
-    try:
-        model, source = reading.read(path)
-    except ModelFileError as error:
-        missing = not path.exists()
-        scope.problems += [] if missing else error.problems
-        if missing:
-            scope.complain(("parts", name, "file"), f"there is no file `{part.file}`", error.problems[0].hint)
-        return None
-    inner = open_scope(
-        model, source, folder.inside(path), scope.problems, f"{scope.prefix}{name}.", _overruled(scope, name, model)
-    )
-    scope.parts[name] = inner
-    scope.parameters.children[name] = inner.parameters
-    return None
-
-
-def _overruled(scope: Scope, name: str, model: Model) -> dict[str, tuple[float, Dimension | None]]:
-    from .names import suggestion
-
-    found: dict[str, tuple[float, Dimension | None]] = {}
-    for parameter, text in scope.model.parts[name].parameters.items():
-        path = ("parts", name, "parameters", parameter)
-        if parameter not in model.parameters:
-            scope.complain(
-                path,
-                f"`{scope.model.parts[name].file}` has no parameter `{parameter}`",
-                suggestion(parameter, model.parameters),
-                True,
-            )
-            continue
         try:
-            found[parameter] = scope.parameters.measured(text)
-        except ModelProblem as complaint:
-            scope.complain(path, complaint.what, complaint.hint)
-    return found
+            model, source = reading.read(path)
+        except ModelFileError as error:
+            if not path.exists():
+                raise ModelProblem(f"there is no file `{part.file}`", error.problems[0].hint) from None
+            scope.problems += error.problems
+            return
+        overruled: Overruled = {}
+        for parameter, text in part.parameters.items():
+            with scope.noting((*at[:2], "parameters", parameter), parameter not in model.parameters):
+                if parameter not in model.parameters:
+                    hint = suggestion(parameter, model.parameters)
+                    raise ModelProblem(f"`{part.file}` has no parameter `{parameter}`", hint)
+                overruled[parameter] = scope.parameters.measured(text)
+        prefix = f"{scope.prefix}{name}."
+        scope.parts[name] = inner = open_scope(model, source, folder.inside(path), scope.problems, prefix, overruled)
+        scope.parameters.children[name] = inner.parameters
 
 
 def coordinate_names(name: str, joint: Any) -> list[tuple[str, cards.Coordinate]]:
     """The coordinates of a joint with their cards; those without a name of their own are ``joint.angle`` and the like."""
     card = cards.joints()[joint.type]
     named = [c if isinstance(c, str) else c.name for c in elements.coordinates(joint)]
-    usual = [f"{name}.{c.name}" for c in card.coordinates]
+    own = named + [f"{name}.{c.name}" for c in card.coordinates][len(named) :]
     # More names than the card has coordinates: a pin of several bodies repeats them.
-    return (
-        [(own, card.coordinates[i % len(card.coordinates)]) for i, own in enumerate(named + usual[len(named) :])] if usual else []
-    )
-
-
-def _heads(scope: Scope) -> set[str]:
-    """What a name of this scope may begin with."""
-    m = scope.model
-    named: set[str] = {c.split(".")[0] for name, joint in m.joints.items() for c, _ in coordinate_names(name, joint)}
-    for section in (m.parameters, m.tables, m.parts, m.bodies, m.gauges, m.joints, m.forces, m.motions, m.events):
-        named.update(section)
-    for section in (m.contacts, m.strings, m.stops):
-        named.update(section)
-    named.update(weld for name, event in m.events.items() for weld, _, _ in event.welds(name))
-    return named
+    return list(zip(own, cycle(card.coordinates), strict=False))

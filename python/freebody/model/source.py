@@ -1,10 +1,14 @@
-"""Texts of model files: YAML 1.2 (and so JSON) as plain data, in which every key knows its line and column."""
+"""Where a model was written: texts of YAML 1.2 (and so JSON) as plain data, in which every key knows its line and column, and calls
+in Python."""
 
 from __future__ import annotations
 
+import linecache
 import math
 import re
+import sys
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -13,12 +17,15 @@ from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from .errors import ModelFileError, Path, Problem, Where, path_text
+from .names import nearest
 
 MAX_BYTES = 64 * 2**20
 MAX_NODES = 4_000_000
 MAX_DEPTH = 64
+MAX_DIGITS = 400  # of a whole number: what has more is beyond all floating-point numbers
 
 Mark = tuple[int, int]
+_OWN = str(FilePath(__file__).parent.parent)
 
 
 @dataclass
@@ -34,25 +41,20 @@ class Source:
 
     def where(self, path: Path, at_key: bool = False) -> Where:
         """The place of an item, or of the nearest that holds it."""
-        mark = None
         for length in range(len(path), -1, -1):
             marks = (self.keys, self.values) if at_key or length < len(path) else (self.values, self.keys)
-            mark = marks[0].get(path[:length]) or marks[1].get(path[:length])
-            if mark:
-                break
-        line, column = mark or (0, 0)
-        return Where(self.file, line, column, path_text(path), self.excerpt(line))
+            if mark := marks[0].get(path[:length]) or marks[1].get(path[:length]):
+                return self.at(mark, path)
+        return self.at((0, 0), path)
 
-    def excerpt(self, line: int) -> str:
-        """The text of a line, counted from 1; empty when there is none or it is very long."""
-        lines = self._lines()
-        text = lines[line - 1] if 0 < line <= len(lines) else ""
-        return text if len(text) <= 160 else ""
+    def at(self, mark: Mark, path: Path = ()) -> Where:
+        """A place by its line and column, with the text of the line unless it is very long."""
+        text = self._lines[mark[0] - 1] if 0 < mark[0] <= len(self._lines) else ""
+        return Where(self.file, *mark, path_text(path), text if len(text) <= 160 else "")
 
+    @cached_property
     def _lines(self) -> list[str]:
-        if not hasattr(self, "_split"):
-            self._split = self.text.splitlines()
-        return self._split
+        return self.text.splitlines()
 
     def complain(self, path: Path, what: str, hint: str = "", at_key: bool = False) -> None:
         """Adds a problem."""
@@ -63,22 +65,87 @@ class Source:
         if self.problems:
             raise ModelFileError(self.problems)
 
+    def read(self, node: Node, path: Path = ()) -> Any:
+        """The plain data of a node, whose places are noted; keys that are used twice are complained about."""
+        if len(self.values) >= MAX_NODES or len(path) > MAX_DEPTH:
+            limit = f"more than {MAX_NODES} items" if len(path) <= MAX_DEPTH else f"nested more than {MAX_DEPTH} deep"
+            where = self.where(path[:-1])
+            raise ModelFileError([Problem(where, f"the model is too large: {limit}", "aliases (`*name`) count each time")])
+        self.values[path] = _mark(node.start_mark)
+        if isinstance(node, MappingNode):
+            return self._mapping(node, path)
+        if isinstance(node, SequenceNode):
+            return [self.read(item, (*path, i)) for i, item in enumerate(node.value)]
+        return _scalar(node.tag.rpartition(":")[2], _paired(node.value))
+
+    def _mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
+        out: dict[str, Any] = {}
+        for key, value in node.value:
+            mark, name = _mark(key.start_mark), _paired(key.value) if isinstance(key, ScalarNode) else ""
+            inner = (*path, name)
+            if not isinstance(key, ScalarNode):
+                hint = "in flow style write `{name: value}`; expressions in braces need quotes"
+                self.problems.append(Problem(self.at(mark, path), "a key must be a plain name", hint))
+            elif name in out:
+                what = f"`{name}` is used twice (first in line {self.keys[inner][0]})"
+                self.problems.append(Problem(self.at(mark, inner), what, "give one of them another name"))
+            else:
+                self.keys[inner] = mark
+                out[name] = self.read(value, inner)
+        return out
+
+
+def _mark(place: Any) -> Mark:
+    return place.line + 1, place.column + 1
+
+
+class SourceLocations:
+    """Where items were made: in the file that was loaded, or by a Python call."""
+
+    def __init__(self, source: Source | None = None) -> None:
+        self.source = source
+        self.made: dict[Path, tuple[str, int]] = {}
+
+    def note(self, path: Path) -> None:
+        """Remembers the line outside freebody that is being executed."""
+        self.made[path] = caller()
+
+    def where(self, path: Path, at_key: bool = False) -> Where:
+        """The place of an item, or of the nearest that holds it."""
+        for length in range(len(path), 0 if self.source else -1, -1):
+            if path[:length] in self.made:
+                return called(*self.made[path[:length]], path)
+        return self.source.where(path, at_key) if self.source else Where("", 0, 0, path_text(path))
+
+
+def called(file: str, line: int, path: Path) -> Where:
+    """The place of a Python call."""
+    return Where(file, line, 0, path_text(path), linecache.getline(file, line).strip())
+
+
+def caller() -> tuple[str, int]:
+    """The file and line outside freebody that is being executed."""
+    frame = sys._getframe(1)
+    while frame.f_back and frame.f_code.co_filename.startswith(_OWN):
+        frame = frame.f_back
+    return frame.f_code.co_filename, frame.f_lineno
+
 
 def open_file(path: FilePath) -> Source:
     """Reads a file. Raises ``ModelFileError``, also when it cannot be read."""
     try:
         if path.stat().st_size > MAX_BYTES:
-            raise _refused(
-                str(path), f"the file is larger than {MAX_BYTES // 2**20} MiB", "use repetition, e.g. `link[i = 1 .. N]`"
-            )
-        text = path.read_text(encoding="utf-8-sig")
+            hint = "use repetition, e.g. `link[i = 1 .. N]`"
+            raise _refused(str(path), f"the file is larger than {MAX_BYTES // 2**20} MiB", hint)
+        return read_text(path.read_text(encoding="utf-8-sig"), str(path))
     except FileNotFoundError:
-        raise _refused(str(path), "there is no such file", _neighbours(path)) from None
+        near = nearest(path.name, (p.name for p in path.parent.glob("*.*")))
+        hint = f"did you mean `{near}`?" if near else "check the name and the folder"
+        raise _refused(str(path), "there is no such file", hint) from None
     except UnicodeDecodeError as error:
         raise _refused(str(path), f"this is no text in UTF-8 (byte {error.start})", "save it as UTF-8") from None
     except OSError as error:
         raise _refused(str(path), f"it cannot be read: {error.strerror}") from None
-    return read_text(text, str(path))
 
 
 def read_text(text: str, file: str = "model") -> Source:
@@ -94,67 +161,12 @@ def read_text(text: str, file: str = "model") -> Source:
         raise ModelFileError([_syntax(source, error)]) from None
     if not isinstance(node, MappingNode):
         raise _refused(file, "a model file is a mapping of sections", "begin with `freebody: 1`, then `bodies:`, `joints:` …")
-    source.data = _Reader(source).read(node, ())
+    source.data = source.read(node)
     return source
 
 
 def _refused(file: str, what: str, hint: str = "") -> ModelFileError:
     return ModelFileError([Problem(Where(file), what, hint)])
-
-
-def _neighbours(path: FilePath) -> str:
-    from .names import nearest
-
-    near = nearest(path.name, (p.name for p in path.parent.glob("*.*"))) if path.parent.is_dir() else None
-    return f"did you mean `{near}`?" if near else "check the name and the folder"
-
-
-class _Reader:
-    """Turns nodes to plain data, notes their places, and finds keys that are used twice."""
-
-    def __init__(self, source: Source) -> None:
-        self.source = source
-        self.count = 0
-
-    def read(self, node: Node, path: Path) -> Any:
-        self.count += 1
-        if self.count > MAX_NODES or len(path) > MAX_DEPTH:
-            limit = f"more than {MAX_NODES} items" if self.count > MAX_NODES else f"nested more than {MAX_DEPTH} deep"
-            raise ModelFileError(
-                [Problem(self.source.where(path[:-1]), f"the model is too large: {limit}", "aliases (`*name`) count each time")]
-            )
-        self.source.values[path] = (node.start_mark.line + 1, node.start_mark.column + 1)
-        if isinstance(node, MappingNode):
-            return self._mapping(node, path)
-        if isinstance(node, SequenceNode):
-            return [self.read(item, (*path, i)) for i, item in enumerate(node.value)]
-        return _scalar(node.tag.rpartition(":")[2], _paired(node.value))
-
-    def _mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
-        out: dict[str, Any] = {}
-        for key, value in node.value:
-            mark = (key.start_mark.line + 1, key.start_mark.column + 1)
-            if not isinstance(key, ScalarNode):
-                self._complain(
-                    mark,
-                    path,
-                    "a key must be a plain name",
-                    "in flow style write `{name: value}`; expressions in braces need quotes",
-                )
-                continue
-            name = _paired(key.value)
-            inner = (*path, name)
-            if name in out:
-                first = self.source.keys[inner][0]
-                self._complain(mark, inner, f"`{name}` is used twice (first in line {first})", "give one of them another name")
-                continue
-            self.source.keys[inner] = mark
-            out[name] = self.read(value, inner)
-        return out
-
-    def _complain(self, mark: Mark, path: Path, what: str, hint: str) -> None:
-        where = Where(self.source.file, *mark, path_text(path), self.source.excerpt(mark[0]))
-        self.source.problems.append(Problem(where, what, hint))
 
 
 def _paired(text: str) -> str:
@@ -164,66 +176,46 @@ def _paired(text: str) -> str:
 
 def _scalar(kind: str, text: str) -> Any:
     """The value of a scalar whose tag ends so."""
-    if kind == "null":
-        return None
-    if kind == "bool":
-        return text.lower() == "true"
-    if kind == "int":
-        digits = text.replace("_", "")
-        if len(digits) > 400:
+    plain = text.replace("_", "").lower()
+    match kind:
+        case "null":
+            return None
+        case "bool":
+            return plain == "true"
+        case "int" if len(plain) > MAX_DIGITS:
             return math.inf
-        return int(digits, 0) if digits.lstrip("+-")[:2].lower() in ("0x", "0o") else int(digits)
-    if kind == "float":
-        return _float(text.replace("_", "").lower())
+        case "int":
+            return int(plain, 0 if plain.lstrip("+-").startswith(("0x", "0o")) else 10)
+        case "float":
+            return float(plain.replace(".inf", "inf").replace(".nan", "nan"))
     return text
 
 
-def _float(text: str) -> float:
-    if text.endswith(".nan"):
-        return math.nan
-    return -math.inf if text == "-.inf" else math.inf if text.endswith(".inf") else float(text)
-
-
 _WORDS = (
-    (re.compile(r"character '\\t'|tab", re.I), "a tab character stands here", "YAML is indented with spaces"),
-    (
-        re.compile("mapping values are not allowed"),
-        "a second `:` on this line",
-        "put quotes around a text that holds `: `, or check the indentation",
-    ),
-    (re.compile("expected ',' or"), "a bracket or brace is not closed, or a comma is missing", ""),
-    (
-        re.compile("did not find expected|expected <block end>|could not find expected"),
-        "the indentation does not fit, or a `:` is missing",
-        "",
-    ),
-    (
-        re.compile("undefined alias"),
-        "`*` begins an alias that is not defined",
-        "put quotes around an expression that begins with `*`",
-    ),
-    (re.compile("cannot start any token"), "a text cannot begin with this character", "put quotes around it"),
-    (
-        re.compile("while scanning a quoted scalar|unexpected end of stream"),
-        "a quotation is not closed",
-        "close it with the quote it begins with",
-    ),
-)
+    (r"(?i)character '\\t'|tab", "a tab character stands here", "YAML is indented with spaces"),
+    ("mapping values are not allowed", "a second `:` on this line", "put quotes around a text that holds `: `, or check the indentation"),
+    ("expected ',' or", "a bracket or brace is not closed, or a comma is missing", ""),
+    ("did not find expected|expected <block end>|could not find expected", "the indentation does not fit, or a `:` is missing", ""),
+    ("undefined alias", "`*` begins an alias that is not defined", "put quotes around an expression that begins with `*`"),
+    ("cannot start any token", "a text cannot begin with this character", "put quotes around it"),
+    ("while scanning a quoted scalar|unexpected end", "a quotation is not closed", "close it with the quote it begins with"),
+)  # fmt: skip
+"""What the YAML reader says, with what a newcomer can make of it and what to try."""
 _BRACKET_NAME = re.compile(r"[\[{,].*\w\[")
 
 
 def _syntax(source: Source, error: Exception) -> Problem:
-    """What a newcomer can make of a complaint of the YAML reader."""
+    """A complaint of the YAML reader."""
     if not isinstance(error, MarkedYAMLError):
         what = "it is nested too deep" if isinstance(error, RecursionError) else str(error).splitlines()[0]
         return Problem(Where(source.file), f"this is no YAML: {what}")
     mark = error.problem_mark or error.context_mark
-    line, column = (mark.line + 1, mark.column + 1) if mark else (0, 0)
-    excerpt = source.excerpt(line)
+    where = source.at(_mark(mark) if mark else (0, 0))
     said = " ".join(str(part) for part in (error.context, error.problem) if part)
-    what, hint = next(((w, h) for pattern, w, h in _WORDS if pattern.search(said)), (f"this is no YAML: {said}", ""))
-    if excerpt[column - 1 : column] == "\t" or excerpt[: column - 1].strip(" ").startswith("\t"):
+    what, hint = next(((w, h) for pattern, w, h in _WORDS if re.search(pattern, said)), (f"this is no YAML: {said}", ""))
+    before = where.excerpt[: where.column - 1]
+    if where.excerpt[len(before) :].startswith("\t") or before.strip(" ").startswith("\t"):
         _, what, hint = _WORDS[0]
-    elif _BRACKET_NAME.search(excerpt):
+    elif _BRACKET_NAME.search(where.excerpt):
         what, hint = "a name with brackets needs quotes inside [ ] and { }", 'write "link[1].end"'
-    return Problem(Where(source.file, line, column, "", excerpt), what, hint)
+    return Problem(where, what, hint)

@@ -12,9 +12,7 @@ from freebody.symbolic.dimensions import TIME, Dimension
 
 from . import syntax, units
 from .errors import ModelProblem, Path
-from .meanings import Meanings
 from .names import suggestion
-from .schema import Initial
 from .writer import Number, Writer
 
 _SIGNS = {"positive": 1, "negative": -1}
@@ -47,57 +45,47 @@ class Assembly(TypedDict):
     branch: dict[str, int]
 
 
-@dataclass
-class StartWriter:
-    """Adds what one scope says to the start."""
+def write(writer: Writer, start: Start) -> None:
+    """Adds to the start the coordinates and parameters of the model, and the section ``initial`` of one scope."""
+    known, scope, initial = writer.meanings.values, writer.scope, writer.scope.model.initial
+    start.coordinates = {name: d for name, (kind, d) in known.items() if kind == "coordinate"}
+    start.parameters = {name: d for name, (kind, d) in known.items() if kind == "parameter"}
+    if initial is None:
+        return
+    path: Path = ("initial",)
+    start.fixed |= _values(writer, start, path, initial.model_extra or {}, 0)
+    start.guess |= _values(writer, start, (*path, "guess"), initial.guess, 0)
+    if initial.at_rest:  # what a part of this scope says of its rates is overruled
+        start.rates = {n: rate for n, rate in start.rates.items() if not n.startswith(scope.prefix)}
+        if initial.rates:
+            scope.complain((*path, "rates"), *_RESTLESS)
+    start.rates |= _values(writer, start, (*path, "rates"), initial.rates, 1)
+    for name, at in initial.points.items():
+        here = (*path, "points", name)
+        start.points[writer.point(here, name)] = writer.numbers(here, at)
+    if "equilibrium" in initial.model_fields_set:
+        start.equilibrium = initial.equilibrium
+    for text, sign in initial.branch.items():
+        start.branch[writer.expression((*path, "branch", text), text)] = _SIGNS[sign]
 
-    write: Writer
-    start: Start
 
-    def all(self) -> None:
-        """Notes the coordinates and parameters of the model, and the section ``initial`` of this scope."""
-        start, known = self.start, self.write.meanings
-        start.coordinates = {name: d for name, (kind, d) in known.values.items() if kind == "coordinate"}
-        start.parameters = {name: d for name, (kind, d) in known.values.items() if kind == "parameter"}
-        initial = self.write.scope.model.initial
-        if initial is not None:
-            self._initial(initial)
-
-    def _initial(self, initial: Initial) -> None:
-        start, path = self.start, ("initial",)
-        start.fixed |= self._values(path, initial.model_extra or {}, 0)
-        start.guess |= self._values((*path, "guess"), initial.guess, 0)
-        if initial.at_rest:  # what a part of this scope says of its rates is overruled
-            start.rates = {n: rate for n, rate in start.rates.items() if not n.startswith(self.write.scope.prefix)}
-            if initial.rates:
-                self.write.scope.complain((*path, "rates"), *_RESTLESS)
-        start.rates |= self._values((*path, "rates"), initial.rates, 1)
-        for name, at in initial.points.items():
-            here = (*path, "points", name)
-            start.points[self.write.point(here, name)] = self.write.numbers(here, at)
-        if "equilibrium" in initial.model_fields_set:
-            start.equilibrium = initial.equilibrium
-        for text, sign in initial.branch.items():
-            start.branch[self.write.expression((*path, "branch", text), text)] = _SIGNS[sign]
-
-    def _values(self, path: Path, given: Mapping[str, Any], order: int) -> dict[str, Number]:
-        found: dict[str, Number] = {}
-        for name, value in given.items():
-            full = self.write.full(name)
-            if full in self.start.coordinates:
-                found[full] = self.write.number((*path, name), value, _dimension(self.start, full, order))
-            else:
-                self._unknown((*path, name), full, name)
-        return found
-
-    def _unknown(self, path: Path, full: str, name: str) -> None:
-        known: Meanings = self.write.meanings
-        kind = known.values.get(full, ("",))[0]
-        coordinates = known.seen_from(self.write.scope, self.start.coordinates)
-        words = (*WORDS, "equilibrium") if len(path) == 2 else ()
-        hint = "`initial` sets coordinates; give parameters their value under `parameters`" if kind == "parameter" else ""
-        what = f"`{name}` is a {kind}, not a coordinate" if kind else f"there is no coordinate `{name}`"
-        self.write.scope.complain(path, what, hint or suggestion(name, [*coordinates, *words], "coordinates"), True)
+def _values(writer: Writer, start: Start, path: Path, given: Mapping[str, Any], order: int) -> dict[str, Number]:
+    found: dict[str, Number] = {}
+    for name, value in given.items():
+        full, here = writer.full(name), (*path, name)
+        if full in start.coordinates:
+            found[full] = writer.number(here, value, _dimension(start, full, order))
+        else:
+            kind = writer.meanings.values.get(full, ("",))[0]
+            known = [
+                *writer.meanings.seen_from(writer.scope, start.coordinates),
+                *((*WORDS, "equilibrium") if len(here) == 2 else ()),
+            ]
+            hint = "`initial` sets coordinates; give parameters their value under `parameters`"
+            hint = hint if kind == "parameter" else suggestion(name, known, "coordinates")
+            what = f"`{name}` is a {kind}, not a coordinate" if kind else f"there is no coordinate `{name}`"
+            writer.scope.complain(here, what, hint, True)
+    return found
 
 
 def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None = None) -> Assembly:
@@ -148,20 +136,16 @@ def quantity(name: str, number: Any, unit: str) -> float:
 
 
 def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[str, float]) -> float:
-    if not isinstance(number, str):
-        return float(number)
-    quantity = units.quantity(number)
-    if quantity is None:
-
-        def value(parameter: str) -> float:
-            if parameter not in values:
-                raise ModelProblem(f"there is no parameter `{parameter}`", suggestion(parameter, values))
-            return values[parameter]
-
-        return float(syntax.evaluate(syntax.parse(number).tree, value))
-    if dimension is not None and not quantity.dimension.fits(dimension):
+    quantity = units.quantity(number) if isinstance(number, str) else None
+    if quantity and dimension is not None and not quantity.dimension.fits(dimension):
         raise ModelProblem(f"`{name}` is {dimension.words()}; `{number}` is {quantity.dimension.words()}")
-    return quantity.value
+
+    def value(parameter: str) -> float:
+        if parameter not in values:
+            raise ModelProblem(f"there is no parameter `{parameter}`", suggestion(parameter, values))
+        return values[parameter]
+
+    return syntax.number(number, value)
 
 
 def _dimension(start: Start, name: str, order: int) -> Dimension | None:

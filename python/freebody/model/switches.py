@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import Literal
 
 from pydantic import Field, model_validator
@@ -23,14 +23,19 @@ from .values import (
     number_in,
     one_of,
     refuse,
-    two_of,
+    several,
 )
 
 Sense = Literal["ccw", "clockwise"]
-Restitution = Number
-Stiffness = number_in("N/m")
-Damping = number_in("N*s/m")
-_THERE = "Whether it is there from the start."
+
+
+class Limit(Section):
+    """What contacts, strings and stops have in common."""
+
+    restitution: Number = Field(0, description="Speed of parting over speed of approach, 0 to 1.")
+    stiffness: number_in("N/m") = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
+    damping: number_in("N*s/m") = Field(None, description="Damping beside that spring.")
+    engaged: bool = Field(True, description="Whether it is there from the start.")
 
 
 class SurfaceShape(Section):
@@ -41,7 +46,7 @@ class SurfaceShape(Section):
     centre: Name = Field(None, description="Centre of a circle.")
     radius: Length = Field(None, description="Radius of that circle.")
     hollow: bool = Field(False, description="Whether the free side of the circle is inside.")
-    ends: two_of(Angle, "an arc has two ends: `[30 deg, 150 deg]`") = Field(
+    ends: several(Angle, "an arc has two ends: `[30 deg, 150 deg]`", most=2) = Field(
         None, description="Of an arc the directions of its ends from the centre, in the body's frame, counter-clockwise."
     )
     polyline: Points = Field(None, description="Corners of a polyline; the free side is on its left.")
@@ -67,20 +72,16 @@ _NO_SURFACE = (
     "with `ends` for an arc, `{polyline: [P, …]}` or `{polygon: [P, …]}`",
 )
 Surface = one_of(*_NO_SURFACE, text=Name, pair=TwoPoints, mapping=SurfaceShape)
-Surfaces = two_of(Surface, "a contact is of two surfaces: `[ball, ground.floor]`")
+Surfaces = several(Surface, "a contact is of two surfaces: `[ball, ground.floor]`", most=2)
 
 
-class Contact(Section):
+class Contact(Limit):
     """Two surfaces that can push each other."""
 
     of: Surfaces = Field(description="The two surfaces.")
-    restitution: Restitution = Field(0, description="Speed of parting over speed of approach, 0 to 1.")
     friction: Number = Field(0, description="Coefficient of sliding friction.")
     static_friction: Number = Field(None, description="Coefficient of friction at rest; by default that of sliding.")
     rough: bool = Field(False, description="Whether it never slides while it is closed.")
-    stiffness: Stiffness = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
-    damping: Damping = Field(None, description="Damping beside that spring.")
-    engaged: bool = Field(True, description=_THERE)
 
     @model_validator(mode="after")
     def _rough_or_not(self) -> Contact:
@@ -113,13 +114,13 @@ class Pulley(Section):
     sense: Sense = Field(description="Which way the string goes round it, followed from its first end.")
 
 
-CordEnd = one_of(
+StringEnd = one_of(
     "this is no end of a string",
     "write `body.point`, or `{drum: P, radius: r, sense: clockwise, wound: 0.5 m}`",
     text=Name,
     mapping=Drum,
 )
-CordEnds = two_of(CordEnd, "a string has two ends: `[P, Q]`")
+StringEnds = several(StringEnd, "a string has two ends: `[P, Q]`", most=2)
 Guide = one_of(
     "a string cannot pass over this",
     "write `body.point`, or `{pulley: P, radius: r, sense: clockwise}`",
@@ -128,28 +129,23 @@ Guide = one_of(
 )
 
 
-class String(Section):
+class String(Limit):
     """A string: it can only pull, and has no mass."""
 
-    ends: CordEnds = Field(description="Its two ends.")
+    ends: StringEnds = Field(description="Its two ends.")
     over: list[Guide] = Field([], description="Points and pulleys that it passes without friction, from its first end.")
     length: Length = Field(None, description="Its length; just taut at the start when left out.")
-    restitution: Restitution = Field(0, description="Speed of return over speed of stretching when it goes taut, 0 to 1.")
-    stiffness: Stiffness = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
-    damping: Damping = Field(None, description="Damping beside that spring.")
-    engaged: bool = Field(True, description=_THERE)
+    restitution: Number = Field(0, description="Speed of return over speed of stretching when it goes taut, 0 to 1.")
 
 
-class Stop(Section):
+class Stop(Limit):
     """Ends of the way of a quantity of the configuration."""
 
     of: Text = Field(description="The coordinate, gauge or expression that is stopped.")
     least: Number = Field(None, description="The least that it can be.")
     most: Number = Field(None, description="The most that it can be.")
-    restitution: Restitution = Field(0, description="Speed of parting over speed of approach, 0 to 1.")
     stiffness: Number = Field(None, description="Stiffness of a spring that stands for it; rigid when left out.")
     damping: Number = Field(None, description="Damping beside that spring.")
-    engaged: bool = Field(True, description=_THERE)
 
     @model_validator(mode="after")
     def _has_an_end(self) -> Stop:
@@ -158,7 +154,7 @@ class Stop(Section):
         return self
 
 
-class Deeds(Section):
+class EventActions(Section):
     """What an event does. Of several in one mapping, what goes comes first, then what comes, then numbers, then the end."""
 
     release: Names = Field(None, description="Joints, motions, forces, contacts, stops or strings to take away.")
@@ -173,7 +169,7 @@ class Deeds(Section):
     hand_over: Name = Field(None, description="Another model file, as which the motion goes on.")
 
     @model_validator(mode="after")
-    def _does_something(self) -> Deeds:
+    def _does_something(self) -> EventActions:
         if not self.model_fields_set:
             raise refuse(*_NO_ACTION)
         if self.weld is not None and (isinstance(self.weld, str) or len(self.weld) < 2):
@@ -183,8 +179,8 @@ class Deeds(Section):
 
 _NO_ACTION = ("this is no action", "write `record`, `stop`, `{set: {T: 0}}`, `{release: pin}`, … or a list of these")
 Word = Literal["record", "stop"]
-Action = one_of(*_NO_ACTION, text=Word, mapping=Deeds)
-Actions = one_of(*_NO_ACTION, text=Word, pair=list[Action], mapping=Deeds)
+Action = one_of(*_NO_ACTION, text=Word, mapping=EventActions)
+Actions = one_of(*_NO_ACTION, text=Word, pair=list[Action], mapping=EventActions)
 
 
 class Event(Section):
@@ -207,23 +203,17 @@ class Event(Section):
             raise refuse("an event at a time has no `direction`", "leave it out")
         return self
 
-    def actions(self) -> list[str | Deeds]:
+    def actions(self) -> list[str | EventActions]:
         """What happens then, as a list."""
         return list(self.then) if isinstance(self.then, list) else [self.then]
 
-    def released(self) -> list[str]:
-        """The names of what it takes away."""
-        return [name for deeds in self.actions() if isinstance(deeds, Deeds) for name in listed(deeds.release)]
-
-    def locks(self) -> list[str]:
-        """The expressions that it holds where they are."""
-        return [text for deeds in self.actions() if isinstance(deeds, Deeds) for text in listed(deeds.lock)]
+    def all(self, word: str) -> list[list[str]]:
+        """What stands after a word (``release``, ``lock``) in each of its actions."""
+        return [listed(getattr(each, word)) for each in self.actions() if isinstance(each, EventActions)]
 
     def welds(self, name: str) -> Iterator[tuple[str, str, str]]:
         """The joints that it makes when the event is called so: name and two bodies."""
-        bodies = [listed(deeds.weld) for deeds in self.actions() if isinstance(deeds, Deeds) and deeds.weld]
-        pairs = [pair for row in bodies for pair in pairwise(row)]
-        for i, (first, second) in enumerate(pairs, 1):
+        for i, (first, second) in enumerate(chain.from_iterable(map(pairwise, self.all("weld"))), 1):
             yield f"{name} weld" if i == 1 else f"{name} weld {i}", first, second
 
 

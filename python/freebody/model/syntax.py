@@ -190,21 +190,41 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 def evaluate(tree: Node, value: Callable[[str], float]) -> float:
     """The number of a tree of parameters only. Raises ``ModelProblem``, and ``ArithmeticError`` or ``ValueError`` like ``math``."""
-    for call in walk(tree):
-        if isinstance(call, Fn) and call.name != "if" and call.name not in _FUNCTIONS:
+    for call in (node for node in walk(tree) if isinstance(node, Fn) and node.name != "if"):
+        if call.name not in _FUNCTIONS:
             raise ModelProblem(f"`{call.name}(…)` changes with the motion; a number of the model depends on parameters only")
-    letter = lambda each: math.pi if each.name == "pi" else value(each.name)
-    try:
-        return value_of(tree, letter, float, _FUNCTIONS)
-    except TypeError:
-        found = next(call for call in walk(tree) if isinstance(call, Fn) and not _takes(call))
-        raise ModelProblem(f"`{found.name}` does not take {len(found.args)} arguments") from None
+        try:
+            _FUNCTIONS[call.name](*[0.5] * len(call.args))
+        except TypeError:
+            raise ModelProblem(f"`{call.name}` does not take {len(call.args)} arguments") from None
+    return value_of(tree, lambda each: math.pi if each.name == "pi" else value(each.name), float, _FUNCTIONS)
 
 
-def _takes(call: Fn) -> bool:
-    """Whether a function takes so many arguments."""
+# -- numbers of a model: bare, a quantity like ``400 mm``, or an expression of parameters -----------
+
+
+def number(text: Any, value: Callable[[str], float]) -> float:
+    """The value of a number of the model in SI; ``value`` knows those of names. Raises ``ModelProblem``."""
+    if not isinstance(text, str):
+        return float(text)
+    if (found := units.quantity(text)) is not None:
+        return found.value
     try:
-        call.name == "if" or _FUNCTIONS[call.name](*[0.5] * len(call.args))
-    except TypeError:
-        return False
-    return True
+        return float(evaluate(parse(text).tree, value))
+    except (ArithmeticError, ValueError) as error:
+        hint = "check for a division by 0 or a root of a negative number"
+        raise ModelProblem(f"`{text}` has no value: {error}", hint) from None
+
+
+def dimension(text: Any, lookup: Lookup) -> Known:
+    """The dimension of a number of the model (None: fits anywhere). Raises ``ModelProblem``."""
+    if not isinstance(text, str):
+        return None
+    if (found := units.quantity(text)) is not None:
+        return found.dimension
+    return Measure(parse(text), lookup).of(parse(text).tree)
+
+
+def names_in(text: Any) -> list[str]:
+    """The names that a number of the model depends on. Raises ``ModelProblem``."""
+    return names(parse(text).tree) if isinstance(text, str) and units.quantity(text) is None else []

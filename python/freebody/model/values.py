@@ -115,35 +115,21 @@ Text = Annotated[str, PlainValidator(_text), WithJsonSchema({"type": ["string", 
 Name = Annotated[str, PlainValidator(_name), WithJsonSchema({"type": "string"})]
 
 
-def _list(item: Callable[[Any], Any], count: int | None, what: str) -> Callable[[Any], list[Any]]:
-    def check(value: Any) -> list[Any]:
-        given = list(value) if isinstance(value, (list, tuple)) else None
-        if given is None or (len(given) < 2 if count is None else len(given) != count):
+def several(item: Any, what: str, least: int = 2, most: int | None = None) -> Any:
+    """The type of a list of ``least`` items to ``most``; ``what`` says what is needed."""
+
+    def check(value: Any) -> Any:
+        if not isinstance(value, (list, tuple)) or not least <= len(value) <= (most or len(value)):
             raise refuse(what)
-        return [item(one) for one in given]
+        return value
 
-    return check
-
-
-def _list_schema(item: dict[str, Any], count: int | None) -> dict[str, Any]:
-    return {"type": "array", "items": item, "minItems": count or 2} | ({"maxItems": count} if count else {})
+    return Annotated[list[item], BeforeValidator(check), Field(min_length=least, max_length=most)]
 
 
-_PAIR, _POINTS = {"type": ["number", "string"], "x-unit": "m"}, {"type": "string"}
-_two_numbers = _list(_number, 2, "two coordinates are needed: `[x, y]`")
-_two_points = _list(_name, 2, "two points are needed: `[P, Q]`")
-Pair = Annotated[list[Any], PlainValidator(_two_numbers), WithJsonSchema(_list_schema(_PAIR, 2))]
-Numbers = Annotated[
-    list[Any],
-    PlainValidator(_list(_number, None, "a list of two numbers or more is needed")),
-    WithJsonSchema(_list_schema({"type": ["number", "string"]}, None)),
-]
-Points = Annotated[
-    list[str],
-    PlainValidator(_list(_name, None, "a list of two points or more is needed: `[P, Q]`")),
-    WithJsonSchema(_list_schema(_POINTS, None)),
-]
-TwoPoints = Annotated[list[str], PlainValidator(_two_points), WithJsonSchema(_list_schema(_POINTS, 2))]
+Pair = several(Length, "two coordinates are needed: `[x, y]`", most=2)
+TwoPoints = several(Name, "two points are needed: `[P, Q]`", most=2)
+Points = several(Name, "a list of two points or more is needed: `[P, Q]`")
+Numbers = several(Number, "a list of two numbers or more is needed")
 
 
 class Through(Section):
@@ -191,14 +177,3 @@ Line = one_of(
 Place = one_of("this is no point", "a point is written `[x, y]`, or with the name of another", text=Name, pair=Pair)
 Names = one_of("names are needed here", "write a name, or `[a, b]`", text=Name, pair=list[Name])
 Texts = one_of("expressions are needed here", "write an expression, or a list of them", text=Text, pair=list[Text])
-
-
-def two_of(item: Any, what: str) -> Any:
-    """The type of a list of two; ``what`` says what is needed."""
-
-    def check(value: Any) -> Any:
-        if not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise refuse(what)
-        return value
-
-    return Annotated[list[item], BeforeValidator(check), Field(min_length=2, max_length=2)]

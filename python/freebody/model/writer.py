@@ -11,7 +11,7 @@ from freebody.symbolic.tree import Fn, Node, Sym, walk
 
 from . import syntax, units
 from .arithmetic import Number
-from .errors import Consequence, ModelProblem, Path
+from .errors import ModelProblem, Path
 from .meanings import Meanings
 from .names import TOKEN, replace_names, spell, suggestion, unquote
 from .scope import Scope
@@ -24,34 +24,40 @@ Unit = str | Dimension | None
 @dataclass
 class Writer:
     """Writes what one scope says into the ``spec`` of the core. Every method takes the path of the item; what is wrong is noted there.
-    ``lines`` are those of the whole model, ``items`` leads from what is made beside the items of the file to where it was written."""
+
+    Of the whole model: ``lines``; ``places``, the coordinates of its named points in their bodies; ``tracks``, its curves of lines and
+    arcs as surfaces; ``items`` leads from what is made beside the items of the file to where it was written, ``hand_over`` from an event
+    to the file that it goes on as, and where it says so."""
 
     scope: Scope
     meanings: Meanings
     spec: Spec = field(default_factory=dict)
     lines: dict[str, Spec] = field(default_factory=dict)
+    places: dict[str, list[Number]] = field(default_factory=lambda: {"ground.O": [0.0, 0.0]})
+    tracks: dict[str, Spec] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
+    hand_over: dict[str, tuple[Scope, Path, str]] = field(default_factory=dict)
 
     @property
     def prefix(self) -> str:
         """What stands before the names of this scope in the whole model."""
         return self.scope.prefix
 
+    def owner(self, body: str) -> str:
+        """What stands before the names of points, lines and curves of a body or of the ground."""
+        return f"ground.{self.prefix}" if body == "ground" else f"{body}."
+
     # -- numbers and expressions
 
     def number(self, path: Path, value: Any, unit: Unit = None, positive: str = "") -> Number:
         """A number of the model. ``positive`` says what may not be negative (``a mass``)."""
-        try:
+        with self.scope.noting(path):
             found, dimension = self.number_of(value)
             self._check_dimension(path, value, dimension, unit)
             if positive and (size := self.scope.parameters.number(value)) < 0:
                 raise ModelProblem(f"{positive} cannot be negative; `{value}` is {size:g}", "check its sign")
             return found
-        except Consequence:
-            return 0.0
-        except ModelProblem as complaint:
-            self.scope.complain(path, complaint.what, complaint.hint)
-            return 0.0
+        return 0.0
 
     def fraction(self, path: Path, value: Any, what: str) -> Number:
         """A number from 0 to 1; ``what`` says which (``a restitution``)."""
@@ -77,13 +83,11 @@ class Writer:
         ``unit`` is what it must measure (None: anything); ``local`` is a name that only this expression knows (``s`` of
         a curve).
         """
-        try:
+        with self.scope.noting(path):
             found, dimension = self.measured(text, local)
             self._check_dimension(path, text, dimension, unit)
             return found
-        except ModelProblem as complaint:
-            self.scope.complain(path, complaint.what, complaint.hint)
-            return "0"
+        return "0"
 
     def dimension(self, text: Any) -> Dimension | None:
         """The dimension of an expression; None when it fits anywhere or is wrong."""
@@ -186,44 +190,36 @@ class Writer:
                 self.scope.complain(path, f"the points of a line {why}", "a line goes through two points of one body")
             return {"point": first, "towards": second}
         if isinstance(line, (Through, SurfaceShape)):
-            return {
-                "point": self.point((*path, "through"), line.through, body),
-                "angle": self.number((*path, "angle"), line.angle, "rad"),
-            }
+            point = self.point((*path, "through"), line.through, body)
+            return {"point": point, "angle": self.number((*path, "angle"), line.angle, "rad")}
         return dict(self.lines.get(self.place(path, line, "line", body), {"point": "ground.O", "angle": 0.0}))
 
     def circle(self, path: Path, circle: Circle | SurfaceShape) -> dict[str, Any]:
         """A centre and a radius."""
-        return {
-            "centre": self.point((*path, "centre"), circle.centre),
-            "radius": self.number((*path, "radius"), circle.radius, "m", "a radius"),
-        }
+        centre = self.point((*path, "centre"), circle.centre)
+        return {"centre": centre, "radius": self.number((*path, "radius"), circle.radius, "m", "a radius")}
 
     def place(self, path: Path, name: str, kind: str, body: str = "") -> str:
         """The full name of a point, line, curve or body."""
         name = unquote(name).strip()
         own = f"{body}.{name}"
-        try:
+        with self.scope.noting(path):
             if body and (known := self.meanings.alias.get(own, own)) in self.meanings.called(kind):
                 return known
             return self._known(self.full(name if "." in name or not body else own.removeprefix(self.prefix)), kind)
-        except ModelProblem as complaint:
-            self.scope.complain(path, complaint.what, complaint.hint)
-            return "ground" if kind == "body" else "ground.O"
+        return "ground" if kind == "body" else "ground.O"
 
     def _known(self, name: str, kind: str) -> str:
         meanings, short = self.meanings, name.removeprefix(self.prefix)
         known = meanings.called(kind)
         if name in known:
             return name
-        if kind == "body":
-            what = f"`{short}` is a point, and a body is needed" if name in meanings.points else f"there is no body `{short}`"
-            raise ModelProblem(what, suggestion(short.split(".")[0], meanings.seen_from(self.scope, known)))
-        if kind == "string":
-            raise ModelProblem(
-                f"there is no string `{short}`", suggestion(short, meanings.seen_from(self.scope, known), "strings")
-            )
-        raise meanings.place(name, kind, known, self.scope)
+        if kind not in ("body", "string"):
+            raise meanings.place(name, kind, known, self.scope)
+        is_point = kind == "body" and name in meanings.points
+        what = f"`{short}` is a point, and a body is needed" if is_point else f"there is no {kind} `{short}`"
+        word = short.split(".")[0] if kind == "body" else short
+        raise ModelProblem(what, suggestion(word, meanings.seen_from(self.scope, known), f"{kind}s"))
 
 
 def body_of(point: str) -> str:
