@@ -162,6 +162,12 @@ impl<S: Scalar> Twist<S> {
     pub fn at(&self, arm: Vec2<S>) -> Vec2<S> {
         self.v + arm.perp() * self.w
     }
+    /// Acceleration of the body point at `arm`, where these are the accelerations of the reference point and the angle, of
+    /// a body that turns at `w`.
+    #[inline(always)]
+    pub fn acceleration_at(&self, arm: Vec2<S>, w: S) -> Vec2<S> {
+        self.at(arm) - arm * (w * w)
+    }
     /// The three components (vx, vy, ω).
     pub fn parts(&self) -> [S; 3] {
         [self.v.x, self.v.y, self.w]

@@ -34,8 +34,7 @@ impl Workspace<'_> {
     /// Acceleration of a body's mass centre in the last solution.
     pub fn centre_acceleration(&self, body: usize) -> Vec2 {
         let arm = self.at().centre_arm(body);
-        let w = self.k.twist[body].w;
-        self.solved.bodies[body].at(arm) - arm * (w * w)
+        self.solved.bodies[body].acceleration_at(arm, self.k.twist[body].w)
     }
 
     /// Kinetic energy of all bodies, J.

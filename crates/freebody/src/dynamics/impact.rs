@@ -2,7 +2,6 @@
 
 use super::contact_modes::force_on_first;
 use super::minimal::Force;
-use super::reactions::joint_load;
 use super::{ClosedContacts, ContactTolerances, DynamicsError, JointLoad, Row, Workspace};
 use crate::contact::complementarity::{self, ImpactProblem, Problem};
 use crate::mechanism::Friction;
@@ -180,6 +179,6 @@ impl Workspace<'_> {
         }
         super::add_multipliers(&self.rows, lambda, &mut unbalanced);
         let joint_wrenches = self.joint_wrenches(unbalanced);
-        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &joint_wrenches, &self.rows, lambda)).collect()
+        self.joint_loads_of(&joint_wrenches, lambda)
     }
 }

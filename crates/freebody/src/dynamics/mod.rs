@@ -35,7 +35,7 @@ pub use impact::ImpactSolution;
 pub use instant::{ContactLoad, Instant};
 pub use loads::{add_force, force_power, force_value, pulled, pushed, unaccounted_power};
 pub use maximal::{constraint_rows, joint_place};
-pub use momentum::{add_multipliers, inertia_wrench, momentum, residual};
+pub use momentum::{add_multipliers, inertia_wrench, momentum, momentum_rate, residual};
 pub(crate) use projection::{CLOSED, OPEN};
 pub use rank::{Count, Determinacy, Freedom, SelfStress};
 pub use reactions::JointLoad;

@@ -12,12 +12,18 @@ pub fn momentum<S: Scalar>(at: StateView<'_, S>, body: usize, v: Vec2<S>, w: S) 
     Wrench { f: v * at.n.mass[body], m: turning }
 }
 
-/// The rate of momentum of a body, at its joint origin, for an acceleration of its joint origin and angle: m a_G at G
-/// and I α.
+/// The rate of momentum of a body about its mass centre, for an acceleration of its joint origin and angle: m a_G and
+/// I α.
+#[inline]
+pub fn momentum_rate<S: Scalar>(at: StateView<'_, S>, body: usize, acceleration: Twist<S>) -> Wrench<S> {
+    let (arm, w) = (at.centre_arm(body), at.k.twist[body].w);
+    momentum(at, body, acceleration.acceleration_at(arm, w), acceleration.w)
+}
+
+/// The same at its joint origin.
 #[inline]
 pub fn inertia_wrench<S: Scalar>(at: StateView<'_, S>, body: usize, acceleration: Twist<S>) -> Wrench<S> {
-    let (arm, w) = (at.centre_arm(body), at.k.twist[body].w);
-    momentum(at, body, acceleration.at(arm) - arm * (w * w), acceleration.w).seen_from(arm)
+    momentum_rate(at, body, acceleration).seen_from(at.centre_arm(body))
 }
 
 /// What is left of the balance of momentum of every body, at its joint origin: the loads on it and those of the rows

@@ -5,7 +5,6 @@
 
 use super::contact_modes::{force_on_first, REST};
 use super::minimal::{row_scales, rows_in_coordinates, Force};
-use super::reactions::joint_load;
 use super::rows::closing_rows;
 use super::{Row, Source, Workspace};
 use crate::kinematics::StateView;
@@ -235,10 +234,7 @@ impl Workspace<'_> {
         let mut loads = vec![Wrench::zero(); self.m.bodies.len()];
         super::add_multipliers(&self.rows, &lambda, &mut loads);
         let joint_wrenches = self.joint_wrenches(loads);
-        let joint = |j| {
-            let load = joint_load(self.at(), j, &joint_wrenches, &self.rows, &lambda);
-            [load.force.x, load.force.y, load.couple]
-        };
+        let loads = self.joint_loads_of(&joint_wrenches, &lambda);
         let drives = self.of_drives(&lambda);
         let mut groups = vec![[0.0; 4]; self.m.groups.len()];
         for (row, &l) in self.rows.iter().zip(&lambda) {
@@ -248,7 +244,11 @@ impl Workspace<'_> {
             let sum = &mut groups[self.m.unilateral[constraint].group];
             sum.iter_mut().zip([force.x, force.y, along[0], along[1]]).for_each(|(s, x)| *s += x);
         }
-        SelfStress { joints: (0..self.m.joints.len()).map(joint).collect(), drives, groups }
+        SelfStress {
+            joints: loads.iter().map(|load| [load.force.x, load.force.y, load.couple]).collect(),
+            drives,
+            groups,
+        }
     }
 
     /// As [`Workspace::determinacy_under`], at the present, solved state. In a mechanism with many coordinates, where

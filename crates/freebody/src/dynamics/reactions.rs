@@ -1,8 +1,8 @@
 //! What every joint does to its bodies.
 
 use super::rows::{Row, Source};
-use super::{constraint_rows, residual, Workspace};
-use crate::kinematics::{relative, JointView, StateView};
+use super::{constraint_rows, joint_place, residual, Workspace};
+use crate::kinematics::{relative, StateView};
 use crate::mechanism::{DriveKind, FrictionSource, Mechanism};
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::real;
@@ -55,17 +55,10 @@ impl Source {
 }
 
 /// The reaction of joint `index`: in the tree from the load passed, else from the multipliers.
-pub(super) fn joint_load(
-    at: StateView<'_>,
-    index: usize,
-    joint_wrenches: &[Wrench],
-    rows: &[Row],
-    lambda: &[f64],
-) -> JointLoad {
+fn joint_load(at: StateView<'_>, index: usize, joint_wrenches: &[Wrench], rows: &[Row], lambda: &[f64]) -> JointLoad {
     let joint = &at.m.joints[index];
     let (axes, place) = relative(joint, at.m, &at);
-    let view = JointView::new(at.m, at.n, joint, |x| x);
-    let point = axes.place(view.contact(&place));
+    let point = joint_place(at, index);
     let [first, second] = at.m.ends(joint);
     let load = match joint.child {
         Some(child) if child == second => about(at, child, joint_wrenches[child], point),
@@ -116,14 +109,18 @@ impl Workspace<'_> {
 
     /// The reaction of every joint in the last solution.
     pub fn joint_loads(&self) -> Vec<JointLoad> {
-        let s = &self.solved;
-        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, &s.joint_wrenches, &self.rows, &s.lambda)).collect()
+        self.joint_loads_of(&self.solved.joint_wrenches, &self.solved.lambda)
+    }
+
+    /// The reaction of every joint by the loads passed in the tree and the multipliers of the present rows.
+    pub(super) fn joint_loads_of(&self, joint_wrenches: &[Wrench], lambda: &[f64]) -> Vec<JointLoad> {
+        (0..self.m.joints.len()).map(|j| joint_load(self.at(), j, joint_wrenches, &self.rows, lambda)).collect()
     }
 
     /// The multipliers of a joint's own rows that add up to its reaction in the last solution.
     pub fn row_loads(&self, joint: usize) -> Vec<f64> {
         let at = self.at();
-        let load = joint_load(at, joint, &self.solved.joint_wrenches, &self.rows, &self.solved.lambda);
+        let load = self.joint_load(joint);
         let second = at.m.ends(&at.m.joints[joint])[1];
         let on_second = load.at_joint_origin(at, second).parts();
         let mut rows = vec![];

@@ -58,7 +58,7 @@ fn xy(v: Vec2) -> Value {
 
 /// Acceleration of the mass centre and angular acceleration, by those of the joint origin; `w` the angular velocity.
 fn at_centre(arm: Vec2, origin: Twist, w: f64) -> [f64; 3] {
-    let a = origin.at(arm) - arm * (w * w);
+    let a = origin.acceleration_at(arm, w);
     [a.x, a.y, origin.w]
 }
 

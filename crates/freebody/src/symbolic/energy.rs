@@ -93,7 +93,8 @@ impl SymbolicState<'_> {
         let residuals: Vec<Symbol> = (0..n)
             .map(|i| {
                 let (bodies, test): (Vec<usize>, VirtualMotion) = self.of_coordinate(i);
-                -self.residual(&bodies, test)
+                let balance = self.balance(&bodies, test);
+                balance.right - balance.left
             })
             .collect();
         let matrix = |dots: u8| -> Vec<Vec<Value>> {

@@ -3,12 +3,11 @@
 //! The group moves as one, virtually: turned about a point P, or shifted along a direction e. The power of all loads on
 //! it is then that of its rate of momentum: Σ M/P = Ḣ/P, or Σ F·e = L̇·e. Loads between its own bodies cancel.
 
-use super::motion::acceleration;
 use super::query::{About, Along, Group, Parts};
 use super::vectors::{linear_in, tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::Symbol;
-use crate::dynamics::{momentum, DynamicsError};
+use crate::dynamics::{momentum, momentum_rate, DynamicsError};
 use crate::free_bodies::{Load, Part, Size};
 use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -32,9 +31,19 @@ impl VirtualMotion {
         }
     }
 
-    fn about(point: Vec2<Symbol>) -> Self {
+    pub(super) fn about(point: Vec2<Symbol>) -> Self {
         VirtualMotion::Moment { about: point, scale: Symbol::one() }
     }
+}
+
+/// The balance of momentum of a group: Σ of the powers of its loads = that of its rate of momentum.
+pub struct Balance {
+    /// Of every load on it its number, its power, and whether it acts between bodies of the group.
+    loads: Vec<(usize, Symbol, bool)>,
+    /// Of every body the power of its rate of momentum.
+    rates: Vec<(usize, Symbol)>,
+    pub left: Symbol,
+    pub right: Symbol,
 }
 
 impl SymbolicState<'_> {
@@ -163,12 +172,6 @@ impl SymbolicState<'_> {
         entries
     }
 
-    /// The rate of momentum of a body as the equation sees it.
-    fn momentum_rate(&self, body: usize, test: VirtualMotion) -> Symbol {
-        let (arm, w, a) = (self.arm(body), self.k.twist[body].w, self.bodies[body]);
-        self.tested(body, test, momentum(self.at(), body, acceleration(a, arm, w), a.w))
-    }
-
     /// The momentum of a body as the equation sees it.
     pub(super) fn momentum(&self, body: usize, test: VirtualMotion) -> Symbol {
         let twist = self.k.twist[body];
@@ -180,26 +183,19 @@ impl SymbolicState<'_> {
         test.power(self.centre(body), about_centre.f, about_centre.m)
     }
 
-    /// Σ loads − rate of momentum, which must vanish.
-    pub(super) fn residual(&self, bodies: &[usize], test: VirtualMotion) -> Symbol {
-        let mut sum = Symbol::zero();
-        for (_, moment, internal) in self.moments(bodies, test) {
-            if !internal {
-                sum += moment;
-            }
-        }
-        for &b in bodies {
-            sum -= self.momentum_rate(b, test);
-        }
-        sum
+    /// The balance of momentum of a group under a virtual motion of it.
+    pub(super) fn balance(&self, bodies: &[usize], test: VirtualMotion) -> Balance {
+        let loads = self.moments(bodies, test);
+        let rate = |&b: &usize| (b, self.tested(b, test, momentum_rate(self.at(), b, self.bodies[b])));
+        let rates: Vec<(usize, Symbol)> = bodies.iter().map(rate).collect();
+        let left = loads.iter().filter(|(_, _, internal)| !internal).fold(Symbol::zero(), |sum, load| sum + load.1);
+        let right = rates.iter().fold(Symbol::zero(), |sum, rate| sum + rate.1);
+        Balance { loads, rates, left, right }
     }
 
     /// The equation, with as much of what it is made of as is asked for.
     pub(super) fn equation(&self, bodies: &[usize], test: VirtualMotion, parts: Parts) -> Value {
-        let moments = self.moments(bodies, test);
-        let left = moments.iter().filter(|(_, _, internal)| !internal).fold(Symbol::zero(), |sum, m| sum + m.1);
-        let rates: Vec<(usize, Symbol)> = bodies.iter().map(|&b| (b, self.momentum_rate(b, test))).collect();
-        let right = rates.iter().fold(Symbol::zero(), |sum, rate| sum + rate.1);
+        let Balance { loads, rates, left, right } = self.balance(bodies, test);
         let unknowns = self.unknowns();
         let residual = right - left;
         let mut entries = json!({
@@ -213,7 +209,7 @@ impl SymbolicState<'_> {
                 json!({"load": i, "tree": tree(entries), "zero": moment.is_zero(), "internal": internal})
             };
             let inertia = |&(b, rate): &(usize, Symbol)| json!({"body": self.m.bodies[b].name, "tree": tree(rate), "zero": rate.is_zero()});
-            entries["loads"] = moments.iter().map(load).collect();
+            entries["loads"] = loads.iter().map(load).collect();
             entries["inertia"] = rates.iter().map(inertia).collect();
         }
         if parts.momentum {

@@ -21,7 +21,7 @@ impl SymbolicState<'_> {
                 "mass": tree(self.n.mass[i]), "inertia": tree(self.n.inertia[i]),
                 "angle": tree(self.k.pose[i].turn.angle), "omega": tree(twist.w), "alpha": tree(origin.w),
                 "r": self.vector(self.centre(i)), "v": self.vector(twist.at(arm)),
-                "a": self.vector(acceleration(origin, arm, twist.w)),
+                "a": self.vector(origin.acceleration_at(arm, twist.w)),
             })
         };
         Value::Array(self.m.listed_bodies().into_iter().map(entry).collect())
@@ -36,12 +36,12 @@ impl SymbolicState<'_> {
         let arm = turn.apply(self.n.arms[site]);
         let place = self.k.pose[own].at + arm;
         let v = self.k.twist[own].at(arm);
-        let a = acceleration(self.bodies[own], arm, self.k.twist[own].w);
+        let a = self.bodies[own].acceleration_at(arm, self.k.twist[own].w);
         let (twist, origin, w) = (self.k.twist[frame], self.bodies[frame], self.k.twist[frame].w);
         let reach = place - self.k.pose[frame].at;
         let v_transport = twist.at(reach);
         let v_relative = v - v_transport;
-        let a_transport = acceleration(origin, reach, w);
+        let a_transport = origin.acceleration_at(reach, w);
         let coriolis = v_relative.perp() * w.scale(2.0);
         Ok(json!({
             "v": self.vector(v), "v_transport": self.vector(v_transport), "v_relative": self.vector(v_relative),
@@ -69,7 +69,7 @@ impl SymbolicState<'_> {
             let body = self.m.body_of(site);
             let (pose, twist) = (k.pose[body], k.twist[body]);
             let arm = pose.turn.apply(self.n.arms[site]);
-            [pose.at + arm, twist.at(arm), acceleration(bodies[body], arm, twist.w)]
+            [pose.at + arm, twist.at(arm), bodies[body].acceleration_at(arm, twist.w)]
         };
         for row in rows {
             let Source::Joint(joint, r) = row.source else { continue };
@@ -112,9 +112,4 @@ impl SymbolicState<'_> {
             (0..self.m.freedom()).map(|i| Variable::new(&self.m.coordinate(i).name, 0)).collect();
         presented(v, &coordinates)
     }
-}
-
-/// The acceleration of a point at an arm from a joint origin.
-pub(super) fn acceleration(origin: Twist<Symbol>, arm: Vec2<Symbol>, w: Symbol) -> Vec2<Symbol> {
-    origin.at(arm) - arm * (w * w)
 }

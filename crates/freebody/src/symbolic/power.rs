@@ -1,17 +1,15 @@
 //! Virtual power: all bodies moved at once as closed loops allow, so that what closes the loops has none.
 
-use super::motion::acceleration;
 use super::vectors::{tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
-use crate::dynamics::{momentum, DynamicsError};
+use crate::dynamics::{momentum_rate, DynamicsError};
 use crate::plane::{vec2, Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
 impl SymbolicState<'_> {
-    /// One equation for each coordinate that is not `bound`: its virtual rates, those of the bound ones following from
-    /// the
+    /// One equation for each coordinate that is not `bound`: its virtual rates, those of the bound ones following from the
     /// `rows` (by their places) of what is closed, and the power of all loads and of all inertia in them.
     pub(super) fn virtual_power(&self, bound: &[String], rows: &[usize]) -> Result<Value, DynamicsError> {
         let bound: Vec<usize> = bound.iter().map(|name| self.coordinate(name)).collect::<Result<_, _>>()?;
@@ -41,10 +39,8 @@ impl SymbolicState<'_> {
             }
         }
         for body in self.m.listed_bodies() {
-            let (arm, origin, turning) = (self.arm(body), self.bodies[body], self.k.twist[body].w);
-            let (v, w) = self.virtual_motion(body, arm, rates);
-            let rate = momentum(self.at(), body, acceleration(origin, arm, turning), origin.w);
-            moves += rate.power(Twist { v, w });
+            let (v, w) = self.virtual_motion(body, self.arm(body), rates);
+            moves += momentum_rate(self.at(), body, self.bodies[body]).power(Twist { v, w });
         }
         let unknowns = self.unknowns();
         let rates: serde_json::Map<String, Value> =
