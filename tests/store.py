@@ -16,9 +16,9 @@ import pytest
 
 import freebody as fb
 from freebody import catalogue
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.derive import derive
 from freebody.solve.perturbed_states import RATES, others
+from freebody.solve.symbolic_state import SymbolicState
 
 ROOT = Path(__file__).parents[1]
 SYSTEMS = {f"{system.id}/{path.stem}": path for system in catalogue.systems() for path in system.models}

@@ -97,8 +97,8 @@ class Moving:
 
         ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
         coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``."""
-        from freebody.equations.derivation.data import SymbolicState
         from freebody.equations.derivation.derive import derive
+        from freebody.solve.symbolic_state import SymbolicState
 
         chosen = dict(fixed or {})
         state, notes = self.start(initial, t, **changes, **chosen)

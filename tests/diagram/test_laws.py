@@ -9,7 +9,7 @@ from matplotlib.mathtext import MathTextParser
 from store import SYSTEMS, every, mechanism, start
 
 import freebody as fb
-from freebody.equations.derivation.data import SymbolicState
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.printers.typeset import latex
 from freebody.views.diagram import diagram

@@ -17,8 +17,8 @@ from freebody.check import Checker, Kind
 from freebody.document.blocks import Equation, Matrices, Written, is_tree
 from freebody.document.document import Document
 from freebody.equations import equation_latex
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.derive import FORMS
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Sym

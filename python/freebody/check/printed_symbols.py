@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from freebody.core import MotionError
 from freebody.equations.derivation.conserved import energies
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.preamble import directions
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.symbols import Renamed, unicode_name
 from freebody.symbolic.tree import Sym, substitute, symbols
 

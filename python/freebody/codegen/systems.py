@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
-from freebody.core import CompiledModel, FreeBodies, Load, State
-from freebody.equations.linear import Linear, linear_in
-from freebody.solve.symbols import Symbols
-from freebody.symbolic.letters import Letter, Letters
+from freebody.core import CompiledModel, State
+from freebody.solve.symbolic_state import SymbolicState
+from freebody.symbolic.letters import Letters
+from freebody.symbolic.linear import Linear, linear_in
 from freebody.symbolic.tree import ZERO, Sym, Tree, negative, read
 
 Matrix = tuple[tuple[Tree, ...], ...]
@@ -72,51 +71,28 @@ class Systems:
 
 def systems(source: CompiledModel, state: State) -> Systems:
     """The equations of a mechanism near a state. Raises ``MotionError``."""
-    free = source.free_bodies(state)
-    cut = [{"ask": "equation", "bodies": [body.name], **how} for body in free.bodies.values() for how in _ways(body.particle)]
-    stated = source.letters(state, [{"ask": "rows"}, {"ask": "lagrange"}, *cut])
-    rows, lagrange, *balances = stated.answers
-    letters = _letters(source, free, stated.letters)
-    unknowns = {*(Sym(name, 2) for name in letters.of_kind("coordinate")), *map(Sym, letters.of_kind("unknown"))}
-    values = {name: stated.letters[name]["value"] for name in letters.of_kind("parameter", "constant")}
+    subject = SymbolicState(source, state)
+    given = {item["name"]: item["value"] for item in source.spec["parameters"]}
+    docs = {name: _formula(value, given) for name, value in given.items()}  # and of loads without the symbol, which stands beside it
+    stated = {name: replace(x, doc=docs.get(name, x.doc.removesuffix(f" ({name})"))) for name, x in subject.letters.items()}
+    letters = Letters(stated, subject.letters.renamed)
+    unknowns = {*(Sym(name, 2) for name in subject.names), *map(Sym, letters.of_kind("unknown"))}
+    moving = subject.ask([{"ask": "lagrange"}])[0]["equations"]
     return Systems(
         source.name,
         letters,
-        values | dict(zip((each["name"] for each in source.metadata["parameters"]), state.p.tolist(), strict=True)),
-        tuple(linear_in(read(each["residual"]), unknowns) for each in lagrange["equations"]),
-        tuple(Linear.read(row["linear"]) for row in rows),
-        tuple(Linear.read(each["linear"]) for each in balances),
+        {name: subject.values[Sym(name)] for name in letters.of_kind("parameter", "constant")},
+        tuple(linear_in(read(each["residual"]), unknowns) for each in moving),
+        tuple(row.linear for row in subject.rows),
+        tuple(balance.linear for balance in subject.of_bodies()),
     )
-
-
-def _ways(particle: bool) -> list[dict[str, str]]:
-    return [{"along": "x"}, {"along": "y"}] + ([] if particle else [{"about": "centre"}])
 
 
 def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
     return tuple(tuple(equation.coefficients.get(letter, ZERO) for letter in unknowns) for equation in equations)
 
 
-def _letters(source: CompiledModel, free: FreeBodies, table: Mapping[str, Mapping[str, Any]]) -> Letters:
-    """All letters in the order of the model: coordinates, parameters, numbers without a name, unknown loads, time."""
-    metadata = source.metadata
-    found = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in metadata["coordinates"]]
-    given = {item["name"]: item["value"] for item in source.spec["parameters"]}
-    found += [Letter(name, "parameter", table[name]["unit"], _formula(value, given)) for name, value in given.items()]
-    unnamed = (name for name, entry in table.items() if entry["kind"] == "number")
-    found += [Letter(name, "constant", table[name]["unit"], table[name]["doc"]) for name in unnamed]
-    found += [Letter(load.symbol, "unknown", "", _said(load)) for load in free.loads if load.unknown and not load.follows]
-    renamed = Symbols.of(source, free.loads, table).renamed
-    return Letters({letter.name: letter for letter in (*found, Letter("t", "time", "s"))}, renamed)
-
-
 def _formula(value: str | float, names: Collection[str]) -> str:
     """What a parameter depends on in the model: in generated code every parameter is free."""
     depends = isinstance(value, str) and set(re.findall(r"[^\W\d][\w.]*", value)) & set(names)
     return f"{value} in the model, here a number of its own" if depends else ""
-
-
-def _said(load: Load) -> str:
-    if load.kind != "joint":
-        return f"what {load.name} takes"
-    return f"{load.card.name} of {load.name} on {load.of[-1]}, from {load.of[0]}"

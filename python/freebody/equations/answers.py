@@ -14,7 +14,6 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, 
 from freebody.document.document import Document
 from freebody.equations.balances.system import NotUnknown
 from freebody.equations.dependent_coordinates import held_still
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import joined, lettered
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.solve import TooLarge, limit, solve
@@ -24,6 +23,7 @@ from freebody.equations.velocity_ratios import blocks as of_ratios
 from freebody.equations.velocity_ratios import driven, ratios
 from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import nearby, others
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import PATIENCE, presented
@@ -186,7 +186,9 @@ def _answers(
 def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
     made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
     if chosen.measured:
-        made.append(Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI."))
+        made.append(
+            Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI.")
+        )
     if chosen.at_start:
         made.append(Paragraph("The symbolic form for every configuration would fill pages: this one holds at the start."))
     if said := ["all rates are 0"] * subject.at_rest + chosen.said():

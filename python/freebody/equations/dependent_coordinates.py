@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from freebody.core import FreeBodies
-from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.substitutions import Substitutions
+from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import PATIENCE, presented

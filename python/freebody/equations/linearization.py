@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from freebody.core import Array
-from freebody.equations.derivation.data import Row, SymbolicState
-from freebody.equations.linear import linear_in
 from freebody.equations.solve import TooLarge, solve
+from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.decimals import exact, exact_angle, is_measured, measured, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ONE, PI, ZERO, Sym, Tree, is_zero, negative, operations, read, symbols
@@ -81,8 +81,14 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where
     they do no work) the equations are Lᵀ (M N z̈ + C N ż + K N z) = 0. Raises ``TooLarge``, ``Singular``."""
     names, letters = found.coordinates, subject.letters
-    laws = [row for row in replace(subject, at_rest=False).rows if row.kind == "motion" and row.value is None and row.rate is None
-            and any(x.name in names for x in symbols(row.linear.rest))]  # of places and rates, which they so leave free
+    laws = [
+        row
+        for row in replace(subject, at_rest=False).rows
+        if row.kind == "motion"
+        and row.value is None
+        and row.rate is None
+        and any(x.name in names for x in symbols(row.linear.rest))
+    ]  # of places and rates, which they so leave free
     holding = [row for row in subject.rows if row.name not in {law.name for law in laws}]
     slopes = [[_put(row.linear.coefficients.get(Sym(name, 2), ZERO), put) for name in names] for row in holding]
     loads = [Sym(load.symbol) for load in subject.free.loads if load.unknown]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.core import Array
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import Linearised, Matrix
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import is_zero

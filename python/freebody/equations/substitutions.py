@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array, MotionError, State
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.language import definitions
 from freebody.model.start import evaluate as quantity
 from freebody.model.start import parameter_values
 from freebody.solve.perturbed_states import alike
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import exact, shown, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import is_heavy

@@ -12,13 +12,13 @@ from freebody.equations.balances.smallest import smallest_set
 from freebody.equations.dependent_coordinates import holds
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.coordinates import stated as of_coordinates
-from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.minimal import from_search
-from freebody.equations.linear import Linear
 from freebody.equations.linearization import independent
 from freebody.equations.solve import TooLarge
 from freebody.equations.substitutions import Substitutions
+from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
 _ASIDE = 0.1

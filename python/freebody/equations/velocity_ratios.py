@@ -13,11 +13,11 @@ from itertools import combinations
 import numpy as np
 
 from freebody.document.blocks import Block, Equation, Paragraph, Words, Written
-from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.linear import Linear
 from freebody.equations.solve import TooLarge, coefficients, solve
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import measured
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy

@@ -87,7 +87,9 @@ class AppliedImpulse(Impulsive):
         return self.whole.letters(self.before, [{"ask": "rows"}]).answers[0]
 
 
-def strike(mechanism: Builder, state: State, point: str, direction: Any = 0, impulse: Any = 1.0, frame: str = "fixed") -> AppliedImpulse:
+def strike(
+    mechanism: Builder, state: State, point: str, direction: Any = 0, impulse: Any = 1.0, frame: str = "fixed"
+) -> AppliedImpulse:
     """An ``impulse`` (N·s) at a named point on a model at rest, along a ``direction`` (``"-90 deg"``, or an expression) from the x
     axis of the ``frame``, ``fixed`` or ``body``. Where joints alone hold it, rates
     that it had before stay and the jumps add to them. Raises ``NoImpact`` where it moves and may touch something, ``ModelFileError``

@@ -185,5 +185,7 @@ def find(run: Run, number: int = 1, *, of: str | None = None, after: float | Non
     asked = [impact for impact in impacts(run) if of in (None, *impact.change.of) and (after is None or impact.change.t >= after)]
     if not 1 <= number <= len(asked):
         which = (f" of {of}" if of else "") + (f" from {after:g} s on" if after is not None else "")
-        raise NoImpact(f"the run has {len(asked)} impacts{which}, none of number {number}; let it run longer, or start it otherwise")
+        raise NoImpact(
+            f"the run has {len(asked)} impacts{which}, none of number {number}; let it run longer, or start it otherwise"
+        )
     return asked[number - 1]

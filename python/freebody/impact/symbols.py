@@ -1,35 +1,46 @@
-"""The letters of an impact: an impulse is J with the letter of its force below, ``J_N_floor``."""
+"""A mechanism symbolically during an impact."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from freebody.core import SymbolicAnswers
 from freebody.impact.impacts import Impulsive
-from freebody.solve.symbols import Naming, Symbols
+from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.symbols import Name
 
 
 @dataclass(frozen=True)
-class ImpulseNaming(Naming):
-    """The letters of an impact: an impulse is J with the letter of its force below, ``J_N_floor``."""
+class ImpulsiveState(SymbolicState):
+    """A mechanism during an impact, while all that was struck holds; rates are those before."""
 
-    blow: Impulsive
+    happened: Impulsive | None = None
 
     @classmethod
-    def of(cls, impact: Impulsive) -> ImpulseNaming:
-        """Those of an impact."""
-        return cls(impact.source, impact.state, impact.impulses, impact)
+    def of(cls, impact: Impulsive) -> ImpulsiveState:
+        """That of an impact."""
+        return cls(impact.source, impact.state, given=impact.free, happened=impact)
+
+    @property
+    def blow(self) -> Impulsive:
+        """What happened."""
+        assert self.happened is not None
+        return self.happened
 
     @cached_property
-    def loads(self) -> dict[str, Name]:
-        """The letters of impulses, by the symbols of their forces."""
-        forces = Symbols.of(self.source, self.blow.free.loads, self._ask([]).letters).loads
+    def rows_before(self) -> list[Row]:
+        """What held just before the impact."""
+        return list(map(Row.read, self.blow.rows_before()))
+
+    @cached_property
+    def impulses(self) -> dict[str, Name]:
+        """How impulses are written, by the symbols of their forces: J with the symbol of the force below, ``J_N_floor``."""
+        made = {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in self.symbols.loads.items()}
         given = {load.symbol: self.blow.given[load.name] for load in self.blow.acting if load.name in self.blow.given}
-        made = {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in forces.items()}
         return made | {symbol: Name.parse(letter) for symbol, letter in given.items()}
 
-    def _ask(self, questions: list[dict[str, str]]) -> SymbolicAnswers:
-        """What the core answers during the impact."""
+    def _ask(self, questions: Sequence[Mapping[str, Any]]) -> SymbolicAnswers:
         return self.blow.letters(questions)

@@ -269,7 +269,11 @@ class Instant:
         rich."""
         coordinates = [(c["name"], self.accelerations[c["name"]], f"{c['dimension']}/s²") for c in self._metadata["coordinates"]]
         locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
-        drives = (("prescribed motions", "motion", self.motions), ("couplings", "coupling", self.couplings), ("locks", "lock", locks))
+        drives = (
+            ("prescribed motions", "motion", self.motions),
+            ("couplings", "coupling", self.couplings),
+            ("locks", "lock", locks),
+        )
         left = [(body, *(f"{value:.1e}" for value in row)) for body, row in self.residuals.items()]
         return [
             table("accelerations", ["coordinate", "value", "unit"], coordinates),

@@ -105,7 +105,9 @@ class Closing:
     def __init__(self, source: CompiledModel, state: State, first: FreeBodies) -> None:
         self.core, self.state = source, state
         motions = [{**motion, "level": "acceleration"} for motion in source.spec.get("motions", [])]
-        self.loose = CompiledModel.of({**source.spec, "motions": motions}) if motions else source  # motions do not say where it is
+        self.loose = (
+            CompiledModel.of({**source.spec, "motions": motions}) if motions else source
+        )  # motions do not say where it is
         self.names = [c["name"] for c in source.metadata["coordinates"]]
         limits, held = [limit["name"] for limit in source.metadata["limits"]], []
         for name in dict.fromkeys(row.name for row in first.rows if row.name in limits):
@@ -157,7 +159,9 @@ class Closing:
 
     def rows(self, free: FreeBodies) -> Array:
         """What is closed, as rows among the rates."""
-        return np.array([[row.coefficients[name] for name in self.names] for row in free.rows]).reshape(len(free.rows), len(self.names))
+        return np.array([[row.coefficients[name] for name in self.names] for row in free.rows]).reshape(
+            len(free.rows), len(self.names)
+        )
 
     def _gaps(self, q: Array) -> Array | None:
         """What is left of the gap of every row, 0 for one of friction; None where something is pierced, or stretched too far."""

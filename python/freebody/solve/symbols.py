@@ -11,13 +11,10 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, TypeAlias
 
-from freebody.core import GROUND, CompiledModel, FreeBodies, Load, State, SymbolicAnswers, cards
-from freebody.symbolic.letters import Letter, Letters
+from freebody.core import GROUND, CompiledModel, Load, cards
 from freebody.symbolic.symbols import Name, Renamed, Taken, folded
-from freebody.symbolic.tree import Tree, read
 
 _Law: TypeAlias = dict[str, Any] | None
 """A force of the model as the core reads it."""
@@ -26,7 +23,8 @@ _OF_BODIES = {
     "a": ("acceleration", "acceleration"), "alpha": ("angular acceleration", "angular"),
 }  # fmt: skip
 """What a letter of a body is, and its stem where the usual one is taken."""
-_PLAIN = re.compile(r"[^\W\d]\w*")
+PLAIN = re.compile(r"[^\W\d]\w*")
+"""A name that is not quoted."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ def coefficient(source: CompiledModel, name: str) -> str:
     stated = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == name)
     value = (stated | stated.get("with", {})).get("friction")
     value = value["kinetic"] if isinstance(value, dict) else value
-    return value if isinstance(value, str) and _PLAIN.fullmatch(value) else ""
+    return value if isinstance(value, str) and PLAIN.fullmatch(value) else ""
 
 
 def _name(load: Load, force: _Law) -> Name:
@@ -132,7 +130,7 @@ def _given(force: _Law) -> Name | None:
     if force is None:
         return None
     value = force["with"].get("value")
-    if isinstance(value, str) and _PLAIN.fullmatch(value):
+    if isinstance(value, str) and PLAIN.fullmatch(value):
         return Name.parse(value)
     return Name(force["name"]) if len(force["name"]) == 1 else None
 
@@ -141,52 +139,3 @@ def _owner(name: str) -> tuple[str, tuple[str, ...]]:
     """``pin[2]`` → ``pin``, 2."""
     found = re.fullmatch(r"(.+)\[(\d+)\]", name)
     return (found[1], (found[2],)) if found else (name, ())
-
-
-@dataclass(frozen=True)
-class Naming:
-    """All letters of a model at a state."""
-
-    source: CompiledModel
-    state: State
-    free: FreeBodies
-
-    @cached_property
-    def symbols(self) -> Symbols:
-        """How everything is written."""
-        return Symbols.of(self.source, self.free.loads, self._ask([]).letters)
-
-    @cached_property
-    def loads(self) -> Mapping[str, Name]:
-        """The letters of loads by their symbols."""
-        return self.symbols.loads
-
-    @cached_property
-    def letters(self) -> Letters:
-        """Those of masses, inertias and gravity, for printing."""
-        return Letters({name: Letter(name, written=written) for name, written in self.symbols.names.items()})
-
-    @cached_property
-    def bodies(self) -> dict[str, tuple[Tree, Tree]]:
-        """Mass and inertia of every body, as they stand in the equations."""
-        [stated] = self._ask([{"ask": "kinematics"}]).answers
-        return {each["body"]: (read(each["mass"]), read(each["inertia"])) for each in stated}
-
-    def _ask(self, questions: list[dict[str, str]]) -> SymbolicAnswers:
-        """What the core answers at the state."""
-        return self.source.letters(self.state, questions)
-
-    @cached_property
-    def gravity(self) -> Name | None:
-        """The letter of gravity: its parameter's, else g; None where it is a vector of two letters."""
-        x, y = (str(part).strip("-()") for part in self.source.spec["gravity"] or (0, 0))
-        if _PLAIN.search(x) or float(x):
-            return None
-        if _PLAIN.fullmatch(y):
-            return self.symbols.names.get(y, Name.parse(y))
-        return self.symbols.taken.give("gravity", Name("g"), Name("gravity"))
-
-    def friction(self, load: Load) -> Name | None:
-        """The letter that the model has for the coefficient of a contact's or joint's friction, if it has one."""
-        letter = coefficient(self.source, load.name)
-        return self.symbols.names.get(letter, Name.parse(letter)) if letter else None

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from freebody.equations.derivation.data import SymbolicState
 from freebody.solve.perturbed_states import Closing, alike
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Add, Sym, Tree
 

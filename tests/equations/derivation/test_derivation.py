@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 import freebody as fb
 from freebody.cli import app
 from freebody.equations.derivation import conserved
-from freebody.equations.derivation.data import SymbolicState
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented

@@ -11,10 +11,10 @@ from store import every
 import freebody as fb
 from freebody.codegen.refusals import CannotGenerate
 from freebody.equations.derivation import conserved
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.derive import FORMS, derive
 from freebody.equations.topics.lagrange import equations
 from freebody.solve.perturbed_states import RATES, others
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 
 AGREE = 1e-10

@@ -10,9 +10,9 @@ import freebody as fb
 from freebody.core import GROUND
 from freebody.equations.balances.reasons import agree
 from freebody.equations.balances.smallest import smallest_set
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.preamble import degrees, directions
 from freebody.solve.perturbed_states import nearby
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, minus, symbols

@@ -9,8 +9,8 @@ import numpy as np
 
 import freebody as fb
 from freebody.equations import from_sympy
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.substitutions import given
+from freebody.solve.symbolic_state import SymbolicState
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 

@@ -9,8 +9,8 @@ import freebody as fb
 from freebody.cli import app
 from freebody.equations import Num, Sym, evaluate, symbols, to_sympy
 from freebody.equations.answers import Answers, solve_in_letters
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.solve import TooLarge
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 
 # Each with where the closed form stands: Meriam & Kraige, Dynamics (Atwood, sliding rod); the wedge and the cart from elimination by hand.

@@ -12,10 +12,10 @@ from numpy.testing import assert_allclose
 
 import freebody as fb
 from freebody.core import State
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import Held, held, linearised, numbers, place_of
 from freebody.equations.topics import NotHere, topic
 from freebody.solve.equilibrium import rest_near
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 
 DAMPED = """

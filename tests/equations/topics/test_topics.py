@@ -16,12 +16,12 @@ from freebody.core import State
 from freebody.document.blocks import Equation
 from freebody.equations import Sym, evaluate, symbols
 from freebody.equations.derivation.coordinates import stated
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import linearised, numbers
 from freebody.equations.topics import TOPICS, NotHere, described, topic
 from freebody.equations.topics.common import place_of, rate, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 

@@ -80,7 +80,9 @@ def minimal_form(states: Sequence[FreeBodies], points: NamedPoints | None = None
     unknowns, loads = given.unknowns, given.free.loads
     leading = {load.follows[0] for load in loads if load.follows}
     moving = [i for i, unknown in enumerate(unknowns) if unknown.coordinate]
-    driving = [i for i, unknown in enumerate(unknowns) if forces and unknown.load is not None and loads[unknown.load].kind == "motion"]
+    driving = [
+        i for i, unknown in enumerate(unknowns) if forces and unknown.load is not None and loads[unknown.load].kind == "motion"
+    ]
     frictional = [i for i, unknown in enumerate(unknowns) if unknown.load in leading]
     wanted = [*moving, *driving, *frictional]
     coordinates = tuple(unknowns[i].coordinate or "" for i in moving)

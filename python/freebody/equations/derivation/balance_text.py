@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -13,9 +12,9 @@ from freebody.core import FreeBodies, Load, Pair
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.balances.virtual_motions import placed
-from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
+from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
@@ -101,12 +100,13 @@ def _symbol(load: Load) -> str:
 
 def of_bodies(subject: SymbolicState, centre: str = "") -> list[Stated]:
     """The three balances of every body, two of a particle; ``centre`` is what its mass centre is called."""
-    asked: list[dict[str, Any]] = []
-    for name, body in subject.free.bodies.items():
-        places = [{"along": "x"}, {"along": "y"}, *([] if body.particle else [{"about": "centre"}])]
-        asked += [{"ask": "equation", "bodies": [name], **place} for place in places]
-    found = zip(subject.balances(asked), asked, strict=True)
-    return [Stated(b, q.get("along") or centre or f"the mass centre of {b.bodies[0]}", "about" if b.turns else "along") for b, q in found]
+
+    def where(balance: Balance) -> str:
+        if balance.turns:
+            return centre or f"the mass centre of {balance.bodies[0]}"
+        return "y" if is_zero(balance.place.xy[0]) else "x"
+
+    return [Stated(each, where(each), "about" if each.turns else "along") for each in subject.of_bodies()]
 
 
 def dropped(subject: SymbolicState, stated: Stated) -> dict[str, list[Load]]:

@@ -7,8 +7,8 @@ from dataclasses import replace
 from freebody.document.blocks import Block, Equation, Heading, Paragraph
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.balance_text import of_bodies
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.form import Form
+from freebody.solve.symbolic_state import SymbolicState
 
 
 def brute(subject: SymbolicState) -> Form:

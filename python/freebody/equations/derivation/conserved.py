@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.derivation import momenta
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import clause, joined
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.formula import Script, typed, word
 from freebody.symbolic.tree import Sym, Tree, add, read, symbols
 
@@ -13,7 +13,11 @@ from freebody.symbolic.tree import Sym, Tree, add, read, symbols
 def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
     """Every quantity that stays constant, with its reason, or why none does; ``in_letters``: and what it is in the coordinates."""
     kinetic, potential, why = energy(subject)
-    reason = f"not conserved: {why}." if why else "conserved: all forces have potentials, and the reactions of joints and contacts do no work."
+    reason = (
+        f"not conserved: {why}."
+        if why
+        else "conserved: all forces have potentials, and the reactions of joints and contacts do no work."
+    )
     made: list[Block] = [Heading("Conserved quantities")]
     if in_letters:
         left, right = energies(subject)

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 from freebody.document.blocks import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
 from freebody.equations.derivation import loop_closure
-from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.form import Form, Printed, System
-from freebody.equations.linear import Linear
+from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.formula import GAP, NEGATIVE, Grid, typed
 from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.symbols import Name, Renamed
 from freebody.symbolic.tree import is_zero, negative, read
 
@@ -62,7 +62,11 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
     masses, held = ([[row[column] for column in order] for row in rows] for rows in (above, below))
     a, forces = [system.unknowns[column] for column in order], system.unknowns[moving:]
     legend = Paragraph([_LEGEND, "a = (", *listed(a), "), λ = (", *listed(forces), ")."])
-    made: list[Block] = [Heading("Matrix form"), Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system"), legend]
+    made: list[Block] = [
+        Heading("Matrix form"),
+        Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system"),
+        legend,
+    ]
     off = any(not is_zero(entry) for i, row in enumerate(masses) for j, entry in enumerate(row) if i != j)
     if masses and not off and len(masses) == len(order):
         made.append(Paragraph(["M = diag(", *listed(row[i] for i, row in enumerate(masses)), ")"]))
@@ -70,18 +74,24 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
     loads = [[negative(entry) for entry in row[moving:]] for row in above]
     f, c = ([[x] for x in side] for side in (system.right[:balances], system.right[balances:]))
     blocks = (("M", masses), ("W", loads), ("G", held), ("f", f), ("c", c))
-    return made + [Equation(Written(name, typed(name)), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]]
+    return made + [
+        Equation(Written(name, typed(name)), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]
+    ]
 
 
 def _letters(names: list[str], subject: SymbolicState) -> Letters:
     found: dict[str, Letter] = {}
     known, renamed = subject.letters, dict(subject.letters.renamed)
     for name in names:
-        word, body = next((word, name.removeprefix(f"{start}_")) for start, word in _STARTS.items() if name.startswith(f"{start}_"))
+        word, body = next(
+            (word, name.removeprefix(f"{start}_")) for start, word in _STARTS.items() if name.startswith(f"{start}_")
+        )
         unit, doc, usual = *_WHAT[word], f"{word}_{body}"
         found[name] = Letter(name, "coordinate", unit, doc.format(body))
         if name != usual:
             renamed[name] = Renamed(Name.parse(usual), f"the parameter {usual}", doc.format(body), Name.parse(name))
     rest = {letter.name: letter for letter in known.values() if letter.kind != "coordinate"}
-    rest |= {letter.name: replace(letter, kind="parameter") for letter in known.values() if letter.written and letter.name not in rest}
+    rest |= {
+        letter.name: replace(letter, kind="parameter") for letter in known.values() if letter.written and letter.name not in rest
+    }
     return Letters(found | rest, renamed)

@@ -10,7 +10,7 @@ import numpy as np
 
 from freebody.core.cards import Card, Coordinate, joints
 from freebody.equations.derivation.balance_text import Stated, named_place, numbers, pin
-from freebody.equations.derivation.data import Balance, SymbolicState
+from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, is_zero
 
@@ -49,7 +49,9 @@ class _Coordinate:
         if self.moves.across and joint.get("reaction"):
             name = joint["second"]
             particle = any(body["name"] == name and body["particle"] for body in metadata["bodies"])
-            carries = any(other["first"] == name or (other["second"] == name and other is not joint) for other in metadata["joints"])
+            carries = any(
+                other["first"] == name or (other["second"] == name and other is not joint) for other in metadata["joints"]
+            )
             if particle and not carries:
                 loads = enumerate(subject.free.loads)
                 place = next(i for i, load in loads if load.kind == "joint" and load.name == joint["name"])

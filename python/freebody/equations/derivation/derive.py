@@ -13,11 +13,11 @@ from freebody.document.document import Document
 from freebody.equations.derivation import conserved, preamble
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.form import Form, Printed
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.equations.derivation.single_unknown import wanted
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym, Tree, symbols
@@ -107,7 +107,9 @@ def derive(subject: SymbolicState, form: str = "minimal", want: str | None = Non
         body += [*_matrix_form(form, content, subject), *conserved.section(subject, in_letters=own)]
     first = [Heading(f"{subject.source.name}: equations, {title}", 1), *(preamble.configuration(subject) if own else [])]
     blocks = (*first, *preamble.letters(letters, used(body)), *body)
-    return Equations(tuple(lettered(readable(block, _ELSEWHERE), letters) for block in blocks), letters, form=form, content=content)
+    return Equations(
+        tuple(lettered(readable(block, _ELSEWHERE), letters) for block in blocks), letters, form=form, content=content
+    )
 
 
 def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block]:
@@ -127,7 +129,16 @@ def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block
         made.append(Paragraph(_uneven(len(system.matrix), len(system.unknowns), len(subject.laws))))
     if moving:
         places, rates = (listed([Sym(x.name, x.dots - fewer) for x in moving]) for fewer in (2, 1))
-        said: Words = ["For integration the state is z = (", *places, ", ", *rates, "). Its rate is (", *rates, ", ", *listed(moving)]
+        said: Words = [
+            "For integration the state is z = (",
+            *places,
+            ", ",
+            *rates,
+            "). Its rate is (",
+            *rates,
+            ", ",
+            *listed(moving),
+        ]
         rest = "), of which the first half is in the state and the second solves the equations above at each instant."
         made += [Heading("First-order form"), Paragraph([*said, rest])]
         if len(system.unknowns) == len(system.matrix) == 1:
@@ -136,7 +147,11 @@ def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block
 
 
 def _uneven(equations: int, unknowns: int, laws: int) -> str:
-    these = f"This is one equation in {unknowns} unknowns" if equations == 1 else f"These are {equations} equations in {unknowns} unknowns"
+    these = (
+        f"This is one equation in {unknowns} unknowns"
+        if equations == 1
+        else f"These are {equations} equations in {unknowns} unknowns"
+    )
     if laws and equations + laws == unknowns:
         return f"{these}: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
     if equations < unknowns:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from freebody.document.blocks import Vector, Words, Written
-from freebody.equations.derivation.data import Arrow, Motion
 from freebody.equations.derivation.sentences import joined
+from freebody.solve.symbolic_state import Arrow, Motion
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import Name, Taken, direction, subscript, unicode_name
@@ -103,7 +103,9 @@ class Directions:
         bodies = [body for body in motions if not body.particle]
         owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
         spins = {angle: angle_rate(angle, moving) for angle in angles}
-        turning = {a: tuple(b.body for b in bodies if w is not None and not is_zero(w) and b.omega == w) for a, w in spins.items()}
+        turning = {
+            a: tuple(b.body for b in bodies if w is not None and not is_zero(w) and b.omega == w) for a, w in spins.items()
+        }
         angles.sort(key=lambda angle: next((i for i, b in enumerate(bodies) if b.body in turning[angle]), len(bodies)))
         made: list[Direction] = []
         for angle in angles:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from freebody.document.blocks import Block
-from freebody.equations.linear import Linear
 from freebody.symbolic.letters import Letters
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.tree import ZERO, Sym, Tree, minus, negative
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph
-from freebody.equations.derivation.data import Row
 from freebody.equations.derivation.form import Printed, System
 from freebody.equations.derivation.sentences import clause, joined
-from freebody.equations.linear import Linear, linear_in
+from freebody.solve.symbolic_state import Row
 from freebody.symbolic.algebra import common_number, divided
+from freebody.symbolic.linear import Linear, linear_in
 from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, negative, symbols
 
 _WHAT = {

@@ -13,10 +13,10 @@ from freebody.equations.balances.minimal import MinimalForm, minimal_form
 from freebody.equations.derivation import loop_closure, virtual
 from freebody.equations.derivation.balance_text import Stated, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
-from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.rich_tables import figure
+from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import coefficient
 from freebody.symbolic.tree import Sym, operations, symbols
 
@@ -67,7 +67,11 @@ def _questions(subject: SymbolicState, equation: BalanceEquation) -> list[Mappin
     """The question for an equation, and others for the same: where a loop is closed a point of either body is the place of its load."""
     question, loads = equation.question, subject.free.loads
     place = question and question.get("about")
-    if not isinstance(place, Mapping) or "load" not in place or all(row.name != loads[place["load"]].name for row in subject.rows):
+    if (
+        not isinstance(place, Mapping)
+        or "load" not in place
+        or all(row.name != loads[place["load"]].name for row in subject.rows)
+    ):
         return [question] if question else []
     within = [(name, point) for name, point in subject.points.items() if point[0] in equation.bodies]
     states = [(free, free.loads[place["load"]].on[-1].point) for free in subject.neighbours]
@@ -134,5 +138,7 @@ def _friction(subject: SymbolicState) -> list[Block]:
             place, ratio = load.follows
             factor = coefficient(subject.source, load.name)
             size = [Sym(factor), " "] if factor else f"{figure(abs(ratio))} "
-            made.append([f"the friction of {load.name} is ", *size, Sym(subject.free.loads[place].symbol), ", against the sliding"])
+            made.append(
+                [f"the friction of {load.name} is ", *size, Sym(subject.free.loads[place].symbol), ", against the sliding"]
+            )
     return [Paragraph("As it slides now:"), Bullets(made)] if made else []

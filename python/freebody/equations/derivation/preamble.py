@@ -8,11 +8,11 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
-from freebody.equations.derivation.data import Arrow, SymbolicState
 from freebody.equations.derivation.directions import Directions, Link
 from freebody.equations.derivation.loop_closure import holding
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.perturbed_states import DEPENDENT
+from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.symbols import superscript
 from freebody.symbolic.tree import Sym, is_zero

@@ -64,7 +64,9 @@ def readable(block: Block, elsewhere: str) -> Block:
         case Bullets(items):
             sizes = [_signs(pieces(item)) for item in items]
             shown = zip(items, sizes, strict=True)
-            return Bullets([words if size <= LONGEST else [*_texts(words), f"an expression of {size} signs"] for words, size in shown])
+            return Bullets(
+                [words if size <= LONGEST else [*_texts(words), f"an expression of {size} signs"] for words, size in shown]
+            )
         case Equation(_, Matrices((Matrix(rows),))):
             size = max(map(_signs, rows), default=0)
         case Equation(left, right):

@@ -8,10 +8,10 @@ from dataclasses import replace
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, Words
 from freebody.equations.balances.smallest import COUNT, SmallestSet, smallest_set
 from freebody.equations.derivation import loop_closure
-from freebody.equations.derivation.data import Row, SymbolicState
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
 from freebody.solve.rich_tables import figure
+from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.tree import Sym
 
 
@@ -72,7 +72,11 @@ def _numeric(found: SmallestSet) -> list[Block]:
     """A set that has no letters, as numbers."""
     if not found.virtual:
         lines = [line.strip() for line in str(found).splitlines() if line.strip()]
-        return [Heading("Balance equations"), Paragraph("The points of this set have no symbols; in numbers it is:"), Bullets(lines)]
+        return [
+            Heading("Balance equations"),
+            Paragraph("The points of this set have no symbols; in numbers it is:"),
+            Bullets(lines),
+        ]
     letter = _letter(found.wanted)
     name = f"the acceleration of {letter.name}" if letter.dots else letter.name
     said = f"{name} takes more than four balance equations. One of virtual power gives it: move the bodies so that "

@@ -9,12 +9,12 @@ import numpy as np
 
 from freebody.core import MotionError, OutcomeKind
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import clause
-from freebody.equations.linear import Linear
 from freebody.solve.perturbed_states import independent
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import common_number, divided
 from freebody.symbolic.formula import typed
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.symbols import name_formula, unicode_name
 from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
 
@@ -83,6 +83,8 @@ def section(subject: SymbolicState, wanted: int) -> list[Block]:
     for each in found:
         moved = {name: tree for name, tree in each.rates.items() if not is_zero(tree)}
         rates = [(Written(f"δ{unicode_name(name)}", typed("δ ", name_formula(name))), tree) for name, tree in moved.items()]
-        made += [Equation(*pair, "" if i else "Where the coordinates change at the virtual rates") for i, pair in enumerate(rates)]
+        made += [
+            Equation(*pair, "" if i else "Where the coordinates change at the virtual rates") for i, pair in enumerate(rates)
+        ]
         made.append(Equation(each.right, each.left, "the power of inertia is that of the loads"))
     return made

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 from freebody.document.blocks import Block, Heading
 from freebody.document.document import Document
 from freebody.equations.derivation import preamble
-from freebody.equations.derivation.data import Arrow, SymbolicState
 from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.sentences import lettered, readable
+from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.differentiate import derivative
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.presentation import PATIENCE, presented

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words, listed
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved
-from freebody.equations.derivation.data import SymbolicState
-from freebody.equations.linear import linear_in
 from freebody.equations.solve import solve_equations
 from freebody.equations.topics.common import NotHere, brief, document, rate, subject_of
 from freebody.equations.topics.lagrange import equations
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.letters import Letter
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.symbols import unicode_name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
@@ -42,7 +42,11 @@ def eliminated(subject: SymbolicState) -> Eliminated:
         raise NotHere("the coordinates depend on each other, so no momentum is that of one alone")
     kinetic, potential, found = equations(subject)
     where = symbols(kinetic, potential)
-    gone = [x for x in found if Sym(x.coordinate) not in where and is_zero(x.force) and not is_zero(x.momentum) and Sym("t") not in where]
+    gone = [
+        x
+        for x in found
+        if Sym(x.coordinate) not in where and is_zero(x.force) and not is_zero(x.momentum) and Sym("t") not in where
+    ]
     if not gone:
         raise NotHere("no momentum of a coordinate is conserved: every coordinate itself stands in the energies, or is driven")
     constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}

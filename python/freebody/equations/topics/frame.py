@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
 from freebody.equations.derivation import preamble
-from freebody.equations.derivation.data import Arrow, Direction, SymbolicState
 from freebody.equations.derivation.directions import Directions
-from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere, document, known, place_of, rates, spread, subject_of
+from freebody.solve.symbolic_state import Arrow, Direction, SymbolicState
 from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.formula import Atom, Script, bold
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
@@ -111,9 +111,7 @@ def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow],
         raise ArithmeticError(f"direct differentiation of the position of {point} does not give what the frame gives")
     made: list[Block] = [Heading("By direct differentiation")]
     for what, pair in (("r", place.xy), ("v", v), ("a", a)):
-        made += [
-            Equation(Written.of(Name(what, (axis,))), spread(tree)) for axis, tree in zip("xy", pair, strict=True)
-        ]
+        made += [Equation(Written.of(Name(what, (axis,))), spread(tree)) for axis, tree in zip("xy", pair, strict=True)]
     made.append(Paragraph("Both ways give the same, for all values of the symbols; it was checked at random ones."))
     return made
 

@@ -91,7 +91,9 @@ def _equations(found: Impact) -> list[Block]:
     free = found.conserved()
     made: list[Block] = [Heading("Impulse and momentum")]
     if free:
-        constant = "In the configuration of the impact no impulse enters these balances, so the momenta are the same before and after:"
+        constant = (
+            "In the configuration of the impact no impulse enters these balances, so the momenta are the same before and after:"
+        )
         made.append(Paragraph(constant))
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
     before = ", everything was at rest before" if found.subject.blow.given else " − momentum before"

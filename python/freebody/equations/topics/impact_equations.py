@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import GROUND, FreeBodies, Load, SymbolicAnswers
+from freebody.core import GROUND, Load
 from freebody.equations.answers import AGREES
 from freebody.equations.balances.minimal import minimal_form
 from freebody.equations.derivation.balance_text import Stated, of_bodies
 from freebody.equations.derivation.coordinates import stated
-from freebody.equations.derivation.data import Balance, Row, SymbolicState
-from freebody.equations.linear import linear_in
 from freebody.equations.topics.common import NotHere
 from freebody.impact.impacts import Impulsive, NoImpact
-from freebody.impact.symbols import ImpulseNaming
+from freebody.impact.symbols import ImpulsiveState
+from freebody.solve.symbolic_state import Balance
 from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Add, Mul, Num, Pow, Sym, Tree, add, mul, negative, power, rebuilt, symbols, walk
 from freebody.symbolic.tree import replace as put
@@ -46,36 +46,10 @@ class Condition:
 
 
 @dataclass(frozen=True)
-class Struck(SymbolicState):
-    """A mechanism during an impact, while all that was struck holds; rates are those before."""
-
-    happened: Impulsive | None = None
-
-    @property
-    def blow(self) -> Impulsive:
-        """What happened."""
-        assert self.happened is not None
-        return self.happened
-
-    @cached_property
-    def free(self) -> FreeBodies:
-        """All loads, those of what was struck among them."""
-        return self.blow.free
-
-    @cached_property
-    def rows_before(self) -> list[Row]:
-        """What held just before the impact."""
-        return list(map(Row.read, self.blow.rows_before()))
-
-    def _ask(self, questions: Sequence[Mapping[str, Any]]) -> SymbolicAnswers:
-        return self.blow.letters(questions)
-
-
-@dataclass(frozen=True)
 class Impact:
     """An impact of a run and the mechanism symbolically during it."""
 
-    subject: Struck
+    subject: ImpulsiveState
 
     @property
     def change(self) -> Change:
@@ -185,7 +159,12 @@ class Impact:
     def zeros(self) -> dict[Sym, Tree]:
         """Coordinates, and rates before the impact, that are 0 there; and coordinates that are then as long as what holds."""
         state, names = self.subject.state, self.subject.names
-        rest = [Sym(n, dots) for dots, of in enumerate((state.q, state.u)) for n, x in zip(names, of, strict=True) if abs(x) < _NOTHING]
+        rest = [
+            Sym(n, dots)
+            for dots, of in enumerate((state.q, state.u))
+            for n, x in zip(names, of, strict=True)
+            if abs(x) < _NOTHING
+        ]
         zeros: dict[Sym, Tree] = dict.fromkeys(rest, ZERO)
         along: dict[Sym, Tree] = {}  # a coordinate that is all of a distance where others are 0: y = −l of what hangs below
         for under, root in self.roots.items():
@@ -207,7 +186,7 @@ class Impact:
     @cached_property
     def letters(self) -> Letters:
         """The letters of the model, of impulses and of rates after the impact."""
-        known, written = self.subject.letters, ImpulseNaming.of(self.subject.blow).loads
+        known, written = self.subject.letters, self.subject.impulses
         made = [Letter(after(n), "coordinate", known[n].unit, f"{n}, rate after the impact") for n in self.subject.names]
         for load in self.subject.blow.acting:
             if load.name in self.subject.blow.given:
@@ -305,7 +284,7 @@ def _seen(happens: Callable[[], Impulsive]) -> Impact:
         found = happens()
     except NoImpact as error:
         raise NotHere(str(error)) from None
-    return Impact(Struck(found.source, found.state, happened=found))
+    return Impact(ImpulsiveState.of(found))
 
 
 def impulse(load: Load) -> str:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from freebody.equations.linear import linear_in
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics.impact_equations import Condition, Impact, after
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, mul, operations
 
 MOST_OPERATIONS = 300

@@ -9,7 +9,6 @@ import numpy as np
 
 from freebody.core import Array
 from freebody.equations.answers import with_positive_divisors
-from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.abbreviations import Names
 from freebody.equations.topics.common import spread
@@ -18,6 +17,7 @@ from freebody.equations.topics.impact_rows import MOST_OPERATIONS, Row, Rows, re
 from freebody.solve.perturbed_states import independent
 from freebody.symbolic.algebra import divided, without_circles
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.presentation import length, presented
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import (

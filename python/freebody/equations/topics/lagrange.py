@@ -16,14 +16,14 @@ from freebody.document.document import Document
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import joined
-from freebody.equations.linear import linear_in
 from freebody.equations.solve import Singular, TooLarge, coefficients, solve
 from freebody.equations.topics.common import document, subject_of
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import typed
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
 
 if TYPE_CHECKING:

@@ -11,7 +11,6 @@ import numpy as np
 from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
 from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.solve import TooLarge
@@ -21,6 +20,7 @@ from freebody.equations.topics.stability_text import character
 from freebody.solve.equilibrium import rest_near
 from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import nearby
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import bold, dotted

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
-from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, cross, document, group_of, known, place_of, rate, rates, spread, subject_of
+from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
 from freebody.symbolic.symbols import name_formula
@@ -18,6 +18,7 @@ from freebody.symbolic.tree import Tree, add, is_zero
 if TYPE_CHECKING:
     from freebody.core import State
     from freebody.model.builder import Builder
+
 
 def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies: Sequence[str] | str = ()) -> Document:
     """Moments about a fixed or a moving point: by accelerations, by dH/dt, and what a moving point adds, v × L.
@@ -34,7 +35,9 @@ def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies
     extra = cross(v, (along_x.momentum, along_y.momentum))
     if not equal(of.right, add(changing, extra)):
         raise ArithmeticError("the rate of angular momentum is not what the accelerations give")
-    acting = Equation(_written("Σ M", point, typed("∑M")), of.left, f"Moments about {point} on {' + '.join(group or subject.free.bodies)}")
+    acting = Equation(
+        _written("Σ M", point, typed("∑M")), of.left, f"Moments about {point} on {' + '.join(group or subject.free.bodies)}"
+    )
     made = _fixed(of, point) if all(map(is_zero, v)) else _moving(of, point, changing, spread(extra))
     return document(subject, f"moments about {point}", [Heading("What acts"), acting, *made])
 

@@ -39,7 +39,11 @@ def out_of_plane(mechanism: Builder, state: State, *, gravity: Any = None) -> Do
         across, value = Sym(_ACROSS), quantity("gravity", gravity, "m/s^2")
         each = [[f"{name}: N = ", mul(mass, across)] for name, mass in masses]
         whole = mul(add(*(mass for _, mass in masses)) if masses else ZERO, across)
-        lead = ["Gravity into the plane is ", across, f" = {value:g} m/s². Each body that lies on the plane by itself is carried by"]
+        lead = [
+            "Gravity into the plane is ",
+            across,
+            f" = {value:g} m/s². Each body that lies on the plane by itself is carried by",
+        ]
         shared = "It acts below the common mass centre. How joined bodies share it depends on how the joints take such forces."
         total = Equation(Written("Σ N", typed("∑N")), whole, "All together")
         made += [Paragraph(lead), Bullets(each), total, Paragraph(shared)]

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Vector, Words
 from freebody.document.document import Document
-from freebody.equations.derivation.data import Balance, SymbolicState
 from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
+from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.presentation import presented
@@ -59,7 +59,10 @@ def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance
     made: list[Block] = [Heading(f"Along e_r and e_φ about {about}")]
     made.append(Paragraph([Sym(r), f" is the distance of {body} from {about}, ", Sym(phi), " the angle of that line from i; "
                            "e_r points outward along it, e_φ a right angle further."]))  # fmt: skip
-    letters = [Letter(r, "coordinate", "m", f"distance from {about}"), Letter(phi, "coordinate", "rad", "angle of that line from i")]
+    letters = [
+        Letter(r, "coordinate", "m", f"distance from {about}"),
+        Letter(phi, "coordinate", "rad", "angle of that line from i"),
+    ]
     along = motion.r.parts[0] if len(motion.r.parts) == 1 else None
     if along and is_zero(along.across) and (motion.r.i, motion.r.j) == place:  # along one direction that turns
         length, angle = along.along, along.angle

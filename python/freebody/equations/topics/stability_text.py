@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Side, Words, listed
-from freebody.equations.derivation.data import SymbolicState
 from freebody.equations.linearization import Linearised, numbers
 from freebody.equations.modes import Modes, first_order, modes
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.letters import Letter
@@ -86,7 +86,10 @@ def _stability(
     if not stated:
         return made
     if near.grows and not any(each.never for each in stated):
-        return [*made, Paragraph("A repeated eigenvalue has one eigenvector only, so perturbations grow with time: it is unstable.")]
+        return [
+            *made,
+            Paragraph("A repeated eigenvalue has one eigenvector only, so perturbations grow with time: it is unstable."),
+        ]
     conditions = list(dict.fromkeys(c for each in stated for c in each.conditions))
     never = any(each.never for each in stated)
     moving = listed(Sym(letters[name].name) for name in near.moving)

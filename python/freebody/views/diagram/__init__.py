@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import CompiledModel, FreeBodies, MotionError, State
-from freebody.solve.symbols import Naming
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
@@ -95,7 +95,8 @@ def diagram(
     pt."""
     near = free if scaled else _further(source, state, free)
     laws = None if scaled else Laws(source, state, free)
-    builder = DiagramBuilder(source, state, free, near, Labels(Naming(source, state, free)), scaled, effective, column, laws)
+    labels = Labels(SymbolicState(source, state, given=free), free)
+    builder = DiagramBuilder(source, state, free, near, labels, scaled, effective, column, laws)
     chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
     return Diagram(f"free-body diagrams of {source.name}", free, lambda: map(builder.cut, chosen))
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
 from freebody.core import FreeBodies
 from freebody.impact.impacts import Impulsive
-from freebody.impact.symbols import ImpulseNaming
+from freebody.impact.symbols import ImpulsiveState
+from freebody.symbolic.symbols import Name
 from freebody.views.diagram import Cut, Diagram, DiagramBuilder
 from freebody.views.diagram.names import Labels, Sign
 from freebody.views.diagram.rows import COLUMN
@@ -20,6 +21,12 @@ class _Jumps(Labels):
 
     unit: ClassVar[str] = "N·s"
     turning_unit: ClassVar[str] = "N·m·s"
+
+    @property
+    def loads(self) -> Mapping[str, Name]:
+        """The names of impulses by the symbols of their forces."""
+        assert isinstance(self.subject, ImpulsiveState)
+        return self.subject.impulses
 
     def acceleration(self, body: str, alone: bool) -> Sign:
         """Of the jump of the velocity of a body's mass centre."""
@@ -52,7 +59,7 @@ def impulse_diagram(
     touched = FreeBodies(moved, free.loads)
 
     def draw() -> Iterator[Cut]:
-        labels = _Jumps(ImpulseNaming.of(impact))
+        labels = _Jumps(ImpulsiveState.of(impact), free)
         builder = DiagramBuilder(source, impact.state, touched, touched, labels, scaled, effective, column)
         for group in [(name,) for name in free.bodies] if groups is None else map(tuple, groups):
             cut = builder.cut(group)

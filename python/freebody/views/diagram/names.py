@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from freebody.core import Load
-from freebody.solve.symbols import Naming
+from freebody.core import FreeBodies, Load
+from freebody.solve.symbolic_state import Motion, SymbolicState
+from freebody.solve.symbols import PLAIN, coefficient
 from freebody.symbolic.alphabet import columns
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.printers.typeset import latex
@@ -34,44 +36,67 @@ class Sign:
 
 @dataclass(frozen=True)
 class Labels:
-    """What the arrows of a model are called, by the letters of its equations."""
+    """What the arrows of a model are called, by the symbols of its equations; ``free`` are the loads that are drawn."""
 
-    naming: Naming
+    subject: SymbolicState
+    free: FreeBodies
     unit: ClassVar[str] = "N"
     turning_unit: ClassVar[str] = "N·m"
+
+    @property
+    def loads(self) -> Mapping[str, Name]:
+        """The names of loads by their symbols."""
+        return self.subject.symbols.loads
 
     def of(self, load: Load) -> Sign:
         """Of a load; on both sides of a cut it is the same. Friction that slides is μ times its normal force."""
         if load.kind == "weight":
-            g = self.naming.gravity
+            g = self._gravity
             return self.mass(load.on[0].body) * Sign.of(g or Name("g"), bold=g is None)
-        if load.follows and (ratio := self.naming.friction(load)):
-            return Sign.of(ratio) * self.of(self.naming.free.loads[load.follows[0]])
-        return Sign.of(self.naming.loads[load.symbol])
+        if load.follows and (letter := coefficient(self.subject.source, load.name)):
+            ratio = self.subject.symbols.names.get(letter, Name.parse(letter))
+            return Sign.of(ratio) * self.of(self.free.loads[load.follows[0]])
+        return Sign.of(self.loads[load.symbol])
+
+    @property
+    def _gravity(self) -> Name | None:
+        """The name of gravity: its parameter's, else g; None where it is a vector of two parameters."""
+        x, y = (str(part).strip("-()") for part in self.subject.source.spec["gravity"] or (0, 0))
+        symbols = self.subject.symbols
+        if PLAIN.search(x) or float(x):
+            return None
+        return (
+            symbols.names.get(y, Name.parse(y))
+            if PLAIN.fullmatch(y)
+            else symbols.taken.give("gravity", Name("g"), Name("gravity"))
+        )
 
     def whole(self, load: Load) -> Sign:
         """Of a force of which a load is one component."""
-        name = self.naming.loads.get(load.symbol)
+        name = self.loads.get(load.symbol)
         return Sign.of(replace(name, below=name.below[:-1])) if name and load.axis else self.of(load)
 
     @property
     def renamed(self) -> list[str]:
         """Sentences about what is not written as usual, as far as it has been asked for."""
-        return list(map(str, self.naming.symbols.taken.renamed.values()))
+        return list(map(str, self.subject.symbols.taken.renamed.values()))
 
     def mass(self, body: str) -> Sign:
         """Of a body's mass: its letter, or a short expression of letters."""
-        tree = self.naming.bodies[body][0]
+        tree = self._motion(body).mass
         short = symbols(tree) and not isinstance(tree, Add) and columns(text(tree)) <= _LONGEST
-        return self._written(tree) if short else Sign.of(self.naming.symbols.of_body("m", body))
+        return self._written(tree) if short else Sign.of(self.subject.symbols.of_body("m", body))
 
     def inertia(self, body: str) -> Sign:
         """Of a body's inertia about its mass centre."""
-        tree = self.naming.bodies[body][1]
-        return self._written(tree) if isinstance(tree, Sym) else Sign.of(self.naming.symbols.of_body("I", body))
+        tree = self._motion(body).inertia
+        return self._written(tree) if isinstance(tree, Sym) else Sign.of(self.subject.symbols.of_body("I", body))
+
+    def _motion(self, body: str) -> Motion:
+        return next(motion for motion in self.subject.motions if motion.body == body)
 
     def _written(self, tree: Tree) -> Sign:
-        return Sign(latex(tree, self.naming.letters), text(tree, self.naming.letters))
+        return Sign(latex(tree, self.subject.letters), text(tree, self.subject.letters))
 
     def acceleration(self, body: str, alone: bool) -> Sign:
         """Of the acceleration of a body's mass centre, by itself or among several."""
@@ -83,12 +108,12 @@ class Labels:
 
     def angular(self, body: str, alone: bool) -> Sign:
         """Of the angular acceleration of a body, by itself or among several."""
-        taken, wanted = self.naming.symbols.taken, self._of_body("alpha", body, alone)
+        taken, wanted = self.subject.symbols.taken, self._of_body("alpha", body, alone)
         what = "the angular acceleration" + f" of {body}" * bool(wanted.below)
         return Sign.of(taken.give(what, wanted, Name("angular acceleration", wanted.below)))
 
     def _of_body(self, stem: str, body: str, alone: bool) -> Name:
-        heavy = [mass for mass, _ in self.naming.bodies.values() if not is_zero(mass)]
+        heavy = [motion for motion in self.subject.motions if not is_zero(motion.mass)]
         return Name(stem) if alone or len(heavy) == 1 else Name.parse(f"{stem}_{body}")
 
 

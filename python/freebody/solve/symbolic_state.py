@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
-from freebody.equations.linear import Linear
 from freebody.solve.perturbed_states import nearby
 from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
 
@@ -157,12 +157,14 @@ class Row:
 
 @dataclass(frozen=True)
 class SymbolicState:
-    """What is derived: a mechanism at a state, of which letters may be set to numbers."""
+    """What is derived: a mechanism at a state, of which symbols may be set to numbers; ``given`` are its loads where they are not those
+    that the state has by itself: after a mode change, or during an impact."""
 
     source: CompiledModel
     state: State
     at_rest: bool = False
     numbers: Mapping[str, float] | None = None
+    given: FreeBodies | None = field(default=None, repr=False)
 
     def with_numbers(self, names: Sequence[str]) -> SymbolicState:
         """The same with some coordinates and parameters as the numbers that they are at the state."""
@@ -178,6 +180,13 @@ class SymbolicState:
         """Answers about balances."""
         return list(map(Balance.read, self.ask(questions)))
 
+    def of_bodies(self) -> list[Balance]:
+        """The balances of every body by itself: force along x and y, and moment about the mass centre of one that is no particle."""
+        bodies = self.free.bodies.values()
+        ways = ((body, how) for body in bodies for how in ({"along": "x"}, {"along": "y"}, {"about": "centre"}))
+        cut = [{"ask": "equation", "bodies": [body.name], **how} for body, how in ways if not (body.particle and "about" in how)]
+        return self.balances(cut)
+
     @cached_property
     def names(self) -> list[str]:
         """The names of the coordinates."""
@@ -191,7 +200,7 @@ class SymbolicState:
     @cached_property
     def free(self) -> FreeBodies:
         """All loads at the state, in numbers; they are counted as in contributions."""
-        return self.source.free_bodies(self.state)
+        return self.given or self.source.free_bodies(self.state)
 
     @cached_property
     def neighbours(self) -> list[FreeBodies]:
@@ -213,7 +222,9 @@ class SymbolicState:
         """Of every body."""
         trees = ("mass", "inertia", "angle", "omega", "alpha")
         [stated] = self.ask([{"ask": "kinematics"}])
-        return [Motion(b["body"], b["particle"], *(read(b[w]) for w in trees), *(Arrow.read(b[w]) for w in "rva")) for b in stated]
+        return [
+            Motion(b["body"], b["particle"], *(read(b[w]) for w in trees), *(Arrow.read(b[w]) for w in "rva")) for b in stated
+        ]
 
     @cached_property
     def table(self) -> dict[str, dict[str, Any]]:
