@@ -55,6 +55,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(parse, m)?)?;
     m.add_function(wrap_pyfunction!(cards, m)?)?;
     m.add_function(wrap_pyfunction!(time_chain, m)?)?;
+    m.add_class::<mechanism::History>()?;
     m.add_class::<mechanism::Mechanism>()?;
     m.add_class::<trajectory::Trajectory>()
 }

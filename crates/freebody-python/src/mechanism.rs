@@ -11,6 +11,7 @@ use freebody::dynamics::{DynamicsError, Route, Workspace};
 use freebody::gauges::ModelExpr;
 use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
+use freebody::mode::Mode;
 use freebody::motion::Options;
 use freebody::symbolic::{answer, Query, Setting};
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -51,11 +52,19 @@ pub struct Mechanism(Arc<Shared>);
 
 type Array<'py> = PyReadonlyArray1<'py, f64>;
 type Named = BTreeMap<String, f64>;
-/// Parameters, time, coordinates and rates.
-type State<'py> = (Array<'py>, f64, Array<'py>, Array<'py>);
+/// Parameters, time, coordinates, rates, and what a motion brought along.
+type State<'py> = (Array<'py>, f64, Array<'py>, Array<'py>, Option<PyRef<'py, History>>);
 
-fn placed<'m>(m: &'m freebody::mechanism::Mechanism, (p, t, q, u): &State<'_>) -> PyResult<Workspace<'m>> {
-    Workspace::of_state(m, p.as_slice()?, *t, q.as_slice()?, u.as_slice()?).map_err(errors::motion)
+/// What a motion brings to a state: the mode, and the works since its start.
+#[pyclass(frozen)]
+pub struct History {
+    pub mode: Mode,
+    pub works: Vec<f64>,
+}
+
+fn placed<'m>(m: &'m freebody::mechanism::Mechanism, (p, t, q, u, past): &State<'_>) -> PyResult<Workspace<'m>> {
+    let mode = past.as_ref().map(|past| &past.mode);
+    Workspace::of_state(m, p.as_slice()?, *t, [q.as_slice()?, u.as_slice()?], mode).map_err(errors::motion)
 }
 
 #[pymethods]
@@ -136,7 +145,8 @@ impl Mechanism {
         let m = self.0.mechanism();
         let mut workspace = placed(&m, &state)?;
         let laws: Vec<&ModelExpr> = laws.iter().collect();
-        Ok(PyArray1::from_vec(py, workspace.evaluate(&laws, &[]).map_err(errors::motion)?))
+        let works = state.4.as_ref().map_or(&[][..], |past| &past.works);
+        Ok(PyArray1::from_vec(py, workspace.evaluate(&laws, works).map_err(errors::motion)?))
     }
 
     fn points<'py>(&self, py: Python<'py>, p: Array<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -156,7 +166,7 @@ impl Mechanism {
         array(py, freebody::hybrid::mass_matrix(&m, p, q), [m.freedom(), m.freedom()])
     }
 
-    #[pyo3(signature = (state, until, method=freebody::motion::METHODS[0].name, rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop", after=None))]
+    #[pyo3(signature = (state, until, method=freebody::motion::METHODS[0].name, rtol=1e-9, step=None, max_step=None, route="auto", max_steps=1_000_000, progress=None, impacts="stop", painleve="stop"))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
         &self,
@@ -172,12 +182,11 @@ impl Mechanism {
         progress: Option<Py<PyAny>>,
         impacts: &str,
         painleve: &str,
-        after: Option<PyRef<'_, Trajectory>>,
     ) -> PyResult<Trajectory> {
-        let mode = after.map(|run| run.run.end_mode().clone());
         let options = Options { rtol, first_step: step, max_step: max_step.unwrap_or(f64::INFINITY), max_steps };
         let settings = Settings::named([method, route, impacts, painleve], options).map_err(errors::model)?;
-        let (p, t, q, u) = state;
+        let (p, t, q, u, past) = state;
+        let mode = past.map(|past| past.mode.clone());
         let (p, q, u) = (p.as_slice()?.to_vec(), q.as_slice()?.to_vec(), u.as_slice()?.to_vec());
         let of = self.0.clone();
         let mut error = None;
@@ -213,12 +222,12 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
 }
 
 /// A setting and questions in letters.
-pub fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Query>)> {
+fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Query>)> {
     let wrong = |e: serde_json::Error| errors::motion(DynamicsError::WrongQuestion(e.to_string()));
     Ok((data(setting)?.map_err(wrong)?, data(questions)?.map_err(wrong)?))
 }
 
 /// The route of a word.
-pub fn route(word: &str) -> PyResult<Route> {
+fn route(word: &str) -> PyResult<Route> {
     chosen("route", word, Route::ALL.iter().copied()).map_err(errors::model)
 }

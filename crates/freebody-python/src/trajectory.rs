@@ -2,14 +2,15 @@
 
 use crate::data::{array, plain};
 use crate::errors;
-use crate::instant::solution;
-use crate::mechanism::Shared;
+use crate::mechanism::{History, Shared};
 use freebody::hybrid;
-use freebody::symbolic::answer;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use std::sync::Arc;
+
+type Array<'py> = Bound<'py, PyArray1<f64>>;
+/// Parameters, time, coordinates, rates, and what the motion brought along.
+type State<'py> = (Array<'py>, f64, Array<'py>, Array<'py>, Py<History>);
 
 /// A finished run with dense output.
 #[pyclass(frozen)]
@@ -28,53 +29,17 @@ impl Trajectory {
     fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, &self.run.record(&self.of.mechanism()))
     }
-    /// Everything about one time, by a route.
-    fn instant<'py>(&self, py: Python<'py>, t: f64, route: &str) -> PyResult<Bound<'py, PyDict>> {
-        let m = self.of.mechanism();
-        let route = crate::mechanism::route(route)?;
-        let (solved, freedom) = self.run.instant(&m, t, route).map_err(errors::motion)?;
-        solution(py, &m, &solved, &freedom)
+    /// The state at one time.
+    fn state<'py>(&self, py: Python<'py>, t: f64) -> PyResult<State<'py>> {
+        handed(py, self.run.state(&self.of.mechanism(), t).map_err(errors::motion)?)
     }
-    /// Bodies and loads of the free-body diagrams at one time, in numbers.
-    fn free_bodies<'py>(&self, py: Python<'py>, t: f64) -> PyResult<Bound<'py, PyAny>> {
-        let told = self.run.at(&self.of.mechanism(), t, freebody::free_bodies::free_bodies);
-        plain(py, &told.map_err(errors::motion)?)
+    /// The state during an impact, given by its place among the changes.
+    fn state_of_impact<'py>(&self, py: Python<'py>, change: usize) -> PyResult<State<'py>> {
+        handed(py, self.run.state_of_impact(&self.of.mechanism(), change).map_err(errors::motion)?)
     }
-    /// Answers in letters to questions about one time; see `Mechanism.letters`.
-    fn letters<'py>(
-        &self,
-        py: Python<'py>,
-        t: f64,
-        setting: &Bound<'_, PyAny>,
-        questions: &Bound<'_, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let (setting, questions) = crate::mechanism::questions(setting, questions)?;
-        let told = self.run.at(&self.of.mechanism(), t, |workspace| answer(workspace, &setting, &questions));
-        plain(py, &told.map_err(errors::motion)?)
-    }
-    /// Bodies and loads during a blow, given by its place among the changes: those of what was struck are told for a
-    /// unit.
-    fn free_bodies_of_blow<'py>(&self, py: Python<'py>, change: usize) -> PyResult<Bound<'py, PyAny>> {
-        let told = self.run.at_impact(&self.of.mechanism(), change, |workspace| {
-            // What strikes at several places moves there as no constraint allows; where impulses act does not depend on
-            // it.
-            workspace.set_zero_rates();
-            freebody::free_bodies::free_bodies(workspace)
-        });
-        plain(py, &told.map_err(errors::motion)?)
-    }
-    /// Answers in letters to questions about a blow, with the rates before it.
-    fn letters_of_blow<'py>(
-        &self,
-        py: Python<'py>,
-        change: usize,
-        setting: &Bound<'_, PyAny>,
-        questions: &Bound<'_, PyAny>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let (setting, questions) = crate::mechanism::questions(setting, questions)?;
-        let told =
-            self.run.at_impact(&self.of.mechanism(), change, |workspace| answer(workspace, &setting, &questions));
-        plain(py, &told.map_err(errors::motion)?)
+    /// The state at the end.
+    fn end<'py>(&self, py: Python<'py>) -> PyResult<State<'py>> {
+        handed(py, self.run.end(&self.of.mechanism()))
     }
     #[allow(clippy::type_complexity)]
     fn sample<'py>(
@@ -128,14 +93,10 @@ impl Trajectory {
         let columns = ledger.names.len();
         Ok((ledger.names, array(py, ledger.rows.concat(), [ledger.rows.len(), columns])?))
     }
-    /// Parameters, time, coordinates and rates at the end.
-    #[allow(clippy::type_complexity)]
-    fn end<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> (Bound<'py, PyArray1<f64>>, f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>) {
-        let (t, q, u, p) = self.run.end(&self.of.mechanism());
-        let list = |v: Vec<f64>| PyArray1::from_vec(py, v);
-        (list(p), t, list(q), list(u))
-    }
+}
+
+fn handed(py: Python<'_>, state: hybrid::MotionState) -> PyResult<State<'_>> {
+    let hybrid::MotionState { p, t, q, u, mode, works } = state;
+    let list = |v: Vec<f64>| PyArray1::from_vec(py, v);
+    Ok((list(p), t, list(q), list(u), Py::new(py, History { mode, works })?))
 }

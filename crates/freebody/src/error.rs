@@ -41,6 +41,8 @@ pub enum DynamicsError {
         /// How many were given.
         given: usize,
     },
+    /// A state has the history of a motion of another mechanism.
+    ForeignHistory,
     /// A loop opened during a motion: its name, gap (m), item.
     LoopOpened(String, f64, String),
     /// A loop that motions drive on to where it cannot close: its name, how far it can in words, item.
@@ -185,6 +187,11 @@ impl DynamicsError {
             Self::WrongSize { what, wanted, given } => (
                 "wrong_size",
                 format!("{wanted} {what}s are needed, and {given} were given; take them from `bind` and `assemble`"),
+                None,
+            ),
+            Self::ForeignHistory => (
+                "foreign_history",
+                "the state is of a motion of another mechanism; take it without its history".to_string(),
                 None,
             ),
             Self::LoopOpened(name, gap, at) => (

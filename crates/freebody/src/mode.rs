@@ -109,6 +109,12 @@ impl Mode {
             resting: false,
         }
     }
+    /// Whether it is a mode of this mechanism.
+    pub fn fits(&self, m: &Mechanism) -> bool {
+        self.branches.len() <= m.switches
+            && self.contacts.len() == m.unilateral.len()
+            && self.joint_friction.len() == m.joint_friction.len()
+    }
     /// The branch at which a switch is frozen.
     pub fn branch(&self, discontinuity: usize) -> Option<bool> {
         self.branches.get(discontinuity).copied().flatten()

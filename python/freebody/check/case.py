@@ -214,7 +214,7 @@ class Case:
         samples = self.samples()
         if not samples.loose:
             return []
-        relaxed = Samples(samples.core, samples.samples, stress=0.0)
+        relaxed = Samples(samples.core, samples.states, stress=0.0)
         after = residual(equation, self.meaning.values(relaxed)).sides.residual
         before = self.residual(equation).sides.residual
         same = np.allclose(after, before, rtol=1e-9, atol=1e-9 * float(np.abs(before).max()))

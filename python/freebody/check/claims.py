@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from freebody.core import State
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
 from freebody.symbolic.errors import StatementError
@@ -18,7 +19,7 @@ from freebody.symbolic.tree import Sym
 from . import timed_claims
 from .assumptions import FAR, family, first_order
 from .case import Case
-from .families import Sample, Samples
+from .families import Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, Program, symbols_in, terms
@@ -105,7 +106,7 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
     worst, seen = 0.0, None
-    for sample in case.samples(count=_RUNS).samples:
+    for sample in case.samples(count=_RUNS).states:
         along = _along(checker, sample)
         values = case.meaning.values(along)
         value, size = sampled(node, values), magnitude(node, values)
@@ -114,7 +115,7 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
             return Verdict(Kind.UNDECIDABLE, expression, "it has no value along the motion")
         if spread >= worst:
             worst = spread
-            seen = Evidence({"t": along.samples[-1].state.t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
+            seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
     if worst < _STEADY:
         return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
     return Verdict(Kind.WRONG, expression, "not constant: it changes along a motion", evidence=seen)
@@ -132,15 +133,13 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
         raise
 
 
-def _along(checker: Checker, sample: Sample) -> Samples:
+def _along(checker: Checker, state: State) -> Samples:
     """States along the motion that goes on from a true state."""
-    sampler, state = checker.sampler, sample.state
+    sampler = checker.sampler
     motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
     ends = motion.end.t
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
-    qs, us = motion.sample(times)
-    states = [replace(state, t=float(t), q=q, u=u) for t, q, u in zip(times, qs, us, strict=True)]
-    return Samples(sampler.core, [Sample(s, motion) for s in states])
+    return Samples(sampler.core, [motion.state(t) for t in times.tolist()])
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
@@ -169,7 +168,7 @@ def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: st
             if change.max() > 1e-7 * np.abs(earlier).max():
                 place = f"the factor of {spell(wanted[int(np.argmax(change))])} in equation {number}"
                 return Verdict(Kind.WRONG, statement, f"{place} depends on {name}")
-    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(case.samples().samples)} motions"
+    stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(case.samples().states)} motions"
     return Verdict(Kind.TRUE, statement, stated)
 
 
@@ -202,9 +201,9 @@ def _changed_alone(checker: Checker, declared: Declared, names: str, case: Case)
         if not isinstance(letter, Sym) or letter.name not in sampler.names or letter.dots > 1 or sampler.loops:
             raise ModelProblem(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
         step = (sampler.rate if letter.dots else 1.0) * 0.7 * (np.array(sampler.names) == letter.name)
-        states = [sample.state for sample in case.samples().samples]
+        states = [replace(state, history=None) for state in case.samples().states]
         moved = [replace(s, u=s.u + step) if letter.dots else replace(s, q=s.q + step) for s in states]
-        yield name, case.meaning.values(Samples(sampler.core, [Sample(s) for s in moved]))
+        yield name, case.meaning.values(Samples(sampler.core, moved))
 
 
 def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -46,22 +45,14 @@ ALL = Family()
 """Every motion of the model, with every parameter free."""
 
 
-@dataclass(frozen=True)
-class Sample:
-    """A true state; ``motion``: the run that it lies on, where what switches decides."""
-
-    state: State
-    motion: Any = None
-
-
 @dataclass
 class Samples:
-    """True states of one family. ``values`` reads any expression of the model language on all of them.
+    """True states of one family, each with its history where what switches decides. ``values`` reads any expression of the model language on all of them.
 
     Reactions that are not determined have random admissible values; with ``stress`` 0 those of least norm."""
 
     core: CompiledModel
-    samples: list[Sample]
+    states: list[State]
     stress: float = 1.0
     loose: set[str] = field(default_factory=set)
     known: dict[str, Array] = field(default_factory=dict)
@@ -72,35 +63,34 @@ class Samples:
         new = [text for text in dict.fromkeys(texts) if text not in self.known]
         if new:
             rng = np.random.default_rng(17)
-            rows = np.array([self._stressed(sample, new, self._row(sample, new), rng) for sample in self.samples])
+            rows = np.array([self._stressed(state, new, self._row(state, new), rng) for state in self.states])
             self.known |= {text: rows[:, i] for i, text in enumerate(new)}
         return {text: self.known[text] for text in texts}
 
-    def _row(self, sample: Sample, texts: Sequence[str]) -> Array:
-        state, motion = sample.state, sample.motion
+    def _row(self, state: State, texts: Sequence[str]) -> Array:
         plain = [text for text in texts if not text.startswith(LOAD)]
-        found = motion.evaluate(plain, np.array([state.t]))[0] if motion else self.core.evaluate(plain, state)
+        found = self.core.evaluate(plain, state)
         if len(plain) == len(texts):
             return found
-        free = motion.free_bodies(state.t) if motion else self.core.free_bodies(state)
-        known = {LOAD + load.symbol: load.value for load in free.loads} | dict(zip(plain, found.tolist(), strict=True))
+        loads = self.core.free_bodies(state).loads
+        known = {LOAD + load.symbol: load.value for load in loads} | dict(zip(plain, found.tolist(), strict=True))
         return np.array([known.get(text, np.nan) for text in texts])
 
-    def _stressed(self, sample: Sample, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
+    def _stressed(self, state: State, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
         """A row in which what reads reactions that are not determined has a value, too."""
-        if not np.isnan(row).any() or sample.motion is not None:
+        if not np.isnan(row).any() or state.history is not None:
             return row
-        values = admissible(self.core, sample.state, rng, self.stress)
+        values = admissible(self.core, state, rng, self.stress)
         lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and with_numbers(text, values) != text]
         if lost:
-            row[lost] = self.core.evaluate([with_numbers(texts[i], values) for i in lost], sample.state)
+            row[lost] = self.core.evaluate([with_numbers(texts[i], values) for i in lost], state)
             self.loose |= {texts[i] for i in lost}
         return row
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """Mass (K,) in kg and moment of inertia (K,) about the mass centre in kg·m² of each body."""
         if not self.weighed:
-            rows = [self.core.free_bodies(s.state).bodies for s in self.samples]
+            rows = [self.core.free_bodies(state).bodies for state in self.states]
             for name in rows[0]:
                 self.weighed[name] = np.array([row[name].mass for row in rows]), np.array([row[name].inertia for row in rows])
         return self.weighed

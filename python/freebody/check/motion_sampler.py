@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, ModelError, MotionError, State, quote
+from freebody.core import Array, CompiledModel, ModelError, MotionError, State, Trajectory, quote
 from freebody.model.errors import ModelProblem
 from freebody.model.start import Start, evaluate, initial_state
 from freebody.symbolic.dimensions import ANGLE, Dimension
 
-from .families import ALL, Family, NoMotion, Sample, Samples
+from .families import ALL, Family, NoMotion, Samples
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -88,7 +88,7 @@ class MotionSampler:
         key = (family, 1000 * fresh + count)
         if key not in self._families:
             self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh))
-        if not self._families[key].samples:
+        if not self._families[key].states:
             try:
                 _ = self.first
             except MotionError as error:
@@ -101,13 +101,13 @@ class MotionSampler:
     def has(self, family: Family) -> bool:
         """Whether there are motions of a family."""
         with suppress(NoMotion):
-            return bool(self.samples(family, _PATIENCE).samples)
+            return bool(self.samples(family, _PATIENCE).states)
         return False
 
-    def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[Sample]:
+    def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[State]:
         """``count`` samples; none where the first ones already fail."""
         rng = np.random.default_rng([self.seed, fresh])
-        found: list[Sample] = []
+        found: list[State] = []
         for i in range(count):
             if i == _PATIENCE and not found:
                 return []
@@ -118,18 +118,18 @@ class MotionSampler:
                         break
         return found if len(found) >= min(_ENOUGH, count) else []
 
-    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         if family.since:
             found = self._since_start(rng, values, family)
         elif self.restricted:
             found = self._on_a_run(rng, values, family)
         else:
-            found = Sample(self._started(values)) if family.at_start else self._anywhere(rng, values, family)
+            found = self._started(values) if family.at_start else self._anywhere(rng, values, family)
         return found if found and all(self._vanishes(text, found, family) for text in family.vanishing) else None
 
-    def _vanishes(self, text: str, sample: Sample, family: Family) -> bool:
+    def _vanishes(self, text: str, state: State, family: Family) -> bool:
         """Whether an expression is 0 there. Raises ``NoMotion`` where nothing can be done for it."""
-        if abs(float(Samples(self.core, [sample]).values([text])[text][0])) < _NOTHING:
+        if abs(float(Samples(self.core, [state]).values([text])[text][0])) < _NOTHING:
             return True
         if self.restricted:
             why = "contacts, strings, stops or friction decide how this model moves, so that it is tried on runs from its start"
@@ -157,7 +157,7 @@ class MotionSampler:
 
     # -- anywhere
 
-    def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+    def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         """A random state on the model's branch, none of whose limits is closed."""
         words = initial_state(self.start, self.core, values)
         t, own = 3 * rng.random() / self.rate, self.first.q
@@ -174,7 +174,7 @@ class MotionSampler:
         if not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
             return None
         judges = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all()
-        return Sample(state) if judges and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
+        return state if judges and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""
@@ -213,9 +213,9 @@ class MotionSampler:
     # -- on runs, where contacts, strings, stops or friction decide what moves
 
     @cached_property
-    def own(self) -> Sample:
+    def own(self) -> State:
         """The state of the model at its start, after the events there."""
-        return Sample(self.first, self._run(self.first, 1e-6 / self.rate) if self.restricted else None)
+        return self._run(self.first, 1e-6 / self.rate).state(self.first.t) if self.restricted else self.first
 
     @cached_property
     def restricted(self) -> bool:
@@ -231,10 +231,10 @@ class MotionSampler:
         rough = [first.get(j["name"]) for j in self.spec["joints"] if j.get("friction")]
         return [f"rate({quote(own[0])})" for own in rough if own]
 
-    def _run(self, state: State, until: float, rtol: float = _RTOL) -> Any:
+    def _run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
 
-    def _on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+    def _on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         """A state on a run from the model's start with random numbers and admissible rates, as long as nothing switches."""
         state = self._started(values)
         late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
@@ -245,9 +245,9 @@ class MotionSampler:
         if rng.random() < 0.7 and not (family.at_rest or family.at_start or self._lies):
             state = self._moving(rng, state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
-        return self._sampled(motion, state, min(late, 0.9 * motion.end.t))
+        return self._sampled(motion, min(late, 0.9 * motion.end.t))
 
-    def _since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> Sample | None:
+    def _since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         """A state on a run from the model's own start with random numbers, with the rates there or at rest, before
         anything switches."""
         state = self._started(values)
@@ -256,14 +256,13 @@ class MotionSampler:
             state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
         motion = self._run(state, rng.uniform(0.05, 0.3) / self.rate, _EXACT)
         ends = [motion.end.t, *(change.t for change in motion.changes if change.t > state.t)]
-        return self._sampled(motion, state, state.t + 0.99 * (min(ends) - state.t))
+        return self._sampled(motion, state.t + 0.99 * (min(ends) - state.t))
 
-    def _sampled(self, motion: Any, start: State, t: float) -> Sample | None:
+    def _sampled(self, motion: Trajectory, t: float) -> State | None:
         """The state of a run at a time, if all holds there as at the model's start, and it may judge."""
-        q, u = (a[0] for a in motion.sample(np.array([t])))
-        found = State(start.p, t, q, u)
-        same = not self.restricted or _same(self._mode(motion, found), self._own_mode)
-        return Sample(found, motion) if same and motion.instant(t).residual < _BALANCED else None
+        found = motion.state(t)
+        same = not self.restricted or _same(self._mode(found), self._own_mode)
+        return found if same and self.core.instant(found).residual < _BALANCED else None
 
     def _placed(self, rng: np.random.Generator, state: State) -> State:
         """A random place near the start, at rest, where what is closed there is closed: bodies of other sizes touch elsewhere."""
@@ -305,16 +304,15 @@ class MotionSampler:
 
     @cached_property
     def _own_mode(self) -> tuple[Any, ...]:
-        motion = self._run(self.first, 1e-3 / self.rate)
-        return self._mode(motion, motion.end)
+        return self._mode(self._run(self.first, 1e-3 / self.rate).end)
 
-    def _mode(self, motion: Any, state: State) -> tuple[Any, ...]:
+    def _mode(self, state: State) -> tuple[Any, ...]:
         """How every limit is held and to which side it slides, the sense of friction in every joint, at how many places contacts hold."""
         limits = tuple(
             (x.state, np.sign(round(np.nan_to_num(x.T), 12)) if x.state == "sliding" else 0)
-            for x in motion.instant(state.t).limits.values()
+            for x in self.core.instant(state).limits.values()
         )
-        sliding = motion.evaluate(self._sticky, np.array([state.t]))[0] if self._sticky else np.empty(0)
+        sliding = self.core.evaluate(self._sticky, state)
         slow = _SLOW * self.rate * min(self.length, 1.0)
         return (*limits, *np.sign(np.where(np.abs(sliding) > slow, sliding, 0.0)), self._places(state) if self._lies else 0)
 

@@ -46,7 +46,7 @@ class _True:
 def nearest(case: Case, equation: Equation) -> str:
     """The nearest true equation in the model's symbols, with what it is; "" where none holds an unknown of the statement."""
     try:
-        state = case.samples().samples[0].state
+        state = case.samples().states[0]
     except NoMotion:
         return ""
     core = case.sampler.core

@@ -137,9 +137,9 @@ class CompiledModel:
         """Named points: body, x and y in its frame (m)."""
         return {name: (body, x, y) for name, (body, x, y) in self.mechanism.points(p).items()}
 
-    def simulate(self, state: State, until: float, after: Trajectory | None = None, **settings: Any) -> Trajectory:
+    def simulate(self, state: State, until: float, **settings: Any) -> Trajectory:
         """The motion from a state to a time. ``settings`` are those of ``Settings``, ``max_steps``, and ``progress``: a function
         of t, called now and then, that interrupts by returning False. ``after``: a motion at whose end this one starts; what it
         has released, engaged and wound up stays so."""
-        run = self.mechanism.simulate(state.arrays, until, after=after and after.run, **settings)
+        run = self.mechanism.simulate(state.arrays, until, **settings)
         return Trajectory(run, self.metadata)

@@ -40,6 +40,7 @@ class OutcomeKind(str, Enum):
     BACKWARD = "backward"
     OUT_OF_RANGE = "out_of_range"
     NO_BLOW = "no_blow"
+    FOREIGN_HISTORY = "foreign_history"
     NOT_FINITE = "not_finite"
     WRONG_SIZE = "wrong_size"
     WRONG_QUESTION = "wrong_question"

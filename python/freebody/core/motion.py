@@ -13,11 +13,7 @@ from numpy.typing import NDArray
 from freebody import _core
 
 from .errors import OutcomeKind
-from .free_bodies import FreeBodies
-from .solution import Solution, SymbolicAnswers
 from .state import Array, State
-
-Question = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -185,25 +181,13 @@ class Trajectory(Motion):
         """Column names and values (nt, k): kinetic, potential, work of each non-conservative force and motion, balance."""
         return self.run.ledger(times)
 
-    def instant(self, t: float, route: str = "minimal") -> Solution:
-        """Everything about one time, with what is in place and holds then."""
-        return Solution.read(self.run.instant(t, route), self.metadata)
+    def state(self, t: float) -> State:
+        """The state at a time within the run, on the closed loops, after what happens then."""
+        return State(*self.run.state(t))
 
-    def free_bodies(self, t: float) -> FreeBodies:
-        """As that of ``CompiledModel``, with what is in place and holds then."""
-        return FreeBodies.read(self.run.free_bodies(t))
-
-    def letters(self, t: float, questions: Sequence[Question]) -> SymbolicAnswers:
-        """As that of ``CompiledModel``, with what is in place and holds then."""
-        return SymbolicAnswers.read(self.run.letters(t, {}, list(questions)))
-
-    def free_bodies_of_impact(self, change: int) -> FreeBodies:
-        """Those of an impact, given by its place among the changes: loads of what was struck are for a unit."""
-        return FreeBodies.read(self.run.free_bodies_of_blow(change))
-
-    def letters_of_impact(self, change: int, questions: Sequence[Question]) -> SymbolicAnswers:
-        """Symbolic answers about an impact, with the rates before it."""
-        return SymbolicAnswers.read(self.run.letters_of_blow(change, {}, list(questions)))
+    def state_of_impact(self, change: int) -> State:
+        """The state during an impact, given by its place among the changes: with the rates before it, and held what takes part."""
+        return State(*self.run.state_of_impact(change))
 
     @property
     def end(self) -> State:

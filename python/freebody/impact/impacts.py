@@ -130,26 +130,23 @@ class Impact(Impulsive):
 
     @cached_property
     def state(self) -> State:
-        """The state just before."""
-        before = self.change.before
-        assert before is not None
-        p = self.run.end.p
-        return State(p, self.change.t, np.array(list(before.q.values())), np.array(list(before.u.values())))
+        """The state just before, held what takes part."""
+        return self.run.motion.state_of_impact(self.place)
 
-    @cached_property
+    @property
     def source(self) -> CompiledModel:
-        """The mechanism, to be drawn in the state of the impact."""
-        source = self.run.source
-        return _During(source.mechanism, source.spec, source.model, source.report, source.notes, self.run)
+        """The mechanism."""
+        return self.run.source
 
     @cached_property
     def free(self) -> FreeBodies:
         """All loads during the impact: those of what was struck for a unit of each."""
-        return self.run.motion.free_bodies_of_impact(self.place)
+        # What strikes at several places moves there as no constraint allows; where impulses act does not depend on it.
+        return self.source.free_bodies(replace(self.state, u=np.zeros_like(self.state.u)))
 
     def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it symbolically, with the rates before it."""
-        return self.run.motion.letters_of_impact(self.place, questions)
+        return self.source.letters(self.state, questions)
 
     def rows_before(self) -> list[Any]:
         """What held just before, symbolically; nothing where that is not known, as at the start."""
@@ -157,19 +154,7 @@ class Impact(Impulsive):
         since = max((each.t for each in self.run.changes if each.t < t), default=float(self.run.t[0]))
         if not since < t:
             return []
-        return self.run.motion.letters(t - _JUST_BEFORE * (t - since), [{"ask": "rows"}]).answers[0]
-
-
-@dataclass(frozen=True, eq=False)
-class _During(CompiledModel):
-    """The model, whose expressions are read of a run at the time: by itself a state that strikes may have no answer."""
-
-    run: Run | None = None
-
-    def evaluate(self, texts: Sequence[str], state: State) -> Array:
-        """Values (k,) of expressions."""
-        assert self.run is not None
-        return self.run.motion.evaluate(texts, np.array([state.t]))[0]
+        return self.source.letters(self.run.motion.state(t - _JUST_BEFORE * (t - since)), [{"ask": "rows"}]).answers[0]
 
 
 def impacts(run: Run) -> Iterator[Impact]:

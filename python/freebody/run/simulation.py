@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import BEFORE, Change, CompiledModel, Event, Motion, Outcome, ReportItem, Settings, State, Trajectory
+from freebody.core import BEFORE, Change, CompiledModel, Event, Motion, Outcome, ReportItem, Settings, State
 from freebody.run import storage
 from freebody.run.records import (
     ENTRIES,
@@ -42,12 +42,10 @@ def simulate(
     settings: Settings,
     t_eval: Times | None = None,
     progress: Progress | None = None,
-    after: Trajectory | None = None,
 ) -> Run:
-    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps. ``after``: the
-    motion that ended in this state."""
+    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
-    trajectory = source.simulate(start, progress=progress, after=after, **options)
+    trajectory = source.simulate(start, progress=progress, **options)
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
@@ -183,8 +181,9 @@ class Run:
 
     def instant(self, t: float, route: str = "minimal") -> Instant:
         """The whole instant at a time within the run, with what is in place and holds then."""
-        q, u = self.motion.sample(np.array([t], float))
-        return Instant(self.source, State(self.end.p, t, q[0], u[0]), route, self.motion)
+        if self.recorded:
+            raise LookupError("a run from a file holds no whole instants; run.again() simulates it anew and knows all")
+        return Instant(self.source, self.motion.state(t), route)
 
     def before(self, text: str, t: float) -> float:
         """The value of an expression just before a time, at which something may switch."""
@@ -281,10 +280,9 @@ class Run:
 
         Raises ``ValueError`` for a run from a file on whose way parts were released or engaged: the file does not hold them.
         """
-        after = self.motion if isinstance(self.motion, Trajectory) else None
-        if after is None and any(change.kind in ("released", "engaged") for change in self.changes):
+        if self.recorded and any(change.kind in ("released", "engaged") for change in self.changes):
             raise ValueError("a saved run does not know what its events released and engaged\n  simulate again, to the later end")
-        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress, after=after)
+        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress)
 
     def at(self, times: Times) -> Run:
         """The same run on other output times."""
@@ -320,9 +318,6 @@ class Run:
         return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
 
     def _least(self, i: int) -> Array:
-        p = self.end.p
-        if not np.array_equal(p, self.start.p):
-            raise ValueError("an event changed parameters during this run: ask for the least reactions instant by instant")
-        rows = zip(self.t, self.q, self.u, strict=True)
-        least = [self.source.instant(State(p, float(t), q, u)).least_reactions for t, q, u in rows]
-        return np.array(least)[:, i]
+        if self.recorded and not np.array_equal(self.end.p, self.start.p):
+            raise ValueError("an event changed parameters during this run, and the file does not hold which: simulate it again")
+        return np.array([self.source.instant(self.motion.state(t)).least_reactions for t in self.t.tolist()])[:, i]

@@ -71,7 +71,8 @@ class Header:
         """That of a run."""
         source, motion, parts = run.source, run.motion, ("events", "changes", "outcome", "stats")
         texts = json.dumps(source.spec), json.dumps(source.model)
-        asked = source.report, run.report, run.settings, run.start, run.end, motion.steps
+        start, end = (replace(state, history=None) for state in (run.start, run.end))
+        asked = source.report, run.report, run.settings, start, end, motion.steps
         return cls(
             FORMAT, versions(), *texts, *asked, *(motion.record[part] for part in parts), list(run.energy.names), run.columns
         )
@@ -129,9 +130,10 @@ class Recorded(Motion):
         values = self.blocks["reaction"][rows].reshape(len(rows), -1, 3)
         return values, ~np.isnan(values)
 
-    def instant(self, t: float, route: str) -> Any:
-        """A file holds no instants."""
-        raise LookupError("a run from a file holds no whole instants; run.again() simulates it anew and knows all")
+    def state(self, t: float) -> State:
+        """The state at a saved time, without its history."""
+        q, u = self.sample(np.array([t]))
+        return replace(self.end, t=t, q=q[0], u=u[0])
 
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """The energy ledger at saved times."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, Limit, Motion, State, quote
+from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, Limit, State, quote
 from freebody.solve import rich_tables
 from freebody.solve.rich_tables import figure, table
 
@@ -145,21 +145,14 @@ class Reactions(Mapping[str, Reaction]):
 
 
 class Instant:
-    """Accelerations and all reactions at a state. ``motion``: one that is at this state then; what it has switched holds here, too."""
+    """Accelerations and all reactions at a state."""
 
-    def __init__(
-        self,
-        core: CompiledModel,
-        state: State,
-        route: str = "minimal",
-        motion: Motion | None = None,
-    ) -> None:
+    def __init__(self, core: CompiledModel, state: State, route: str = "minimal") -> None:
         self.state = state
         self.route = route
         self.core = core
         self._metadata = core.metadata
-        self.motion = motion
-        self._solved = core.instant(state, route) if motion is None else motion.instant(state.t, route)
+        self._solved = core.instant(state, route)
 
     @property
     def accelerations(self) -> dict[str, float]:
@@ -235,7 +228,7 @@ class Instant:
 
     def free_bodies(self) -> FreeBodies:
         """Every load on every body, and what it gives their mass centres."""
-        return self.core.free_bodies(self.state) if self.motion is None else self.motion.free_bodies(self.state.t)
+        return self.core.free_bodies(self.state)
 
     @property
     def freedom(self) -> int:
@@ -260,8 +253,6 @@ class Instant:
         return value
 
     def _values(self, texts: list[str]) -> Array:
-        if self.motion is not None:
-            return self.motion.evaluate(texts, np.array([self.state.t]))[0]
         return self.core.evaluate(texts, self.state)
 
     def tables(self) -> list[Table]:

@@ -1,6 +1,7 @@
 //! What an instant tells, as data.
 
 use super::{ContactLoad, Freedom, Instant};
+use crate::mode::Mode;
 use serde_json::{json, Value};
 
 impl Instant {
@@ -25,7 +26,8 @@ impl Instant {
 }
 
 impl<'m> super::Workspace<'m> {
-    /// The mechanism at a state, with contacts, strings and friction as they are where nothing moved before.
+    /// The mechanism at a state in a mode; where none is given, with contacts, strings and friction as they are where
+    /// nothing moved before.
     ///
     /// # Errors
     /// Arrays that are no state; as [`super::Workspace::initial_mode`].
@@ -33,13 +35,16 @@ impl<'m> super::Workspace<'m> {
         m: &'m crate::mechanism::Mechanism,
         p: &[f64],
         t: f64,
-        q: &[f64],
-        u: &[f64],
+        [q, u]: [&[f64]; 2],
+        mode: Option<&Mode>,
     ) -> Result<Self, super::DynamicsError> {
         m.check_state(p, t, q, u)?;
+        if mode.is_some_and(|mode| !mode.fits(m)) {
+            return Err(super::DynamicsError::ForeignHistory);
+        }
         let mut workspace = Self::new(m, p);
         workspace.move_to(t, q, u);
-        let mode = workspace.initial_mode()?;
+        let mode = mode.map_or_else(|| workspace.initial_mode(), |mode| Ok(mode.clone()))?;
         workspace.enter(&mode);
         Ok(workspace)
     }

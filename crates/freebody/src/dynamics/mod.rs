@@ -223,12 +223,6 @@ impl<'m> Workspace<'m> {
         &self.placed.mode
     }
 
-    /// Takes all speeds as none, in the present configuration.
-    pub fn set_zero_rates(&mut self) {
-        self.placed.u.fill(0.0);
-        self.k.forward_kinematics(self.m, &self.n, &self.placed.q, &self.placed.u);
-    }
-
     /// The present state, as what measures sees it; gears bear as in the last solution.
     pub fn at(&self) -> StateView<'_> {
         self.placed.view(self.m, &self.n, &self.k)

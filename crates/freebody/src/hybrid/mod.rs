@@ -20,7 +20,7 @@ pub use canonical::mass_matrix;
 pub use impacts::Rule;
 pub use mode_changes::{ContactImpulse, Impulses, ModeChange};
 pub use system::HybridSystem;
-pub use trajectory::{Ledger, Trajectory};
+pub use trajectory::{Ledger, MotionState, Trajectory};
 
 use crate::builder::chosen;
 use crate::dynamics::{DynamicsError, Route, Workspace};
@@ -102,6 +102,9 @@ pub fn simulate(
     progress: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Trajectory, DynamicsError> {
     m.check_state(start.p, start.t, start.q, start.u)?;
+    if start.mode.is_some_and(|mode| !mode.fits(m)) {
+        return Err(DynamicsError::ForeignHistory);
+    }
     if !until.is_finite() {
         return Err(DynamicsError::NoFiniteNumber("until".into(), until));
     }

@@ -3,7 +3,7 @@
 use super::mode_changes::ModeChange;
 use super::system::Phase;
 use super::{HybridSystem, Settings};
-use crate::dynamics::{DynamicsError, Freedom, Instant, Route, Workspace};
+use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
@@ -38,6 +38,23 @@ pub struct Trajectory {
     opening: [f64; 2],
     worked: Vec<usize>,
     driven: Vec<usize>,
+}
+
+/// A state of a motion, with what it brought along: a motion that starts here goes on with it.
+#[derive(Clone, Debug)]
+pub struct MotionState {
+    /// Parameters.
+    pub p: Vec<f64>,
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Rates.
+    pub u: Vec<f64>,
+    /// What is in place and holds.
+    pub mode: Mode,
+    /// Works since the start of all forces, then of all drives, then of friction, J.
+    pub works: Vec<f64>,
 }
 
 /// The energy ledger: columns and their values at each time, J.
@@ -77,16 +94,39 @@ impl Trajectory {
         }
     }
 
-    /// The last good time and the state then: t, q, u, parameters.
-    pub fn end(&self, m: &Mechanism) -> (f64, Vec<f64>, Vec<f64>, Vec<f64>) {
-        let n = m.freedom();
-        let y = &self.run.y;
-        (self.run.t, y[..n].to_vec(), y[n..2 * n].to_vec(), self.phases[self.phases.len() - 1].p.clone())
+    /// The state at the end: a motion that goes on from there starts with it.
+    pub fn end(&self, m: &Mechanism) -> MotionState {
+        self.state_of(m, self.run.t, &self.run.y)
     }
 
-    /// What is in place and holds at the end: a motion that goes on from there starts with it.
-    pub fn end_mode(&self) -> &Mode {
-        &self.phases[self.phases.len() - 1].mode
+    /// The state at one time, on the closed loops.
+    ///
+    /// # Errors
+    /// As [`Trajectory::sample`].
+    pub fn state(&self, m: &Mechanism, t: f64) -> Result<MotionState, DynamicsError> {
+        let mut found = None;
+        self.each(m, &[t], |_, t, y| {
+            found = Some(self.state_of(m, t, y));
+            Ok(())
+        })?;
+        Ok(found.expect("one time was visited"))
+    }
+
+    fn state_of(&self, m: &Mechanism, t: f64, y: &[f64]) -> MotionState {
+        let (n, phase) = (m.freedom(), self.phase(t));
+        let (q, u, p) = (y[..n].to_vec(), y[n..2 * n].to_vec(), phase.p.clone());
+        MotionState { p, t, q, u, mode: phase.mode.clone(), works: self.works(m, y) }
+    }
+
+    /// The state during an impact, by its place among `mode_changes`: with the rates before it, and held what took part in
+    /// the impact.
+    ///
+    /// # Errors
+    /// `no_blow`.
+    pub fn state_of_impact(&self, m: &Mechanism, change: usize) -> Result<MotionState, DynamicsError> {
+        let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
+        let (t, [before, _], impulses) = found.ok_or(DynamicsError::NoBlow(change))?;
+        Ok(MotionState { mode: impulses.mode.clone(), ..self.state_of(m, t, before) })
     }
 
     fn phase(&self, t: f64) -> &Phase {
@@ -226,51 +266,5 @@ impl Trajectory {
             Ok(())
         })?;
         Ok(Ledger { names, rows })
-    }
-
-    /// What `read` finds at one time, with what is in place and holds then.
-    ///
-    /// # Errors
-    /// As [`Trajectory::reactions`]; those of `read`.
-    pub fn at<T>(
-        &self,
-        m: &Mechanism,
-        t: f64,
-        read: impl Fn(&mut Workspace<'_>) -> Result<T, DynamicsError>,
-    ) -> Result<T, DynamicsError> {
-        let mut found = None;
-        self.each(m, &[t], |workspace, _, _| {
-            found = Some(read(workspace)?);
-            Ok(())
-        })?;
-        Ok(found.expect("one time was visited"))
-    }
-
-    /// What `read` finds during an impact, by its place among `changes`: with the rates before it, and held what took
-    /// part in the impact.
-    ///
-    /// # Errors
-    /// `no_blow`; those of `read`.
-    pub fn at_impact<T>(
-        &self,
-        m: &Mechanism,
-        change: usize,
-        read: impl Fn(&mut Workspace<'_>) -> Result<T, DynamicsError>,
-    ) -> Result<T, DynamicsError> {
-        let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
-        let Some((t, [before, _], impulses)) = found else {
-            return Err(DynamicsError::NoBlow(change));
-        };
-        let mut workspace = Workspace::new(m, &self.phase(t).p);
-        workspace.place(&impulses.mode, t, &before[..m.freedom()], &before[m.freedom()..2 * m.freedom()]);
-        read(&mut workspace)
-    }
-
-    /// Everything about one time, and the degrees of freedom then.
-    ///
-    /// # Errors
-    /// As [`Trajectory::reactions`].
-    pub fn instant(&self, m: &Mechanism, t: f64, route: Route) -> Result<(Instant, Freedom), DynamicsError> {
-        self.at(m, t, |workspace| Ok((workspace.instant(route)?, workspace.freedom())))
     }
 }

@@ -4,7 +4,7 @@ use crate::model::*;
 use crate::rng::Rng;
 use freebody::compile::Compiled;
 use freebody::dynamics::{Instant, Route, Workspace};
-use freebody::hybrid::{simulate, Settings, Start, Trajectory};
+use freebody::hybrid::{simulate, MotionState, Settings, Start, Trajectory};
 use freebody::mode::Mode;
 use freebody::motion::{Options, METHODS};
 
@@ -59,7 +59,7 @@ fn every_integrator_brings_the_pendulum_back() {
         let options = Options { rtol: 1e-11, first_step: fixed.then_some(h), ..Options::default() };
         let allowed = if fixed { 100.0 * (std::f64::consts::TAU / 400.0).powi(method.order as i32) } else { 1e-8 };
         let run = run(&compiled, &[std::f64::consts::FRAC_PI_2], &[0.0], period, method.name, options);
-        let (_, q, u, _) = run.end(&compiled.mechanism);
+        let MotionState { q, u, .. } = run.end(&compiled.mechanism);
         near(method.name, q[0], std::f64::consts::FRAC_PI_2, allowed);
         near(method.name, u[0], 0.0, allowed * G);
     }
