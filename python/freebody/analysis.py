@@ -49,9 +49,9 @@ class Moving:
         """
         from freebody.solve.instant import Instant
 
-        state, _ = self.start(initial, t, **changes)
+        state, notes = self.start(initial, t, **changes)
         with self.core_errors():
-            return Instant(self.compile(), state, route)
+            return Instant(replace(self.compile(), notes=tuple(notes)), state, route)
 
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
         """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from freebody import cli
@@ -80,6 +81,33 @@ def test_a_bad_end_is_code_3_and_says_when_and_where(command, bursting):
 def test_solve_hands_the_state_on(command):
     printed = command("solve", GUN, "--at", "R=0.5 m", "--set", "T=0").output
     assert "accelerations" in printed and "momentum balances" not in printed
+
+
+def test_the_assembly_that_was_taken_is_said_with_the_others(command, tmp_path):
+    """A slider-crank closes on either side of the crank: x = r cos θ ± √(l² − r² sin² θ)."""
+    path = tmp_path / "crank.yaml"
+    path.write_text("""
+freebody: 1
+gravity: none
+bodies:
+  crank: {shape: rod, length: 75 mm, mass: 1}
+  rod: {shape: rod, length: 200 mm, mass: 3}
+  piston: {shape: particle, mass: 1.5}
+joints:
+  A: {type: hinge, of: [ground.O, crank.start], coordinate: theta}
+  B: {type: hinge, of: [crank.end, rod.start], coordinate: beta}
+  D: {type: hinge, of: [rod.end, piston.centre]}
+  guide: {type: slot, along: {through: ground.O, angle: 0}, point: piston.centre, coordinate: x}
+initial: {theta: 30 deg}
+run: {until: 1 ms}
+""")
+    places = [f"x = {0.075 * np.sqrt(0.75) + side * np.sqrt(0.2**2 - 0.0375**2):.6f}" for side in (-1, 1)]
+    for words in (["solve"], ["validate"], ["run", "--no-report"]):
+        shown = command(words[0], str(path), *words[1:]).stdout
+        taken, other = (next(line for line in shown.splitlines() if line.startswith(word)) for word in ("taken", "another"))
+        assert sorted(place for place in places for line in (taken, other) if place in line) == sorted(places)
+    solved = json.loads(command("solve", str(path), "--json").stdout)
+    assert len(solved["assembly"]) == 2 and f"x = {solved['state']['x']:.6f}" in solved["assembly"][0]
 
 
 def test_solve_by_all_routes_says_how_far_they_agree(command):

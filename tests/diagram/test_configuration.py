@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from store import SYSTEMS, every, mechanism, start
 
+from freebody.core import CompiledModel
 from freebody.core.cards import joints
 from freebody.equations.topics import topic
 from freebody.model import Mechanism
@@ -88,8 +89,8 @@ def test_every_body_is_placed_by_itself(model):
         for word, along, unit in zip("xy", place, np.eye(2), strict=True):
             way = marks[letter(f"{word}_{name}")].arrow @ unit
             if abs(along) > sketch.size:
-                assert way[1] - way[0] == pytest.approx(scale * along, rel=1e-9)
-            assert way[1] > way[0] or along < 0
+                assert way[1] - way[0] == pytest.approx(scale * abs(along), rel=1e-9)
+            assert way[1] > way[0]  # x and y grow with the axes, wherever the body is
         if not body["particle"]:
             vertex, end = marks[letter(f"phi_{name}")].guides[1]
             turn = sketch.poses[0, sketch.names.index(name), 2]
@@ -119,9 +120,9 @@ def pair(kind):
 
 
 @pytest.mark.parametrize("kind", FIELDS)
-def test_an_arrow_goes_from_zero_to_the_value(kind):
-    """An arc turns by the value of its coordinate, a straight arrow is as long; where the coordinate grows it is the head that
-    goes on, along the arrow, and the tail that stays."""
+def test_an_arrow_lies_between_zero_and_the_value_in_the_positive_sense(kind):
+    """An arc turns by the value of its coordinate, a straight arrow is as long; where the coordinate grows, the end at its value
+    goes on along the arrow, the head of what is positive and the tail of what is negative, and the end at zero stays."""
     source, state = pair(kind)
     sketch = sketch_of_state(source, state)
     for i, measure in enumerate(dimension_lines(sketch)):
@@ -134,11 +135,43 @@ def test_an_arrow_goes_from_zero_to_the_value(kind):
         if measure.angle:
             turn = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
             sides = len(turn)  # of an arc: the outer halves of the first and the last side are missing
-            assert (turn[-1] - turn[0]) * sides / (sides - 1) == pytest.approx(value, rel=1e-9)
+            assert (turn[-1] - turn[0]) * sides / (sides - 1) == pytest.approx(abs(value), rel=1e-9)
         elif kind not in ("curved_slot", "cam"):
             assert length == pytest.approx(abs(value), rel=1e-9)
         assert np.sign(longer - length) == np.sign(value)
-        assert after.arrow[0] == pytest.approx(measure.arrow[0], abs=2e-3 * length)
+        zero, moving = (0, -1) if value > 0 else (-1, 0)
+        assert after.arrow[zero] == pytest.approx(measure.arrow[zero], abs=2e-3 * length)
+        assert (after.arrow[moving] - measure.arrow[moving]) @ way[0 if moving == 0 else -1] > 0
+
+
+def turned(line, vertex):
+    """From the first to the second end of a line as seen from a vertex, counter-clockwise."""
+    (ax, ay), (bx, by) = line[0] - vertex, line[-1] - vertex
+    return np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
+
+
+@every_model
+@pytest.mark.parametrize("side", [-1, 1])
+def test_arrows_point_where_their_coordinates_grow(model, side):
+    """In any pose, with coordinates on either side of their zeros: from zero the end at the value goes along the arrow."""
+    source, (state, _) = mechanism(model).source(), start(model)
+    nothing_in_the_way = source.spec | {part: [] for part in ("contacts", "strings", "stops", "events", "forces")}
+    size, source = sketch_of_state(source, state).size, replace(CompiledModel.of(nothing_in_the_way), model=source.model)
+    least = np.array([0.5 if c["dimension"] == "rad" else 8 * size for c in source.metadata["coordinates"]])
+    state = replace(state, q=side * least * (1 + np.arange(len(least)) % 4 / 3), u=np.zeros(len(least)))
+    sketch, step = sketch_of_state(source, state), 1e-4
+    for i, measure in enumerate(dimension_lines(sketch)):
+        beyond = sketch_of_state(source, replace(state, q=state.q + step * least * np.eye(len(state.q))[i]))
+        beyond.size = sketch.size
+        after, moving = list(dimension_lines(beyond))[i], 0 if measure.below else -1
+        assert measure.below == (side < 0)
+        if measure.angle:
+            vertices = measure.guides[0][0], after.guides[0][0]
+            ends = np.array([measure.arrow[moving] - vertices[0], after.arrow[moving] - vertices[1]])
+            assert turned(ends, np.zeros(2)) * turned(measure.arrow[:2], vertices[0]) > 0
+        else:
+            value, further = ((each.arrow[-1] - each.arrow[0]) * side for each in (measure, after))
+            assert (further - value) @ (measure.arrow[-1] - measure.arrow[0]) > 0
 
 
 def test_a_zero_is_shown_by_its_sense():

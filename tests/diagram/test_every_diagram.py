@@ -326,6 +326,18 @@ def test_arrows_can_be_seen(model):
 
 
 @every_model
+def test_a_sheet_to_scale_has_one_scale(model):
+    """Arrows of one length are forces of one size, on whichever body; only what would be all head is drawn longer, and said."""
+    found = drawn(model, None, True)
+    assert len({cut.per_newton for cut in found.cuts if cut.per_newton is not None}) <= 1
+    for cut in found.cuts:
+        longer = next((note for note in cut.notes if note.startswith("drawn longer than to scale: ")), "")
+        for mark in (mark for mark in cut.forces + cut.effective if isinstance(mark, Arrow)):
+            true = mark.action.size * cut.per_newton
+            assert mark.length == pytest.approx(true, rel=1e-9) or (mark.length > true and mark.action.sign.plain in longer)
+
+
+@every_model
 def test_to_scale_the_arrows_on_a_body_add_up_to_the_effective_side(model):
     for cut in drawn(model, None, True).cuts:
         if cut.per_newton is None or any("not determined" in note or "longer" in note for note in cut.notes):

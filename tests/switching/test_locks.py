@@ -46,6 +46,17 @@ def test_a_particle_is_held_by_its_weight(tmp_path: Path, mass: float) -> None:
     assert_allclose(run["'lock b.y'.force"], mass * G)
 
 
+@pytest.mark.parametrize("saved", ["run.nc", "run.csv"])
+def test_what_a_prescribed_motion_needs_is_among_the_largest_reactions(tmp_path: Path, saved: str) -> None:
+    """A rod held level by a motor: the moment of its weight, M g l/2; also of a run from a file."""
+    motor = ROD.partition("initial:")[0] + "motions: {motor: {of: theta, is: 0}}\nrun: {until: 0.6 s}\n"
+    run = model(tmp_path, motor).simulate()
+    for each in (run, fb.Run.load(run.save(tmp_path / saved))):
+        [peak] = [peak for peak in peak_reactions(each) if peak.joint == "motor"]
+        assert peak.size is None and peak.body == ""
+        assert_allclose(peak.couple, 3 * G)
+
+
 def test_a_report_names_the_force_of_a_lock(tmp_path: Path) -> None:
     """About the pivot the couple is the moment of the weight, M g l/2; the one along twice the angle is half of it."""
     work = model(tmp_path, ROD + "report: {work: \"'lock theta'.work\"}\n").simulate().report["work"]

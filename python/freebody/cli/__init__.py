@@ -93,7 +93,7 @@ def validate(
     if output:
         FORMATS.of(output)
     mechanism = opened(model)
-    show.mechanism(mechanism.compile().metadata, mechanism.solve().explanation, as_json)
+    show.mechanism(mechanism.solve(), as_json)
     if output:
         mechanism.drawing().figure.savefig(output)
         if not as_json:

@@ -18,7 +18,7 @@ from freebody.solve.rich_tables import table
 from freebody.views.peaks import peak_reactions
 
 if TYPE_CHECKING:
-    from freebody.core import Change
+    from freebody.core import Change, CompiledModel
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant, Reaction
     from freebody.views.compare import Comparison
@@ -75,7 +75,7 @@ def run(done: Run) -> None:
     ]
     put(
         _ending(done),
-        *([Text("\n".join(["assembled", *done.source.notes]) + "\n")] if done.source.notes else []),
+        *_assembled(done.source),
         table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
         table("mode changes", _SWITCHED, switch_rows(done.changes)),
         table("report", ["quantity", "value", "unit", "t [s]", ""], reported),
@@ -94,6 +94,11 @@ def _ending(done: Run) -> Text:
     where = f", at {place}" if place else ""
     stated = "\n  ".join(["", *outcome.sentence.split("; ")])
     return Text.assemble(name, ": ", (f"{outcome.name}, t = {outcome.t:.6g} s", "bold red"), where, stated, "\n")
+
+
+def _assembled(source: CompiledModel) -> list[Text]:
+    """The assembly that was taken and the others, where there are several; coordinates that are not as guessed."""
+    return [Text("\n".join(["assembled", *source.notes]) + "\n")] if source.notes else []
 
 
 def closure(done: Run) -> float:
@@ -126,6 +131,7 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
         data = [_instant_as_dict(instant, joint_axes) | after for instant in solved]
         print_json(data if others else data[0])
         return
+    put(*_assembled(first.core))
     if opening:
         put(Text("just before the events at the start\n", "bold"))
     put(*_tables(first, joint_axes))
@@ -169,6 +175,8 @@ def apart(a: Instant, b: Instant) -> float:
 def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
     return {
         "route": instant.route,
+        "assembly": list(instant.core.notes),
+        "state": dict(zip(instant.accelerations, instant.state.q.tolist(), strict=True)),
         "accelerations": instant.accelerations,
         "reactions": {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()},
         "limits": {name: asdict(limit) for name, limit in instant.limits.items()},
@@ -198,10 +206,11 @@ def _parts(reaction: Reaction, joint_axes: bool) -> dict[str, float]:
 # A mechanism, a comparison
 
 
-def mechanism(metadata: Mapping[str, Any], freedom: str, as_json: bool) -> None:
-    """Model assumptions: bodies, coordinates, joints, forces, freedom; what is ignored and assumed."""
+def mechanism(start: Instant, as_json: bool) -> None:
+    """Model assumptions: bodies, coordinates, joints, forces, freedom; what is ignored and assumed; how it is assembled."""
+    metadata = start.core.metadata
     if as_json:
-        print_json(metadata)
+        print_json({**metadata, "assembly": list(start.core.notes)})
         return
     bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in metadata["bodies"]]
     coordinates = [(c["name"], c["dimension"], c["doc"]) for c in metadata["coordinates"]]
@@ -216,8 +225,10 @@ def mechanism(metadata: Mapping[str, Any], freedom: str, as_json: bool) -> None:
         table("contacts, strings and stops", ["", "type", "between", ""], limits),
         table("forces", ["force", "type", ""], forces),
         table("prescribed motions", ["motion", "level", "", ""], motions),
-        freedom,
+        start.explanation,
         *(f"• {note}" for note in metadata["notes"]),
+        *([""] * bool(start.core.notes)),
+        *_assembled(start.core),
     )
 
 

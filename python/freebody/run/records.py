@@ -33,7 +33,7 @@ class Column:
     """One column of a run.
 
     ``name`` is an expression of the model language that gives the same values; ``unit`` is SI;
-    ``kind`` is coordinate, rate, acceleration, reaction, limit (of contacts, strings and stops), energy or pose.
+    ``kind`` is coordinate, rate, acceleration, reaction, limit (of contacts, strings, stops, locks and motions), energy or pose.
     The entries of the ledger that no expression gives go by their names.
     """
 
@@ -222,6 +222,9 @@ def columns_of(metadata: Mapping[str, Any], ledger: Sequence[str]) -> list[Colum
         add("limit", f"{quote(name)}.gap", Name("g", (name,)), length)
     for lock in metadata["locks"]:
         add("limit", f"{quote(lock['name'])}.force", Name("F", (lock["name"],)), "N*m" if lock["turns"] else "N")
+    for motion in metadata["motions"]:
+        unit = motion["readings"]["force"]
+        add("limit", f"{quote(motion['name'])}.force", Name("M" if unit == "N*m" else "F", (motion["name"],)), unit)
     own = {"kinetic": ("kinetic()", Name("T")), "potential": ("potential()", Name("V"))} | {
         each: (each, Name(each)) for each in ENTRIES
     }

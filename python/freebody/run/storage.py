@@ -37,7 +37,7 @@ _VARIABLES = {
     "limit": (
         "limits",
         ("limit",),
-        "forces (N) and gaps (m) of contacts, strings and stops, forces of locks; N*m and rad at an angle",
+        "forces (N) and gaps (m) of contacts, strings and stops, forces of locks and motions; N*m and rad at an angle",
     ),
     "energy": ("energy", ("ledger",), "energy ledger, J"),
     "pose": ("pose", ("body", "place"), "frame origin x, y (m) and angle (rad) of the bodies"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from freebody.views.sketch import Sketch, named_points
 
 _ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is shown as 0
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
+_LEAST = 0.35  # rad, the arc that shows the sense of an angle whose own cannot be seen
 _LEVELS = 5  # places further and further out where an arrow may keep off others
 _APART = 1.6  # sizes of symbols between two arrows
 _TWO_POINTS = "direction"
@@ -24,10 +25,11 @@ _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 
 @dataclass(frozen=True)
 class DimensionLine:
-    """A coordinate in the fixed axes: ``arrow`` (k, 2) from its zero to its value, ``guides`` (2, 2) to where it is 0 and, of an
-    angle, to where it ends, and its value in words. An arrow of fixed size shows the sense of one that is nearly 0. ``place`` is the joint's point on the second
-    body; an angle has its vertex there, or, of a direction from point to point, at the first of these. ``of_axis``: it is the angle
-    of the second body's x axis."""
+    """A coordinate in the fixed axes: ``arrow`` (k, 2) in its positive sense, between its zero and its value, and so from its value
+    to its zero where that is ``below`` zero; ``guides`` (2, 2) to where it is 0 and, of an angle, to where it ends, and its value in
+    words. An arrow of fixed size shows the sense of one that is nearly 0. ``place`` is the joint's point on the second body; an angle
+    has its vertex there, or, of a direction from point to point, at the first of these. ``of_axis``: it is the angle of the second
+    body's x axis."""
 
     coordinate: str
     first: str
@@ -38,6 +40,7 @@ class DimensionLine:
     angle: bool
     of_axis: bool
     value: str
+    below: bool
 
 
 @dataclass(frozen=True)
@@ -79,11 +82,12 @@ def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[
             else:
                 offered.append(_length(sketch, asked, place, aside) if asked.dimension else _along_curve(sketch, asked, aside))
         clear = (each for each in offered if all(_distance(each[0], other, gap) > gap for other in taken))
-        arrow, guides = next(clear, offered[0])
+        arrow, guides, shown = next(clear, offered[0])
         taken.append(arrow)
         stated = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
         of_axis = angle and asked.word not in (_TWO_POINTS, _OWN_ANGLE)
-        yield DimensionLine(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, stated)
+        arrow = arrow if shown > 0 else arrow[::-1]
+        yield DimensionLine(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, stated, shown < 0)
 
 
 def _distance(one: Array, other: Array, gap: float) -> float:
@@ -116,20 +120,24 @@ def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
             yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", angle)
 
 
-def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> tuple[Array, list[Array]]:
+_Offered: TypeAlias = tuple[Array, list[Array], float]
+"""A line from the zero of a coordinate on, its guides, and how far it goes: the value, or of one that is nearly 0 a little more."""
+
+
+def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Offered:
     """About the joint to the second body's x axis, or about the first of two points to the second."""
     if asked.word == _TWO_POINTS:
-        at, second = (sketch.place(name) for name in _two_points(asked.joint))
-        end = float(np.arctan2(*(second - at)[::-1]))
+        at, along = _outwards(sketch, asked.joint)
+        end = float(np.arctan2(*along[::-1]))
     else:
         at, end = place, float(sketch.poses[0, sketch.names.index(asked.second), 2])
-    turn = asked.sense * np.fmod(asked.value, 2 * np.pi)
-    start = end - turn
+    turn = float(np.fmod(asked.value, 2 * np.pi))
+    start, shown = end - asked.sense * turn, turn if abs(turn) > _SEEN else _LEAST
     guides = [np.array([at, at + 1.25 * radius * np.array([np.cos(way), np.sin(way)])]) for way in (start, end)]
-    return shapes.arc(at, radius, start, start + (turn if abs(asked.value) > _SEEN else 0.35 * asked.sense)), guides
+    return shapes.arc(at, radius, start, start + asked.sense * shown), guides, shown
 
 
-def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> tuple[Array, list[Array]]:
+def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offered:
     """Beside the way from where the joint would be at 0."""
     along = _way(sketch, asked)
     zero = place - asked.value * asked.sense * along
@@ -137,10 +145,10 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> tuple[
     left = aside * np.array([-along[1], along[0]])
     arrow = np.array([zero, zero + shown * asked.sense * along]) + left
     foot = sketch.place(asked.joint["with"]["of"][0]) if asked.word in _AXES else zero
-    return arrow, [np.array([foot, arrow[0] + 0.2 * left])]
+    return arrow, [np.array([foot, arrow[0] + 0.2 * left])], shown
 
 
-def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> tuple[Array, list[Array]]:
+def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:
     """Beside the curve from where its parameter is 0."""
     curve = next(each for each in sketch.spec["curves"] if each["name"] == asked.joint["with"]["along"])
     start = points_of_curve(sketch, curve, np.array([0.0, 1e-4]))
@@ -149,7 +157,7 @@ def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> tuple[Array, li
     line = sketch.moved(curve["body"], points_of_curve(sketch, curve, np.linspace(0.0, end, 61)))
     slopes = np.gradient(line, axis=0) * np.sign(end)
     left = aside * np.column_stack([-slopes[:, 1], slopes[:, 0]]) / np.hypot(*slopes.T)[:, None]
-    return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])]
+    return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])], end
 
 
 def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
@@ -165,17 +173,23 @@ def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
     return None
 
 
-def _two_points(joint: Mapping[str, Any]) -> tuple[str, str]:
+def _outwards(sketch: Sketch, joint: Mapping[str, Any]) -> tuple[Array, Array]:
+    """The first of two points, and the unit direction from it in which their distance ``r`` grows: to the second where that is
+    positive, or no coordinate."""
     fields = joint["with"]
-    return tuple(fields["of"]) if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
+    names = fields["of"] if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
+    first, second = (sketch.place(name) for name in names)
+    words = [(each["joint"], each["word"]) for each in sketch.metadata["coordinates"]]
+    distance = float(np.hypot(*(second - first))) or 1.0
+    below = (joint.get("name"), "r") in words and sketch.q[0, words.index((joint.get("name"), "r"))] < 0
+    return first, (first - second if below else second - first) / distance
 
 
 def _way(sketch: Sketch, asked: _Asked) -> Array:
     """Unit direction in which a length grows: an axis of the first body, from the first point to the second, or the line's."""
     fields = asked.joint["with"]
     if asked.word == "r":
-        first, second = (sketch.place(name) for name in _two_points(asked.joint))
-        return (second - first) / (float(np.hypot(*(second - first))) or 1.0)
+        return _outwards(sketch, asked.joint)[1]
     if asked.word in _AXES:
         body, along = asked.first, _AXES[asked.word]
     else:

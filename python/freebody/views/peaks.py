@@ -1,4 +1,4 @@
-"""The largest reaction of every joint, contact, string, stop and lock, and when."""
+"""The largest reaction of every joint, contact, string, stop, lock and prescribed motion, and when."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ _ROUND_OFF = 1e-9  # of the largest of its kind: below it a reaction is what rou
 
 @dataclass(frozen=True)
 class Peak:
-    """The largest force of a joint, contact, string, stop or lock on ``body``: its size and components (N) at time ``t`` (s), and the
-    largest couple (N·m) at ``t_couple``, None for what passes none. An indeterminate reaction has no figures: they are None."""
+    """The largest force of a joint, contact, string, stop, lock or prescribed motion on ``body`` (empty for a motion, which may act on
+    several): its size and components (N) at time ``t`` (s), and the largest couple (N·m) at ``t_couple``, None for what passes none.
+    An indeterminate reaction has no figures: they are None."""
 
     joint: str
     body: str
@@ -45,6 +46,8 @@ def peak_reactions(run: Run) -> list[Peak]:
         peaks.append(_peak_of_part(run, sampled, limit["name"], limit["first"], texts, turns, parts))
     for lock in run.metadata["locks"]:
         peaks.append(_peak_of_part(run, sampled, lock["name"], lock["second"], ["force"], lock["turns"], []))
+    for motion in run.metadata["motions"]:
+        peaks.append(_peak_of_part(run, sampled, motion["name"], "", ["force"], motion["readings"]["force"] == "N*m", []))
     return peaks
 
 

@@ -20,6 +20,7 @@ from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import COLUMN, MARGIN, Row, fits
 from freebody.views.diagram.scenery import CROWD, Scenery, scenery
+from freebody.views.sketch import sketch_of_state
 
 _NARROWEST = 60.0  # mm
 _SMALLER = 0.85  # of what is drawn, step by step until it is as narrow as the column
@@ -95,25 +96,39 @@ def diagram(
     pt."""
     near = free if scaled else _further(source, state, free)
     laws = None if scaled else Laws(source, state, free)
+    chosen = every_body(free) if groups is None else tuple(map(tuple, groups))
     labels = Labels(SymbolicState(source, state, given=free), free)
-    builder = DiagramBuilder(source, state, free, near, labels, scaled, effective, column, laws)
-    chosen = [(name,) for name in free.bodies] if groups is None else [tuple(group) for group in groups]
+    builder = DiagramBuilder(source, state, free, near, labels, chosen, scaled, effective, column, laws)
     return Diagram(f"free-body diagrams of {source.name}", free, lambda: map(builder.cut, chosen))
+
+
+def every_body(free: FreeBodies) -> tuple[tuple[str, ...], ...]:
+    """Every body by itself."""
+    return tuple((name,) for name in free.bodies)
 
 
 @dataclass(frozen=True)
 class DiagramBuilder:
-    """All that the diagrams of one sheet share; ``near`` are the free bodies a little further on."""
+    """All that the diagrams of one sheet share, of the ``groups`` on it; ``near`` are the free bodies a little further on."""
 
     source: CompiledModel
     state: State
     free: FreeBodies
     near: FreeBodies
     labels: Labels
+    groups: Sequence[tuple[str, ...]]
     scaled: bool
     effective: bool
     column: float = COLUMN
     laws: Laws | None = None
+
+    @cached_property
+    def per_newton(self) -> float | None:
+        """The one scale of a sheet to scale, pt for each N: the largest of all its forces and m a is as long as the paper allows."""
+        sketch = sketch_of_state(self.source, self.state)
+        sides = (acting.to_scale(self.free, group, self.labels, sketch, self.effective) for group in self.groups)
+        longest = max((each.size for forces, terms, _ in sides for each in forces + terms if not each.turns), default=0.0)
+        return LONGEST / longest if longest > 0 else None
 
     def cut(self, group: tuple[str, ...]) -> Cut:
         """The diagram of a group, as large as the column allows."""
@@ -126,10 +141,10 @@ class DiagramBuilder:
         drawn = scenery(self.source, self.state, self.free, group, self.scaled, size)
         crowd = len(group) > CROWD
         forces, terms, notes = self._sides(group, drawn)
-        longest = max((action.size for action in forces + terms if not action.turns), default=0.0)
-        per_newton = LONGEST / longest if self.scaled and longest > 0 else None
+        pushes = [action for action in forces + terms if not action.turns]
+        per_newton = self.per_newton if self.scaled and pushes else None
         if per_newton is not None:
-            short = [a.sign.plain for a in forces + terms if not a.turns and a.size * per_newton < SHORTEST]
+            short = [action.sign.plain for action in pushes if action.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
         loaded, bare = replace(drawn, dimensions=[]) if crowd else drawn, drawn.bare()
         panels = [Panel(loaded, arranged(forces, loaded, per_newton), group if len(group) > 1 else (), oriented=True)]

@@ -171,7 +171,7 @@ def _acting(loads: Collection[Load], group: Collection[str], labels: Labels, ske
 
 
 def _with_value(action: Action, labels: Labels) -> Action:
-    unit, sign, value = labels.turning_unit if action.turns else labels.unit, action.sign, digits(float(f"{action.size:.3g}"))
+    unit, sign, value = labels.turning_unit if action.turns else labels.unit, action.sign, digits(action.size)
     mantissa, _, power = value.partition("e")
     figure = rf"{mantissa}\times 10^{{{int(power.replace('−', '-'))}}}" if power else value
     shown = rf"{sign.latex} = {figure}\ \mathrm{{{unit}}}".replace("·", r"\,")

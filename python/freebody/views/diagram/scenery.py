@@ -225,11 +225,11 @@ def _dimensions(
         aside = scale * measure.place - guides[0][0]
         if measure.angle and measure.first not in group and np.hypot(*aside) > 1.0:
             # The vertex is not on these bodies: the same angle at what they are held by.
-            end = arrow[-1] - guides[0][0]
+            end = arrow[0 if measure.below else -1] - guides[0][0]
             guides = [guides[0] + aside, scale * measure.place + np.outer([0.0, 1.25], end)]
             arrow = arrow + aside
         elif not measure.angle and length > far:
-            arrow, guides = _end(arrow, _STUB), []
+            arrow, guides = _end(arrow[::-1], _STUB)[::-1] if measure.below else _end(arrow, _STUB), []
         elif not measure.angle:
             guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
         axis = _axis(measure.second, guides[1], strokes) if measure.of_axis else None
