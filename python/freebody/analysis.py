@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
+
+from freebody.core import MotionError, Settings
+from freebody.model.answers import numbers
+from freebody.model.errors import ModelFileError, Problem
+from freebody.model.start import evaluate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,7 +38,6 @@ class Moving:
     def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
         """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
         and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
-
         given = self.initial_state(changes, initial)
         p = given.pop("p")
         with self.core_errors():
@@ -55,7 +59,6 @@ class Moving:
 
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
         """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
-
         state, _ = self.start(initial, t, **changes)
         with self.core_errors():
             return self.compile().free_bodies(state)
@@ -199,8 +202,6 @@ class Moving:
     @contextmanager
     def core_errors(self: Builder) -> Iterator[None]:
         """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
-        from freebody.core import MotionError
-
         try:
             yield
         except MotionError as error:
@@ -246,7 +247,6 @@ class Moving:
         """The impact of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
         from a time on (s, or ``"200 ms"``). Raises ``NoImpact``."""
         from freebody.impact.impacts import find
-        from freebody.model.start import evaluate
 
         return find(self.simulate(), number, of=of, after=None if at is None else evaluate(at, {}))
 
@@ -277,8 +277,6 @@ class Moving:
 
     def _instant_at(self: Builder, at: float | str) -> Instant:
         """The motion at a time, after what happens then; at its start after the events there."""
-        from freebody.model.start import evaluate
-
         t = evaluate(at, {})
         if t < 0:
             raise ValueError(f"the motion begins at 0 s: there is nothing at {t:g} s")
@@ -291,16 +289,12 @@ class Moving:
 
     def source(self: Builder, notes: Sequence[str] = ()) -> CompiledModel:
         """The compiled mechanism with all that views want to know of it."""
-
         model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
         return replace(self.compile(), model=model, report=tuple(self.report_items()), notes=tuple(notes))
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
-        from freebody.model.errors import ModelFileError, Problem
-        from freebody.model.start import evaluate
-
-        known = ("method", "rtol", "step", "max_step", "every", "route", "impacts", "painleve")
+        known = [field.name for field in fields(Settings) if field.name != "until"]
         unknown = [name for name in overrules if name not in known]
         if unknown:
             raise TypeError(f"simulate() knows no {unknown[0]!r}; it takes until, initial, t_eval, progress, {', '.join(known)}")
@@ -309,6 +303,4 @@ class Moving:
         if end is None:
             hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
             raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
-        words = ("method", "route", "impacts", "painleve")
-        numbers = {k: v if k in words or v is None else evaluate(v, {}) for k, v in overrules.items()}
-        return replace(asked, until=end, **numbers)
+        return replace(asked, until=end, **numbers(overrules, {}))

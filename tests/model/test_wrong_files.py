@@ -144,7 +144,7 @@ def problems(text: str, tmp_path) -> list:
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ModelFileError) as caught:
         model, source = reading.read(path)
-        lower.lower(model, source, path).compile()
+        assert lower.lower(model, source, path).compiled
     assert str(caught.value).startswith(str(tmp_path))
     return caught.value.problems
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 from freebody.core import BEFORE, ReportItem, Settings, cards
@@ -27,6 +27,12 @@ def timed(item: ReportItem, values: Mapping[str, float]) -> ReportItem:
     """The item with its times as numbers, at these parameters. Raises ``ModelProblem``."""
     time = lambda moment: start.evaluate(moment[1:], values) if isinstance(moment, str) and moment.startswith("=") else moment
     return replace(item, at=time(item.at), over=item.over and (float(time(item.over[0])), float(time(item.over[1]))))
+
+
+def numbers(given: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, Any]:
+    """What is given of ``Settings``, its numbers worked out at these parameters. Raises ``ModelProblem``."""
+    words = {field.name for field in fields(Settings) if field.type == "str"}
+    return {name: v if v is None or name in words else start.evaluate(v, values) for name, v in given.items()}
 
 
 def run(write: Writer) -> dict[str, Any]:

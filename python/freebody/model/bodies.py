@@ -9,12 +9,11 @@ from freebody.core import Spec
 from .arithmetic import Number, half
 from .errors import Path
 from .meanings import EVERY_BODY, SHAPE_POINTS
-from .schema import Body, CurveShape, Marked, Piece, Shaped, Stretch
+from .schema import SIZES, Body, CurveShape, Marked, Piece, Shaped, Stretch
 from .tracks import circle, track
 from .writer import Writer
 
 _CORE_SHAPES = {"particle": "point", "triangle": "polygon", "general": "given"}
-_SIZES = ("length", "radius", "width", "height")
 
 
 def points(write: Writer) -> None:
@@ -111,7 +110,7 @@ def _placed(write: Writer, path: Path, piece: Piece) -> Spec:
 def _piece(write: Writer, path: Path, shaped: Shaped, centre: list[Any] | None) -> Spec:
     kind = _CORE_SHAPES.get(shaped.shape, shaped.shape)
     out: Spec = {"shape": kind, "mass": write.number((*path, "mass"), shaped.mass, "kg", "a mass")}
-    sizes = [s for s in _SIZES if getattr(shaped, s) is not None]
+    sizes = [s for s in SIZES if s != "corners" and getattr(shaped, s) is not None]
     if sizes:
         out["sizes"] = {s: write.number((*path, s), getattr(shaped, s), "m", f"a {s}") for s in sizes}
     if shaped.corners:

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from freebody.core import CompiledModel, ReportItem, Settings
 
 from . import file, reading, schema
-from .answers import timed
+from .answers import numbers, timed
 from .errors import ModelFileError, ModelProblem, Path, Problem
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
@@ -19,7 +19,7 @@ from .meanings import EVERY_BODY, SHAPE_POINTS
 from .names import spell, suggestion
 from .scope import Folder
 from .source import Source, SourceLocations, called, caller
-from .start import Assembly, Start, evaluate, initial_state, parameter_values
+from .start import Assembly, Start, initial_state, parameter_values
 
 
 def plain(value: Any) -> Any:
@@ -37,10 +37,11 @@ def plain(value: Any) -> Any:
 
 
 class Overrules(MutableMapping[str, Any]):
-    """The parameters of a model, those of its parts as ``part.name``. Unknown names raise ``ModelFileError``."""
+    """The parameters of a model as they are written (``"400 mm"``), those of its parts as ``part.name``. Unknown names raise
+    ``ModelFileError``."""
 
     def __init__(self, builder: Builder) -> None:
-        self._builder = builder
+        self._builder, self._model = builder, builder.model
 
     def __getitem__(self, name: str) -> Any:
         known, rest, _ = self._place(name)
@@ -48,29 +49,27 @@ class Overrules(MutableMapping[str, Any]):
 
     def __setitem__(self, name: str, value: Any) -> None:
         known, rest, path = self._place(name)
-        made = self._builder.validated({"parameters": {rest: plain(value)}}, path)
-        known[rest] = made.parameters[rest]
+        known[rest] = self._builder.validated({"parameters": {rest: plain(value)}}, path).parameters[rest]
         self._builder.noted(path)
 
     def __delitem__(self, name: str) -> None:
         raise TypeError("a parameter cannot be taken out of a model that may use it")
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._builder.model.parameters)
+        return iter(self._model.parameters)
 
     def __len__(self) -> int:
-        return len(self._builder.model.parameters)
+        return len(self._model.parameters)
 
     def _place(self, name: str) -> tuple[dict[str, Any], str, Path]:
-        model = self._builder.model
+        model, (part, dot, rest) = self._model, name.partition(".")
         if name in model.parameters:
             return model.parameters, name, ("parameters", name)
-        part, dot, rest = name.partition(".")
         if dot and part in model.parts:
             model.parts[part].model_fields_set.add("parameters")
             return model.parts[part].parameters, rest, ("parts", part, "parameters", rest)
         hint = suggestion(name, model.parameters, "parameters")
-        raise self._builder.error(("parameters", name), f"there is no parameter `{name}`", hint, caller())
+        raise self._builder.error(("parameters", name), f"there is no parameter `{name}`", hint)
 
 
 class Builder:
@@ -83,50 +82,42 @@ class Builder:
 
     def __init__(self, name: str = "", gravity: Any = None) -> None:
         self.model = schema.Model(freebody=schema.VERSION)
-        self._locations = SourceLocations()
-        self._file: str | None = None
-        self._text = ""
         self.others: dict[str, Builder] = {}
+        self.ground = Ground(self, "ground", ("O",))
+        self._locations, self._file, self._text = SourceLocations(), None, ""
         self._opened: dict[FilePath, Builder] = {}
         self._lowered: tuple[str, Lowered] | None = None
-        self._compiled: tuple[str, CompiledModel] | None = None
-        self.ground = Ground(self, "ground", ("O",))
         self._locations.note(())
-        if name:
-            self._assign("name", name)
-        if gravity is not None:
-            self._assign("gravity", gravity)
+        for section, value in (("name", name or None), ("gravity", gravity)):
+            if value is not None:
+                self._assign(section, value)
 
     # -- files
 
     @classmethod
     def load(cls, path: str | FilePath) -> Any:
         """The mechanism of a model file. Raises ``ModelFileError``."""
-        return cls._of(*reading.read(path), str(path))
+        return cls.of(*reading.read(path), str(path))
 
     @classmethod
     def loads(cls, text: str, name: str = "model") -> Any:
         """The mechanism of the text of a model file. Raises ``ModelFileError``."""
-        return cls._of(*reading.reads(text, name), None)
+        return cls.of(*reading.reads(text, name))
 
     @classmethod
-    def of(cls, model: schema.Model) -> Any:
-        """The mechanism of a model."""
-        return cls._of(model, None, None)
-
-    def copy(self) -> Any:
-        """A mechanism that starts as this one."""
-        made = self._of(self.model.model_copy(deep=True), None, self._file)
-        made.others = dict(self.others)
-        return made
-
-    @classmethod
-    def _of(cls, model: schema.Model, source: Source | None, path: str | None) -> Any:
+    def of(cls, model: schema.Model, source: Source | None = None, path: str | None = None) -> Any:
+        """The mechanism of a model, with the text and the path of its file if it has one."""
         made = cls()
         made.model, made._locations, made._file = model, SourceLocations(source), path
         made._text = source.text if source else ""
         for name in (model.ground or schema.Ground()).points:
             made.ground._has(name)
+        return made
+
+    def copy(self) -> Any:
+        """A mechanism that starts as this one."""
+        made = self.of(self.model.model_copy(deep=True), None, self._file)
+        made.others = dict(self.others)
         return made
 
     def save(self, path: str | FilePath) -> None:
@@ -179,29 +170,28 @@ class Builder:
 
     def motion(self, name: str, of: Any, is_: Any, level: str = "position", by: Any = None, engaged: bool = True) -> Element:
         """Prescribes a motion of a gauge; ``is_`` is its law (``is`` in a file)."""
-        self.put("motions", name, _given(of=of, level=level, by=by, engaged=engaged) | {"is": is_})
-        return Element(name, [])
+        return self._switched("motions", name, {"of": of, "level": level, "by": by, "engaged": engaged, "is": is_})
 
     def contact(self, name: str, *of: Any, **words: Any) -> Element:
         """Two surfaces that can push each other: bodies, points, lines or ``{"centre": P, "radius": r}`` and the like.
 
         ``words`` are those of a file: ``restitution``, ``friction``, ``static_friction``, ``rough``, ``engaged``.
         """
-        return self._limit("contacts", name, words | {"of": list(of)})
+        return self._switched("contacts", name, words | {"of": list(of)})
 
     def string(self, name: str, *ends: Any, **words: Any) -> Element:
         """A string between two ends, points or ``{"drum": P, …}``.
 
         ``words`` are those of a file: ``over``, ``length`` (m), ``restitution``, ``engaged``.
         """
-        return self._limit("strings", name, words | {"ends": list(ends)})
+        return self._switched("strings", name, words | {"ends": list(ends)})
 
     def stop(self, name: str, of: Any, **words: Any) -> Element:
         """Ends of the way of a coordinate or gauge: ``least``, ``most`` (in its unit), ``restitution``, ``engaged``."""
-        return self._limit("stops", name, words | {"of": of})
+        return self._switched("stops", name, words | {"of": of})
 
-    def _limit(self, section: str, name: str, words: Mapping[str, Any]) -> Element:
-        self.put(section, name, {word: value for word, value in words.items() if value is not None})
+    def _switched(self, section: str, name: str, words: Mapping[str, Any]) -> Element:
+        self.put(section, name, _given(words))
         return Element(name, [])
 
     def event(
@@ -211,9 +201,8 @@ class Builder:
 
         ``then`` is in the words of a file; handles stand for names, and ``{"hand_over": …}`` takes a ``Mechanism``, too.
         """
-        then = self._with_files(then)
-        given = _given(when=when, at=at, direction=direction, then=then) | ({} if if_ is None else {"if": if_})
-        self.put("events", name, given)
+        given = {"when": when, "at": at, "direction": direction, "then": self._with_files(then), "if": if_}
+        self.put("events", name, _given(given))
         return name
 
     def _with_files(self, action: Any) -> Any:
@@ -243,14 +232,12 @@ class Builder:
     def initial(self, **values: Any) -> None:
         """Sets coordinates at the start, and ``rates``, ``guess``, ``points``, ``branch``, ``at_rest``, ``equilibrium``; adds
         to what is there."""
-        before = self.model.initial.written() if self.model.initial else {}
-        self._assign("initial", before | values)
+        self._assign("initial", (self.model.initial.written() if self.model.initial else {}) | values)
 
     def run_settings(self, **values: Any) -> None:
         """Sets ``until``, ``method``, ``rtol``, ``every``, ``max_step``, ``step``, ``impacts``, ``painleve``; adds to what is
         there."""
-        before = self.model.run.written() if self.model.run else {}
-        self._assign("run", before | values)
+        self._assign("run", (self.model.run.written() if self.model.run else {}) | values)
 
     def report(self, label: str, quantity: Any) -> None:
         """Asks for a quantity: ``"speed(P) @ end"``, or a mapping."""
@@ -266,12 +253,12 @@ class Builder:
         path: Path = ("ground",) if body == "ground" else ("bodies", body)
         marked = self.model.ground if body == "ground" else self.model.bodies[body]
         before = marked.written() if marked else {}
-        changed = before | {section: before.get(section, {}) | {name: value}}
+        before[section] = before.get(section, {}) | {name: value}
         self._locations.note((*path, section, name))
         if body == "ground":
-            self._assign("ground", changed, note=False)
+            self._assign("ground", before, note=False)
         else:
-            self.put("bodies", body, changed, note=False)
+            self.put("bodies", body, before, note=False)
 
     def __getitem__(self, name: str) -> Body:
         """The body of that name."""
@@ -283,22 +270,18 @@ class Builder:
         name, old = str(plain(name)), getattr(self.model, section)
         if note:
             if name in old:
-                raise self.error(
-                    (section, name), f"`{name}` is used twice in {section}", "give one of them another name", caller()
-                )
+                raise self.error((section, name), f"`{name}` is used twice in {section}", "give one of them another name")
             self._locations.note((section, name))
         # Validated alone, so that making many items takes linear time.
-        made = self.validated({section: {name: plain(value)}}, (section, name))
-        old[name] = getattr(made, section)[name]
+        old[name] = getattr(self.validated({section: {name: plain(value)}}, (section, name)), section)[name]
         self.model.model_fields_set.add(section)
-        self._changed()
+        self._lowered = None
 
     def _assign(self, section: str, value: Any, note: bool = True) -> None:
         if note:
             self._locations.note((section,))
-        made = self.validated({section: plain(value)}, (section,))
-        setattr(self.model, section, getattr(made, section))
-        self._changed()
+        setattr(self.model, section, getattr(self.validated({section: plain(value)}, (section,)), section))
+        self._lowered = None
 
     def validated(self, data: dict[str, Any], path: Path) -> schema.Model:
         """A model of that data alone. Raises ``ModelFileError``."""
@@ -313,34 +296,28 @@ class Builder:
         """The error about an item, where it was written."""
         return ModelFileError([Problem(self._locations.where(path), what, hint)])
 
-    def error(self, path: Path, what: str, hint: str, at: tuple[str, int]) -> ModelFileError:
-        """The error about an item, at a Python call."""
-        return ModelFileError([Problem(called(*at, path), what, hint)])
-
-    # -- what others make of it
+    def error(self, path: Path, what: str, hint: str) -> ModelFileError:
+        """The error about an item, at the Python call that is being executed."""
+        return ModelFileError([Problem(called(*caller(), path), what, hint)])
 
     def noted(self, path: Path) -> None:
         """Remembers that the item was made by the call that is being executed."""
         self._locations.note(path)
-        self._changed()
+        self._lowered = None
 
-    def _changed(self) -> None:
-        self._lowered = self._compiled = None
+    # -- what others make of it
 
     def lowered(self) -> Lowered:
-        """The model in the core's terms. Raises ``ModelFileError`` with all that is wrong."""
+        """The model in the core's terms; made again only when the model has changed. Raises ``ModelFileError`` with all that is
+        wrong."""
         key = self.model.model_dump_json(by_alias=True, exclude_unset=True)
         if self._lowered is None or self._lowered[0] != key:
             self._lowered = (key, lower(self.model, self._locations, self._file, self.others))
         return self._lowered[1]
 
     def compile(self) -> CompiledModel:
-        """The compiled model; made again only when the model has changed. Raises ``ModelFileError``."""
-        lowered = self.lowered()
-        assert self._lowered is not None
-        if self._compiled is None or self._compiled[0] != self._lowered[0]:
-            self._compiled = (self._lowered[0], lowered.compile())
-        return self._compiled[1]
+        """The compiled model. Raises ``ModelFileError``."""
+        return self.lowered().compiled
 
     def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:
         """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``.
@@ -353,12 +330,11 @@ class Builder:
         try:
             return initial_state(start, self.compile(), {**(initial or {}), **(changes or {})})
         except ModelProblem as complaint:
-            raise self.error((), complaint.what, complaint.hint, caller()) from None
+            raise self.error((), complaint.what, complaint.hint) from None
 
     def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Settings:
         """The settings of ``run`` as numbers, for these parameters (the model's by default)."""
-        values, words = self._values(parameters), ("method", "impacts", "painleve")
-        return Settings(**{k: v if k in words else evaluate(v, values) for k, v in self.lowered().run.items()})
+        return Settings(**numbers(self.lowered().run, self._values(parameters)))
 
     def report_items(self, parameters: Mapping[str, float] | None = None) -> list[ReportItem]:
         """The quantities to report, for these parameters (the model's by default)."""
@@ -369,7 +345,7 @@ class Builder:
         return parameter_values(self.compile(), self.compile().bind({})) if parameters is None else parameters
 
 
-def _given(**words: Any) -> dict[str, Any]:
+def _given(words: Mapping[str, Any]) -> dict[str, Any]:
     """What differs from its default, so that builder and file write the same."""
     usual = {"level": "position", "direction": "any", "then": "record", "engaged": True}
     return {key: value for key, value in words.items() if value is not None and value != usual.get(key)}

@@ -1,9 +1,10 @@
-"""Model files: loaded with the place of every item, saved with their comments."""
+"""Model files, written with the comments of those that they came from."""
 
 from __future__ import annotations
 
 import io
 import json
+from contextlib import suppress
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -17,16 +18,6 @@ from .schema import Model
 _LINE = 100
 # Sections that stand in one line where they fit; the items of the others have a line each.
 _FLAT = ("parameters", "gravity", "initial", "run")
-
-
-def load(path: str | FilePath) -> Model:
-    """The model of a YAML or JSON file. Raises ``ModelFileError``."""
-    return reading.read(path)[0]
-
-
-def loads(text: str, file: str = "model") -> Model:
-    """The model of a text; ``file`` names it in errors. Raises ``ModelFileError``."""
-    return reading.reads(text, file)[0]
 
 
 def save(model: Model, path: str | FilePath, written: str = "") -> None:
@@ -44,17 +35,12 @@ def dumps(model: Model, written: str = "") -> str:
     data = model.written()
     if written.strip() and not written.lstrip().startswith("{"):
         text = _text(_updated(_yaml().load(written), data))
-        if _reads_as(text, model):
-            return text
+        with suppress(
+            ModelFileError
+        ):  # comments in odd places can mislead the writer; then they are given up rather than the model
+            if reading.reads(text)[0] == model:
+                return text
     return _text(_sections(data))
-
-
-def _reads_as(text: str, model: Model) -> bool:
-    """Comments in odd places can mislead the writer; then they are given up rather than the model."""
-    try:
-        return loads(text) == model
-    except ModelFileError:
-        return False
 
 
 def _yaml() -> YAML:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -53,7 +53,8 @@ class Lowered:
         found, path = self.items[known]
         return found.where((*path, *_steps(core_path[len(known) :])))
 
-    def compile(self) -> CompiledModel:
+    @cached_property
+    def compiled(self) -> CompiledModel:
         """The model compiled. Raises ``ModelFileError`` with the place of what it complains about."""
         try:
             return CompiledModel.of(self.spec)

@@ -48,14 +48,13 @@ SHAPES: dict[str, tuple[str, ...]] = {
     "general": (),
 }
 """The shapes with the sizes that each needs."""
-SIZES = ("length", "radius", "width", "height", "corners")
-Shape = Literal["particle", "rod", "disk", "ring", "rectangle", "triangle", "polygon", "general"]
+SIZES = tuple(dict.fromkeys(size for sizes in SHAPES.values() for size in sizes))
 
 
 class Shaped(Section):
     """Something of a shape: a body or a piece of one."""
 
-    shape: Shape = "general"
+    shape: Literal[tuple(SHAPES)] = "general"
     length: Length = Field(None, description="Length of a rod.")
     radius: Length = Field(None, description="Radius of a disk or ring.")
     width: Length = Field(None, description="Size of a rectangle along x.")
@@ -69,11 +68,11 @@ class Shaped(Section):
         needed = set(SHAPES[self.shape])
         given = self.model_fields_set & set(SIZES)
         kind = f"a {self.shape}" if self.shape != "general" else "a body without a shape"
-        for size in sorted(needed - given):
-            raise refuse(f"{kind} needs a `{size}`", f"add `{size}:`")
-        for size in sorted(given - needed):
-            fitting = [shape for shape, sizes in SHAPES.items() if size in sizes]
-            raise refuse(f"{kind} has no `{size}`", f"`{size}` belongs to the shape {' or '.join(fitting)}")
+        if missing := min(needed - given, default=None):
+            raise refuse(f"{kind} needs a `{missing}`", f"add `{missing}:`")
+        if alien := min(given - needed, default=None):
+            fitting = " or ".join(shape for shape, sizes in SHAPES.items() if alien in sizes)
+            raise refuse(f"{kind} has no `{alien}`", f"`{alien}` belongs to the shape {fitting}")
         if self.shape == "triangle" and len(self.corners) != 3:
             raise refuse(f"a triangle has 3 corners, not {len(self.corners)}", "use `shape: polygon` for more")
         if self.shape == "polygon" and len(self.corners) < 3:
