@@ -12,8 +12,7 @@ from freebody.core import State
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.topics.impact_equations import after, applied
-from freebody.equations.topics.impact_rows import Rows
+from freebody.equations.topics.impact_equations import Rows, after, applied
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.impact.applied_impulse import strike
 from freebody.symbolic.algebra import equal

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.equations import Letters as Printed
 from freebody.equations import Tree, equation_text, read, symbols
-from freebody.equations.balances.groups import groups
-from freebody.equations.balances.system import Problem, problem
+from freebody.equations.balances.system import Problem, groups, problem
 from freebody.equations.balances.virtual_motions import named_motions
 from freebody.symbolic.tree import ZERO, Sym
 

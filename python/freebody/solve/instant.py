@@ -125,23 +125,11 @@ class Reaction:
         )
 
 
-class Reactions(Mapping[str, Reaction]):
+class Reactions(dict[str, Reaction]):
     """The reactions of all joints by name."""
 
-    def __init__(self, items: Mapping[str, Reaction]) -> None:
-        self._items = dict(items)
-
-    def __getitem__(self, name: str) -> Reaction:
-        try:
-            return self._items[name]
-        except KeyError:
-            raise KeyError(f"no joint is called {name!r}; there are {', '.join(self._items)}") from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._items)
-
-    def __len__(self) -> int:
-        return len(self._items)
+    def __missing__(self, name: str) -> Reaction:
+        raise KeyError(f"no joint is called {name!r}; there are {', '.join(self)}")
 
 
 class Instant:

@@ -7,7 +7,7 @@ from store import ANSWERED, MODELS, elsewhere, every, mechanism, start, subject
 
 import freebody as fb
 from freebody.core import State
-from freebody.equations.derivation.momenta import momenta
+from freebody.equations.derivation.conserved import momenta
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym

@@ -14,8 +14,7 @@ import numpy as np
 
 from freebody.core import Array, FreeBodies
 from freebody.equations.balances.candidates import ABSENT
-from freebody.equations.balances.groups import Group, groups
-from freebody.equations.balances.system import Problem, problem
+from freebody.equations.balances.system import Group, Problem, groups, problem
 from freebody.equations.balances.virtual_motions import (
     SAME_PLACE,
     NamedPoints,

@@ -16,8 +16,7 @@ from itertools import combinations, islice
 import numpy as np
 
 from freebody.core import Array
-from freebody.equations.balances.groups import Group
-from freebody.equations.balances.system import Problem
+from freebody.equations.balances.system import Group, Problem
 from freebody.solve.perturbed_states import DEPENDENT
 
 MOST = 100_000

@@ -8,13 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.core import FreeBodies
-from freebody.equations.balances.candidates import WORTH, Candidate, bits, candidates
+from freebody.equations.balances.candidates import WORTH, Candidate, best, bits, candidates, unions
 from freebody.equations.balances.equation import BalanceEquation, equation
-from freebody.equations.balances.groups import groups
 from freebody.equations.balances.lower_bound import fewest, without_reactions
-from freebody.equations.balances.search import best, unions
 from freebody.equations.balances.smallest import COUNT
-from freebody.equations.balances.system import problem
+from freebody.equations.balances.system import groups, problem
 from freebody.equations.balances.virtual_motions import NamedPoints
 from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.rich_tables import PlainText

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.core import FreeBodies, Indeterminate
-from freebody.equations.balances.candidates import bits, candidates
+from freebody.equations.balances.candidates import bits, candidates, smallest
 from freebody.equations.balances.equation import BalanceEquation, disagreement, equation, solved
-from freebody.equations.balances.search import smallest
 from freebody.equations.balances.system import Problem, problem, released
 from freebody.equations.balances.virtual_motions import NamedPoints
 from freebody.solve.rich_tables import PlainText, figure

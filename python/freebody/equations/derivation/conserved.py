@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
-from freebody.equations.derivation import momenta
+from freebody.equations.balances.conserved_momenta import ConservedMomentum, conserved_momenta, independent
+from freebody.equations.balances.reasons import Place, agree, why_absent
+from freebody.equations.derivation.balance_text import extent
 from freebody.equations.derivation.sentences import clause, joined
-from freebody.solve.symbolic_state import SymbolicState
+from freebody.solve.perturbed_states import moving_states
+from freebody.solve.symbolic_state import Balance, SymbolicState
+from freebody.solve.symbols import load_words
+from freebody.symbolic.algebra import quotient
+from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import Script, typed, word
-from freebody.symbolic.tree import Sym, Tree, add, read, symbols
+from freebody.symbolic.presentation import presented
+from freebody.symbolic.tree import Add, Sym, Tree, add, is_negative, is_zero, negative, power, read, symbols
+
+_ABSENT = 1e-9
+"""Part of a load below which it has none in a balance."""
+_NONE = "No momentum of bodies that are joined is conserved: along no direction, about no fixed point and about no mass centre."
 
 
 def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
@@ -23,7 +39,7 @@ def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
         left, right = energies(subject)
         made += [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
     lead = "Their sum" if in_letters else "The sum of kinetic and potential energy"
-    return [*made, Paragraph(f"{lead} is {reason}"), *momenta.section(subject, in_letters)]
+    return [*made, Paragraph(f"{lead} is {reason}"), *_conserved_momenta(subject, in_letters)]
 
 
 def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:
@@ -56,3 +72,91 @@ def total(subject: SymbolicState) -> Tree | None:
     """The energy, where it is conserved."""
     kinetic, potential, why = energy(subject)
     return None if why else add(kinetic, potential)
+
+
+@dataclass(frozen=True)
+class Momentum:
+    """A constant ``momentum`` of some bodies, ``found`` in numbers; the balance says that its rate is 0."""
+
+    found: ConservedMomentum
+    momentum: Tree
+
+
+def momenta(subject: SymbolicState) -> list[Momentum]:
+    """All that do not follow from each other. Numbers say which may be constant, letters whether they are."""
+    may_be = conserved_momenta(moving_states(subject.source, subject.state), subject.points)
+    stated: dict[int, Balance] = {}
+    while asked := [each for each in independent(may_be) if id(each) not in stated]:
+        questions = [{"ask": "equation", "bodies": list(each.bodies), **(each.twist.question or {})} for each in asked]
+        stated |= {id(each): balance for each, balance in zip(asked, subject.balances(questions), strict=True)}
+        may_be = [each for each in may_be if id(each) not in stated or _holds(subject, each, stated[id(each)])]
+    return [Momentum(each, _written(subject, stated[id(each)])) for each in independent(may_be)]
+
+
+def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> bool:
+    """Whether a balance has no loads symbolically; or has none in numbers, and loops and contacts are closed, which letters do not see.
+    The numbers are enough only if they were taken at several places."""
+    stands = found.twist.question == {"about": "centre"} or not any(x.name in subject.names for x in symbols(*balance.place.xy))
+    return (is_zero(balance.left) and stands) or (found.elsewhere and bool(subject.rows))
+
+
+def _conserved_momenta(subject: SymbolicState, in_letters: bool) -> list[Block]:
+    """Each with its reason; ``in_letters``: and what it is in the coordinates."""
+    made: list[Block] = []
+    for each in momenta(subject):
+        found, of = each.found, ""
+        if not 1 < len(found.bodies) == len(subject.free.bodies):
+            of = f" of {' + '.join(found.bodies)}"
+        where = found.twist.name if found.turns else subject.line(found.twist.name)
+        if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
+            where = "its mass centre"
+        what = f"angular momentum{of} about" if found.turns else f"momentum{of} along"
+        made.append(Paragraph(f"The {what} {where} is conserved: {_reason(subject, found, where)}."))
+        if in_letters:
+            made.append(Equation(_letter(subject, found), each.momentum))
+    return made or [Paragraph(_NONE)]
+
+
+def _letter(subject: SymbolicState, found: ConservedMomentum) -> Written:
+    """``L_x``, ``H/ground.O``, about the mass centre of the whole ``H/G``; plain for a part of the whole, or another direction."""
+    question = found.twist.question or {}
+    about, along = question.get("about"), question.get("along")
+    whole = len(found.bodies) == len(subject.free.bodies)
+    point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
+    if whole and point and not isinstance(along, str):
+        return Written(f"H/{point}", (Script(typed("H"), typed("/", word(point))),))
+    usual = ("H", "angular momentum") if found.turns else ("L", "momentum")
+    name = subject.symbols.quantity(*((f"L_{along}", f"momentum along {along}") if whole and isinstance(along, str) else usual))
+    return Written.of(name)
+
+
+def _written(subject: SymbolicState, balance: Balance) -> Tree:
+    """The momentum; of a direction that is told by a load of another size than 1, over that size."""
+    if balance.turns:
+        return balance.momentum
+    x, y = balance.place.xy
+    size = float(np.hypot(*(evaluate(tree, subject.values, subject.tables) for tree in (x, y))))
+    made = presented(balance.momentum)
+    made = made if abs(size - 1) < _ABSENT else quotient(made, power(add(power(x, 2), power(y, 2)), "1/2"))
+    return negative(made) if not isinstance(made, Add) and is_negative(made) else made
+
+
+def _reason(subject: SymbolicState, found: ConservedMomentum, where: str) -> str:
+    """Why no load from outside changes it; known loads that each would are said to cancel."""
+    place, length = Place("AMB" if found.turns else "LMB", where, found.at, False), extent(subject.free)
+    said: dict[str, list[str]] = {}
+    for i, load in enumerate(subject.free.loads):
+        if load.follows or load.inside(found.bodies) or not np.any(load.unit(found.bodies)):
+            continue
+        x, y, moment = load.unit(found.bodies, found.at if found.turns else (0.0, 0.0))
+        part = moment if found.turns else x * found.at[0] + y * found.at[1]
+        if not load.unknown and abs(part) > _ABSENT * max(1.0, abs(x), abs(y), abs(moment)):
+            why = "in this they cancel each other"
+        else:
+            has_friction = any(other.follows and other.follows[0] == i for other in subject.free.loads)
+            why = why_absent(load, found.bodies, place, length, has_friction)
+        said.setdefault(why, []).append(load.symbol if load.unknown else load_words(load, found.bodies))
+    if not said:
+        return "nothing acts from outside"
+    verb = "acts" if sum(map(len, said.values())) == 1 else "act"
+    return f"from outside {verb} {'; '.join(f'{joined(names)} ({agree(why, len(names))})' for why, names in said.items())}"

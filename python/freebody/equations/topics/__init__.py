@@ -7,7 +7,7 @@ from inspect import Parameter, getdoc, signature
 from typing import TYPE_CHECKING, Any
 
 from freebody.document.document import Document
-from freebody.equations.topics.common import NotHere
+from freebody.equations.topics.common import Asked, NotHere
 from freebody.equations.topics.elimination import elimination
 from freebody.equations.topics.frame import frame
 from freebody.equations.topics.impact import impact
@@ -46,4 +46,4 @@ def topic(mechanism: Builder, name: str, state: State | None = None, **options: 
     known = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]
     if (unknown := [*options.keys() - known]) and all(each.kind is not Parameter.VAR_KEYWORD for each in parameters):
         raise ValueError(f"{name} has no option {unknown[0]!r}; its options: {', '.join(known) or 'none'}")
-    return TOPICS[name](mechanism, mechanism.start()[0] if state is None else state, **options)
+    return TOPICS[name](Asked(mechanism, mechanism.start()[0] if state is None else state), **options)

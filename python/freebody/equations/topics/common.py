@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from freebody.document.blocks import Block, Heading
@@ -28,9 +30,17 @@ class NotHere(ValueError):
     """A topic that a mechanism has nothing for; the sentence says why."""
 
 
-def subject_of(mechanism: Builder, state: State, at_rest: bool = False) -> SymbolicState:
-    """A mechanism at a state, to be asked symbolically."""
-    return SymbolicState(mechanism.source(), state, at_rest)
+@dataclass(frozen=True)
+class Asked:
+    """What a topic is asked of: a mechanism at a state."""
+
+    mechanism: Builder
+    state: State
+
+    @cached_property
+    def subject(self) -> SymbolicState:
+        """The two, to be asked symbolically."""
+        return SymbolicState(self.mechanism.source(), self.state)
 
 
 def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[Letter] = ()) -> Document:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words, listed
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved
 from freebody.equations.solve import solve_equations
-from freebody.equations.topics.common import NotHere, brief, document, rate, subject_of
+from freebody.equations.topics.common import Asked, NotHere, brief, document, rate
 from freebody.equations.topics.lagrange import equations
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.letters import Letter
@@ -18,10 +17,6 @@ from freebody.symbolic.linear import linear_in
 from freebody.symbolic.symbols import unicode_name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
-
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
 
 
 @dataclass(frozen=True)
@@ -62,9 +57,9 @@ def eliminated(subject: SymbolicState) -> Eliminated:
     return Eliminated({each.coordinate: each.momentum for each in gone}, constants, rates, left, energy)
 
 
-def elimination(mechanism: Builder, state: State) -> Document:
+def elimination(asked: Asked) -> Document:
     """Coordinates of which only the rates matter, eliminated by their conserved momenta; often one equation is left."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     found = eliminated(subject)
     names = list(found.momenta)
     made: list[Block] = [Heading("Conserved"), Paragraph(_why(names))]

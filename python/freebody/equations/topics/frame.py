@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.directions import Directions
-from freebody.equations.topics.common import NotHere, document, known, place_of, rates, spread, subject_of
+from freebody.equations.topics.common import Asked, NotHere, document, known, place_of, rates, spread
 from freebody.solve.symbolic_state import Arrow, Direction, SymbolicState
 from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.formula import Atom, Script, bold
@@ -19,18 +19,14 @@ from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, is_zero, negative, read, replace, symbols
 
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
-
 _WORDS = ("v", "v_transport", "v_relative", "a", "a_transport", "a_relative", "a_coriolis")
 
 
-def frame(mechanism: Builder, state: State, *, point: str | None = None, body: str | None = None) -> Document:
+def frame(asked: Asked, *, point: str | None = None, body: str | None = None) -> Document:
     """A point seen from a moving body: transport, relative and Coriolis parts, and the same by direct differentiation.
 
     ``point`` and ``body``, by default the first mass centre that has a Coriolis acceleration through a body."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     bodies = [motion.body for motion in subject.motions]
     if body is not None:
         known(body, bodies, "body")

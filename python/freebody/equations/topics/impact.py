@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,17 +14,12 @@ from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.sentences import joined
 from freebody.equations.solve import Singular, TooLarge
-from freebody.equations.topics.common import document
-from freebody.equations.topics.impact_equations import Impact, after, applied, blow
-from freebody.equations.topics.impact_rows import Rows
+from freebody.equations.topics.common import Asked, document
+from freebody.equations.topics.impact_equations import Impact, Rows, after, applied, blow
 from freebody.equations.topics.impulse_momentum import Solution, jumps
 from freebody.solve.symbols import load_words
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import ZERO, Num, Sym, is_zero, symbols
-
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
 
 _ROUND_OFF = 1e-14
 """Of the largest rate, below which one is what is left of 0."""
@@ -33,8 +28,7 @@ _NOTHING = 1e-12
 
 
 def impact(
-    mechanism: Builder,
-    state: State | None = None,
+    asked: Asked,
     *,
     number: int | str = 1,
     of: str | None = None,
@@ -55,10 +49,10 @@ def impact(
     if point is None:
         if strike:
             raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
-        found = blow(mechanism, int(number), of, at)
+        found = blow(asked.mechanism, int(number), of, at)
         title = f"impact at {joined(list(found.change.of))}" if found.change.of else "impact of the parts that engage"
     else:
-        found = applied(mechanism, state or mechanism.start()[0], point, **strike)
+        found = applied(asked.mechanism, asked.state, point, **strike)
         title = f"struck at {point}"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
     return document(found.subject, title, made, list(found.letters.values()))

@@ -12,8 +12,7 @@ from freebody.equations.answers import with_positive_divisors
 from freebody.equations.solve import Singular, TooLarge, linear_system, solve
 from freebody.equations.topics.abbreviations import Names
 from freebody.equations.topics.common import spread
-from freebody.equations.topics.impact_equations import Impact, after
-from freebody.equations.topics.impact_rows import MOST_OPERATIONS, Row, Rows, require_brief
+from freebody.equations.topics.impact_equations import MOST_OPERATIONS, Impact, Row, Rows, after, require_brief
 from freebody.solve.perturbed_states import independent
 from freebody.symbolic.algebra import divided, without_circles
 from freebody.symbolic.evaluate import evaluate

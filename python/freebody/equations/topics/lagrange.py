@@ -6,7 +6,6 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,17 +17,13 @@ from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.sentences import joined
 from freebody.equations.solve import Singular, TooLarge, coefficients, solve
-from freebody.equations.topics.common import document, subject_of
+from freebody.equations.topics.common import Asked, document
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import typed
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
-
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
 
 _MOST_SIGNS = 400
 """Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for symbolically."""
@@ -110,9 +105,9 @@ def _plain(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[S
     return row if equal(each.residual, add(*sides)) else None
 
 
-def lagrange(mechanism: Builder, state: State) -> Document:
+def lagrange(asked: Asked) -> Document:
     """Energies, Lagrange's equations with generalized forces, and of which balance equations each is made."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     kinetic, potential, found = equations(subject)
     left, right = energies(subject)
     made: list[Block] = [Heading("Energies"), Equation(left, kinetic), Equation(right, potential)]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from freebody.core import CompiledModel, State
 from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
 from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
@@ -15,7 +16,7 @@ from freebody.equations.derivation.sentences import clause, joined
 from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
 from freebody.equations.solve import TooLarge
 from freebody.equations.substitutions import Substitutions, given
-from freebody.equations.topics.common import NotHere, document, subject_of
+from freebody.equations.topics.common import Asked, NotHere, document
 from freebody.equations.topics.stability_text import character
 from freebody.solve.equilibrium import rest_near
 from freebody.solve.instant import Instant
@@ -27,11 +28,6 @@ from freebody.symbolic.formula import bold, dotted
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
 
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
-
-
 _BOLD = tuple(Written(sign, bold(letter)) for sign, letter in (("𝐌", "M"), ("𝐂", "C"), ("𝐊", "K")))
 """The matrices, apart from any letters of a model."""
 _VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumerate(("𝐱", "𝐱\u0307", "𝐱\u0308")))
@@ -40,22 +36,23 @@ _STANDS = 1e-9
 """Rate, rad/s or m/s, below which what is prescribed stands still."""
 
 
-def linear(mechanism: Builder, state: State, **at: Any) -> Document:
+def linear(asked: Asked, **at: Any) -> Document:
     """M ẍ + C ẋ + K x = 0 of small perturbations from an equilibrium, those that loops and contacts leave free, with the
     characteristic polynomial, eigenvalues, frequencies, and when it is stable.
 
     coordinates and parameters, ``theta=180 deg``; where these are no equilibrium, Newton's method looks for one from there.
     Raises ``NotHere`` where none is found."""
+    mechanism, state = asked.mechanism, asked.state
     chosen = given(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
     names = [c["name"] for c in mechanism.source().metadata["coordinates"]]
     others = {name: value for name, value in at.items() if name not in names}
     touching = given(mechanism, others).start(mechanism, True, None) if others else replace(state, u=np.zeros_like(state.u))
-    rest = _rest(mechanism, first, touching)
+    rest = _rest(mechanism.source(), first, touching)
     if rest is not first:
-        places = place_of(subject_of(mechanism, first))
+        places = place_of(Asked(mechanism, first).subject)
         chosen = replace(chosen, trees={name: tree for name, tree in chosen.trees.items() if name not in places})
-    subject = subject_of(mechanism, rest, at_rest=True)
+    subject = SymbolicState(mechanism.source(), rest, at_rest=True)
     _require_regular(subject)
     made, found = _perturbations(subject, chosen)
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
@@ -64,9 +61,8 @@ def linear(mechanism: Builder, state: State, **at: Any) -> Document:
     return document(subject, title, where + made + character(subject, found, _letters_of(subject)), more)
 
 
-def _rest(mechanism: Builder, state: State, touching: State) -> State:
+def _rest(source: CompiledModel, state: State, touching: State) -> State:
     """The state, or the place of rest that is found near it, where what is ``touching`` in another does so."""
-    source = mechanism.source()
     nonequilibrium = Instant(source, state).nonequilibrium()
     found = rest_near(source, state, touching) if nonequilibrium else state
     if found is None:

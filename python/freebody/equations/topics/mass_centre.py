@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from freebody.document.blocks import Block, Equation, Heading, Written
 from freebody.document.document import Document
 from freebody.equations.derivation.balance_text import Stated
-from freebody.equations.topics.common import document, group_of, subject_of
+from freebody.equations.topics.common import Asked, document, group_of
 from freebody.symbolic.symbols import Name
 
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
 
-
-def mass_centre(mechanism: Builder, state: State, *, bodies: Sequence[str] | str = ()) -> Document:
+def mass_centre(asked: Asked, *, bodies: Sequence[str] | str = ()) -> Document:
     """The common mass centre: where it is, how forces from outside move it, Σ F = m a_G, and turn the bodies about it, Σ M = Ḣ.
 
     ``bodies``, all by default."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     group = group_of(subject, bodies)
     places = {"x": {"along": "x"}, "y": {"along": "y"}, "the mass centre": {"about": "centre"}}
     found = subject.balances([{"ask": "equation", "bodies": group, **place} for place in places.values()])

@@ -3,28 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
-from freebody.equations.topics.common import NotHere, cross, document, group_of, known, place_of, rate, rates, spread, subject_of
+from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, known, place_of, rate, rates, spread
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
 from freebody.symbolic.symbols import name_formula
 from freebody.symbolic.tree import Tree, add, is_zero
 
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
 
-
-def moment(mechanism: Builder, state: State, *, about: str | None = None, bodies: Sequence[str] | str = ()) -> Document:
+def moment(asked: Asked, *, about: str | None = None, bodies: Sequence[str] | str = ()) -> Document:
     """Moments about a fixed or a moving point: by accelerations, by dH/dt, and what a moving point adds, v × L.
 
     ``about`` a point, by default the first that moves, and ``bodies``, all by default."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     if about is not None:
         known(about, subject.points, "point")
     point = about or _first_moving(subject)

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
-from freebody.equations.topics.common import document, subject_of
+from freebody.equations.topics.common import Asked, document
 from freebody.model.start import quantity
 from freebody.symbolic.formula import typed
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Sym, add, is_zero, mul
-
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
 
 _ACROSS = "g_z"
 _COUPLES = (
@@ -24,11 +20,11 @@ _COUPLES = (
 )
 
 
-def out_of_plane(mechanism: Builder, state: State, *, gravity: Any = None) -> Document:
+def out_of_plane(asked: Asked, *, gravity: Any = None) -> Document:
     """Forces normal to the plane: what it exerts on the bodies.
 
     ``gravity`` into the plane, ``9.81 m/s^2``, of a model on a table or a slope."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     masses = [(motion.body, motion.mass) for motion in subject.motions if not is_zero(motion.mass)]
     made: list[Block] = [Heading("Balance normal to the plane")]
     made.append(Paragraph("Nothing moves out of the plane, so along k = i × j what acts on each body adds up to 0."))

@@ -2,30 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Vector, Words
 from freebody.document.document import Document
-from freebody.equations.topics.common import NotHere, brief, document, known, place_of, subject_of
+from freebody.equations.topics.common import Asked, NotHere, brief, document, known, place_of
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 
-if TYPE_CHECKING:
-    from freebody.core import State
-    from freebody.model.builder import Builder
-
 _R, _PHI = "r", "phi"
 
 
-def particle(mechanism: Builder, state: State, *, body: str | None = None, about: str = f"{GROUND}.O") -> Document:
+def particle(asked: Asked, *, body: str | None = None, about: str = f"{GROUND}.O") -> Document:
     """Newton's law of a particle or a mass centre along i, j, and along e_r, e_φ about a fixed point.
 
     ``body``, by default the first particle, and ``about``, a point of the ground."""
-    subject = subject_of(mechanism, state)
+    subject = asked.subject
     motions = subject.motions
     if body is None:
         body = next((motion.body for motion in motions if motion.particle), motions[0].body)
