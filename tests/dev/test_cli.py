@@ -134,6 +134,26 @@ def test_validate_tells_prescribed_motions_and_draws(command, tmp_path):
     assert (tmp_path / "m.svg").exists()
 
 
+@pytest.mark.parametrize(("line", "value"), [(30, 10), (-50, 20), (0, 40), (150, -70)])
+def test_an_angle_is_told_as_it_is_measured(command, tmp_path, line, value):
+    """The angle on a slot counts from its line: the body stands at the angles of both together."""
+    path = tmp_path / "slot.yaml"
+    path.write_text(f"""
+freebody: 1
+ground: {{lines: {{way: {{through: O, angle: {line} deg}}}}}}
+bodies: {{b: {{shape: rod, length: 1, mass: 1}}}}
+joints: {{t: {{type: slot, along: ground.way, point: b.start, coordinates: [s, phi]}}}}
+initial: {{s: 0, phi: {value} deg, at_rest: true}}
+report: {{a: angle(b)}}
+run: {{until: 1 ns}}
+""")
+    started = json.loads(command("run", str(path), "--no-report", "--json").stdout)["report"]["a"]["value"]
+    assert np.degrees(started) == pytest.approx(line + value)
+    coordinates = json.loads(command("validate", str(path), "--json").stdout)["coordinates"]
+    told = next(each["doc"] for each in coordinates if each["name"] == "phi")
+    assert (f"from the direction at {line}° to" in told) if line else ("from `ground`" in told)
+
+
 def test_equal_runs_are_told_in_a_line(command, tmp_path):
     saved = str(tmp_path / "run.csv")
     command("run", GUN, "--no-report", "-o", saved)

@@ -326,6 +326,17 @@ def test_arrows_can_be_seen(model):
 
 
 @every_model
+def test_the_normal_forces_of_the_ground_are_drawn_upwards(model):
+    """N stands on the side that supports: against gravity, where a guide of the ground is not upright."""
+    spec = mechanism(model).compile().spec
+    gravity = np.array([x if isinstance(x, float | int) else 0.0 for x in spec.get("gravity") or (0, 0)])
+    for mark in (mark for cut in drawn(model).cuts for mark in cut.forces):
+        for load in mark.action.loads:
+            if load.kind == "joint" and load.card.presses and "ground" in load.of and mark.action.body != "ground":
+                assert mark.action.force @ gravity < 1e-9 * (1 + np.hypot(*gravity)), load.symbol
+
+
+@every_model
 def test_a_sheet_to_scale_has_one_scale(model):
     """Arrows of one length are forces of one size, on whichever body; only what would be all head is drawn longer, and said."""
     found = drawn(model, None, True)

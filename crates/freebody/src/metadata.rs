@@ -92,7 +92,9 @@ fn coordinates(m: &Mechanism, n: &BoundValues, tree: bool) -> Vec<Value> {
 fn meaning(m: &Mechanism, n: &BoundValues, joint: &Joint, c: &crate::mechanism::Coordinate) -> String {
     let [first, second] = m.ends(joint).map(|b| &m.bodies[b].name);
     let what = joint.kind.card().coordinates[c.card].name;
-    let zero = n.values[c.zero];
+    // Markers lie along the lines of their joint, so its angles are measured from these and not from the axes of the bodies.
+    let turned = n.values[joint.first.angle] - n.values[joint.second.angle];
+    let zero = n.values[c.zero] + if what == "angle" && !c.absolute { turned } else { 0.0 };
     let from = match (c.dimension, c.absolute || m.ends(joint)[0] == 0) {
         ("rad", fixed) if fixed && zero != 0.0 => direction(zero.to_degrees()),
         ("rad", false) if zero != 0.0 => format!("{} to `{first}`", direction_at(zero.to_degrees())),
