@@ -15,7 +15,7 @@ from rich.text import Text
 
 from freebody.cli.models import print_json, written
 from freebody.solve.rich_tables import table
-from freebody.views.peaks import peak_reactions
+from freebody.views.peaks import known_peaks
 
 if TYPE_CHECKING:
     from freebody.core import Change, CompiledModel
@@ -48,11 +48,15 @@ def runs(done: Sequence[tuple[Run, Sequence[Path]]], as_json: bool) -> None:
             {
                 "name": each.name,
                 "outcome": asdict(each.outcome),
-                "events": [asdict(event) for event in each.events],
-                "changes": [asdict(change) for change in each.changes],
-                "report": {label: asdict(reported) for label, reported in each.report.items()},
+                "digits": each.accuracy.to_json(),
+                "events": [asdict(event) | _digits(t=each.accuracy.time(event.t)) for event in each.events],
+                "changes": [asdict(change) | _digits(t=change.t, lost=change.lost) for change in each.accuracy.changes],
+                "report": {
+                    label: asdict(reported) | _digits(value=reported.value, t=reported.t)
+                    for label, reported in each.accuracy.report.items()
+                },
                 "energy": {"balance": float(abs(each.energy.balance).max(initial=0.0)), "relative": closure(each)},
-                "peaks": [asdict(peak) for peak in peak_reactions(each)],
+                "peaks": [asdict(peak) | _digits(size=peak.size, couple=peak.couple) for peak in known_peaks(each)],
                 "stats": each.stats,
                 "files": [str(path) for path in files],
             }
@@ -65,19 +69,26 @@ def runs(done: Sequence[tuple[Run, Sequence[Path]]], as_json: bool) -> None:
         written(*files)
 
 
+def _digits(**figures: float | None) -> dict[str, Any]:
+    """How many digits of figures hold; null where nothing is claimed."""
+    return {"digits": {name: getattr(figure, "digits", None) for name, figure in figures.items()}}
+
+
 def run(done: Run) -> None:
     """What happened, what was asked for, whether the energy adds up, the largest reactions."""
-    reported = [(label, each.value, each.unit, each.t, each.note) for label, each in done.report.items()]
-    ledger = [(name, float(values[0]), float(values[-1])) for name, values in done.energy.entries.items()]
+    accuracy = done.accuracy
+    reported = [(label, each.value, each.unit, each.t, each.note) for label, each in accuracy.report.items()]
+    ledger = [(name, float(done.energy.entries[name][0]), end) for name, end in accuracy.energy.items()]
     peaks = [
         (peak.joint, peak.body, peak.size if peak.determinate else math.nan, peak.t, peak.couple, peak.t_couple)
-        for peak in peak_reactions(done)
+        for peak in known_peaks(done)
     ]
     put(
         _ending(done),
+        f"The motion {accuracy.sentence}.\n",
         *_assembled(done.source),
-        table("events", ["event", "t [s]", "kind"], [(e.name, e.t, e.kind) for e in done.events]),
-        table("mode changes", _SWITCHED, switch_rows(done.changes)),
+        table("events", ["event", "t [s]", "kind"], [(e.name, accuracy.time(e.t), e.kind) for e in done.events]),
+        table("mode changes", _SWITCHED, switch_rows(accuracy.changes)),
         table("report", ["quantity", "value", "unit", "t [s]", ""], reported),
         table("energy", ["", "start [J]", "end [J]"], ledger),
         f"Energy error below {closure(done):.1e} of the largest entry.\n",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import CompiledModel, MotionError, OutcomeKind, Settings, State, quote
@@ -48,13 +49,20 @@ def follow(stage: Stage, first: Run) -> Run:
     run = first
     while (later := stage.after(run)) is not None:
         at_once = run.end.t == run.start.t
-        state, notes = later.mechanism.start(None, run.end.t, **carried(stage.mechanism, run, later.mechanism))
-        stage, run.next = later, later.run(state, notes)
-        run = run.next
+        resume = partial(resumed, stage, later)
+        run.next = resume(run, later.settings)
+        run.next.previous, run.next.resume = run, resume
+        stage, run = later, run.next
         if at_once and run.end.t == run.start.t:
             what = f"the models continue with one another at t = {run.end.t:g} s without any motion between"
             raise MotionError(OutcomeKind.HANDS_OVER_AT_ONCE, "", what, "let each begin on the far side of its event")
     return first
+
+
+def resumed(stage: Stage, later: Stage, run: Run, settings: Settings) -> Run:
+    """The motion after a run of a stage, as the model of a later one."""
+    state, notes = later.mechanism.start(None, run.end.t, **carried(stage.mechanism, run, later.mechanism))
+    return replace(later, settings=settings).run(state, notes)
 
 
 def carried(before: Builder, run: Run, after: Builder) -> dict[str, Any]:

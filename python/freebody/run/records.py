@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import Array, ReportItem, cards, quote
+from freebody.solve.figures import figure
 from freebody.symbolic.alphabet import GREEK
 from freebody.symbolic.symbols import Name
 
@@ -70,13 +71,18 @@ class Energy:
         return self["balance"]
 
     @property
+    def labels(self) -> dict[str, str]:
+        """What is worth showing, by words: the names of what is stored and of every work; of changes of parameters, impacts and
+        friction where there were any."""
+        works = {f"work of {name.removesuffix('.work')}": name for name in self.works}
+        shown = {label: name for label, name in works.items() if label not in _RARE or self[name].any()}
+        return {"kinetic": "kinetic", "potential": "potential", **shown}
+
+    @property
     def entries(self) -> dict[str, Array]:
-        """What is worth showing, by words: what is stored and every work; of changes of parameters, impacts and friction
-        where there were any."""
-        works = {f"work of {name.removesuffix('.work')}": work for name, work in self.works.items()}
-        works = {name: work for name, work in works.items() if name not in _RARE or work.any()}
+        """The values (nt,) of ``labels``."""
         # + 0.0 turns -0 into 0.
-        return {name: values + 0.0 for name, values in {"kinetic": self.kinetic, "potential": self.potential, **works}.items()}
+        return {label: self[name] + 0.0 for label, name in self.labels.items()}
 
     @property
     def works(self) -> dict[str, Array]:
@@ -99,15 +105,20 @@ class Reported:
     @classmethod
     def of(cls, item: ReportItem, value: float, t: float | None, si: str, note: str = "") -> Reported:
         """A value in SI as the item asks for it; ``si`` is its unit there."""
-        if not item.unit:
-            return cls(value, si, t, note)
-        from freebody.model.units import convert
-
-        return cls(value / convert(item.unit)[0], item.unit, t, note)
+        return cls(value / unit_size(item.unit), item.unit or si, t, note)
 
     def __str__(self) -> str:
-        figure = self.note if self.value is None else f"{self.value:.10g} {self.unit}".rstrip()
-        return f"{figure} (t = {self.t:.6g} s)" if self.t is not None else figure
+        stated = self.note if self.value is None else f"{figure(self.value, 10)} {self.unit}".rstrip()
+        return f"{stated} (t = {figure(self.t)} s)" if self.t is not None else stated
+
+
+def unit_size(unit: str) -> float:
+    """What a unit is in SI; 1 without one."""
+    if not unit:
+        return 1.0
+    from freebody.model.units import convert
+
+    return convert(unit)[0]
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
@@ -13,6 +14,7 @@ import numpy as np
 
 from freebody.core import BEFORE, Change, CompiledModel, Event, Motion, Outcome, ReportItem, Settings, State
 from freebody.run import storage
+from freebody.run.digits import Accuracy, other_settings, other_start
 from freebody.run.records import (
     ENTRIES,
     KINDS,
@@ -53,7 +55,8 @@ def simulate(
 class Run:
     """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it.
 
-    ``next`` is the run of the model to which this one handed over, if it did.
+    ``next`` is the run of the model to which this one handed over, if it did. ``previous`` is the run that this one continues, and
+    ``resume`` continues any like that in the same way with other settings.
     """
 
     source: CompiledModel
@@ -62,6 +65,8 @@ class Run:
     motion: Motion
     t: Array
     next: Run | None = None
+    previous: Run | None = None
+    resume: Callable[[Run, Settings], Run] | None = None
 
     def __post_init__(self) -> None:
         self.metadata = self.source.metadata
@@ -231,6 +236,29 @@ class Run:
         first, last = self.motion.steps[0], self.motion.steps[-1]
         return np.unique([change.t for change in self.changes if first < change.t <= last])
 
+    # How far it can be trusted
+
+    @cached_property
+    def accuracy(self) -> Accuracy:
+        """This run beside the same motion followed once more at another tolerance, which it does when first asked.
+
+        Raises ``LookupError`` for a run from a file."""
+        if self.recorded:
+            raise LookupError("a run from a file does not know which digits hold; run.again() simulates it anew and does")
+        settings = other_settings(self.settings)
+        if not (self.previous and self.resume):
+            return Accuracy(self, simulate(self.source, other_start(self.start), settings))
+        before = self.previous.accuracy
+        if before.parting < math.inf:
+            return Accuracy(self, self, parted=True)
+        return Accuracy(self, self.resume(before.other, settings))
+
+    def digits(self, text: str, t: float | Times | None = None) -> Any:
+        """How many digits of an expression hold at times within the run (default ``t``), of its largest size so far; a single time
+        gives a single number. See ``accuracy``."""
+        held = self.accuracy.digits(text, np.ascontiguousarray(self.t if t is None else t, float))
+        return int(held[0]) if np.isscalar(t) else held
+
     # As a table
 
     @cached_property
@@ -282,11 +310,17 @@ class Run:
         """
         if self.recorded and any(change.kind in ("released", "engaged") for change in self.changes):
             raise ValueError("a saved run does not know what its events released and engaged\n  simulate again, to the later end")
-        return simulate(self.source, self.end, replace(self.settings, until=until), progress=progress)
+        later = simulate(self.source, self.end, replace(self.settings, until=until), progress=progress)
+        if not self.recorded:
+            later.previous, later.resume = self, lambda run, settings: simulate(run.source, run.end, settings)
+        return later
 
     def at(self, times: Times) -> Run:
         """The same run on other output times."""
-        return Run(self.source, self.start, self.settings, self.motion, np.ascontiguousarray(times, float))
+        other = replace(self, t=np.ascontiguousarray(times, float))
+        if "accuracy" in vars(self):
+            other.accuracy = self.accuracy
+        return other
 
     def again(self) -> Run:
         """The same simulation once more, with the same output times."""

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, Limit, State, quote
 from freebody.solve import rich_tables
-from freebody.solve.rich_tables import figure, table
+from freebody.solve.figures import figure
+from freebody.solve.rich_tables import table
 
 if TYPE_CHECKING:
     from rich.table import Table

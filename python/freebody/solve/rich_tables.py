@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import html
-import math
 from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from freebody.solve.figures import figure
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -16,13 +17,6 @@ if TYPE_CHECKING:
     from freebody.solve.instant import Reaction
 
 _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what rounding left
-
-
-def figure(value: float) -> str:
-    """Six digits; -0 is 0, NaN is indeterminate."""
-    if math.isnan(value):
-        return "indeterminate"
-    return f"{value + 0.0:.6g}"
 
 
 class PlainText:

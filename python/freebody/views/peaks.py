@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from freebody.core import Array, quote
 from freebody.run.records import Signal, Window, refined
+from freebody.solve.figures import Known
 
 if TYPE_CHECKING:
     from freebody.core import Motion
@@ -49,6 +50,33 @@ def peak_reactions(run: Run) -> list[Peak]:
     for motion in run.metadata["motions"]:
         peaks.append(_peak_of_part(run, sampled, motion["name"], "", ["force"], motion["readings"]["force"] == "N*m", []))
     return peaks
+
+
+def known_peaks(run: Run) -> list[Peak]:
+    """The peaks with the digits that hold, as far as they are known: of a run from a file they are not."""
+    if run.recorded:
+        return peak_reactions(run)
+    accuracy = run.accuracy
+    loads = {"contact": "hypot({0}.N, {0}.T)", "string": "{0}.tension", "stop": "{0}.N"}
+    texts = [f"{quote(name)}.{part}" for part in "FM" for name, reaction in run.reactions.items() if reaction.carries]
+    others = [loads[limit["type"]].format(quote(limit["name"])) for limit in run.metadata["limits"]]
+    others += [f"{quote(lock['name'])}.force" for lock in run.metadata["locks"]]
+    band = accuracy.band(lambda run, t: np.abs(run.motion.evaluate([*texts, *others], t)))
+    joints, known = len(texts) // 2, []
+    pairs = list(zip(peak_reactions(run), peak_reactions(accuracy.other), strict=True))
+    force, couple = max((peak.size or 0.0 for peak, _ in pairs), default=0.0), couple_noise(run) / _ROUND_OFF
+    for i, (peak, other) in enumerate(pairs):
+        column, parts = i if i < joints else joints + i, {}
+        if peak.size is not None:
+            t, size = accuracy.extreme(band, column, (peak.t, peak.size), (other.t, other.size))
+            xy = {part: value and Known(value, size.error, size.size) for part, value in (("Fx", peak.Fx), ("Fy", peak.Fy))}
+            parts |= {"t": t, "size": size.beside(force), **xy}
+        if peak.couple is not None:
+            column = joints + i
+            t, size = accuracy.extreme(band, column, (peak.t_couple, peak.couple), (other.t_couple, other.couple))
+            parts |= {"t_couple": t, "couple": size.beside(couple)}
+        known.append(replace(peak, **parts))
+    return known
 
 
 def couple_noise(run: Run) -> float:

@@ -206,7 +206,12 @@ def pretty_unit(unit: str) -> str:
 
 
 def _mark_events(run: Run, ax: Axes) -> None:
-    """Thin lines at events and impacts, each name above its first one; ticks at the foot where something else switched."""
+    """Thin lines at events and impacts, each name above its first one; ticks at the foot where something else switched; grey from
+    when no digit holds."""
+    if not run.recorded and (none_from := run.accuracy.none_from) is not None:
+        ax.axvspan(none_from, run.edges[-1], color=GROUND, alpha=0.15, lw=0, zorder=0)
+        place = {"xycoords": ("data", "axes fraction"), "xytext": (4, 4), "textcoords": "offset points"}
+        ax.annotate("no digit holds", (none_from, 0), **place, fontsize=8.5, color=GROUND)
     named = set()
     impacts = [(", ".join(change.of), change.t) for change in run.impacts]
     for tone, moments in ((GROUND, [(event.name, event.t) for event in run.events]), (IMPACT, impacts)):

@@ -13,7 +13,7 @@ from freebody.core import Pair
 from freebody.equations.balances.candidates import Candidate, has_letters
 from freebody.equations.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.equations.balances.system import Problem
-from freebody.solve.rich_tables import figure
+from freebody.solve.figures import figure
 
 SMALL = 1e-3
 """Part of the largest load below which a value is held against that load, rather than against itself."""

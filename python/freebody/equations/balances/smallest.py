@@ -12,7 +12,8 @@ from freebody.equations.balances.candidates import bits, candidates, smallest
 from freebody.equations.balances.equation import BalanceEquation, disagreement, equation, solved
 from freebody.equations.balances.system import Problem, problem, released
 from freebody.equations.balances.virtual_motions import NamedPoints
-from freebody.solve.rich_tables import PlainText, figure
+from freebody.solve.figures import figure
+from freebody.solve.rich_tables import PlainText
 
 DETERMINED = 1e-8
 """What virtual power leaves of other unknowns, relative to the one that it gives, below which it leaves nothing."""

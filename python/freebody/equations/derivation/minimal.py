@@ -15,7 +15,7 @@ from freebody.equations.derivation.balance_text import Stated, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.sentences import clause, joined
-from freebody.solve.rich_tables import figure
+from freebody.solve.figures import figure
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import coefficient
 from freebody.symbolic.tree import Sym, operations, symbols

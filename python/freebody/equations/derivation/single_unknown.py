@@ -10,7 +10,7 @@ from freebody.equations.balances.smallest import COUNT, SmallestSet, smallest_se
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
-from freebody.solve.rich_tables import figure
+from freebody.solve.figures import figure
 from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.tree import Sym
 

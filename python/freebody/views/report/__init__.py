@@ -39,7 +39,13 @@ def report_html(run: Run) -> str:
     return template(__package__, "page.html").render(
         policy=f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; img-src data:",
         run=run,
-        data={"scene": of_run(run, frames(run)).to_json(), "plots": plots(run), "events": events, "ticks": ticks},
+        data={
+            "scene": of_run(run, frames(run)).to_json(),
+            "plots": plots(run),
+            "events": events,
+            "ticks": ticks,
+            "none_from": None if run.recorded else run.accuracy.none_from,
+        },
         style=style,
         script=script,
         ending=tables.ending(run),

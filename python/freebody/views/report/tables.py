@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,8 +12,9 @@ import numpy as np
 from markupsafe import Markup, escape
 
 from freebody.run.storage import versions
+from freebody.solve.figures import figure
 from freebody.solve.instant import Instant
-from freebody.views.peaks import peak_reactions
+from freebody.views.peaks import known_peaks
 from freebody.views.plots import pretty_unit
 
 if TYPE_CHECKING:
@@ -34,20 +36,21 @@ class Table:
 
 
 def ending(run: Run) -> list[str]:
-    """How and when the run ended, line by line."""
+    """How and when the run ended, and how many digits hold, line by line."""
     when, stated = f"t = {_figure(run.outcome.t)} s", sentence(run.outcome.sentence)
-    return [f"{stated}, {when}"] if run.outcome.ok else [when, *stated.split("; ")]
+    lines = [f"{stated}, {when}"] if run.outcome.ok else [when, *stated.split("; ")]
+    return lines if run.recorded else [*lines, f"The motion {run.accuracy.sentence}."]
 
 
 def beside(run: Run) -> list[Table]:
     """What stands beside the moving mechanism: reported quantities and events."""
-    reported = []
-    for label, r in run.report.items():
+    reported, time = [], float if run.recorded else run.accuracy.time
+    for label, r in (run if run.recorded else run.accuracy).report.items():
         value = r.note if r.value is None else f"{_figure(r.value, 8)} {pretty_unit(r.unit)}".strip()
         when = f"{_figure(r.t)} ({r.note})" if r.note and r.value is not None else _figure(r.t)
         reported.append((label, value, when))
     ways = {1: "rising", -1: "falling"}
-    events = [(e.name, _figure(e.t, 9), e.kind, ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
+    events = [(e.name, _figure(time(e.t), 9), e.kind, ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
     remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
     tables = (
         Table("Report", ("quantity", "value", "at t / s"), reported),
@@ -59,7 +62,10 @@ def beside(run: Run) -> list[Table]:
 def below(run: Run) -> list[Table]:
     """Mode changes, peak reactions, the energy ledger and bodies."""
     ledger, bodies = run.energy, run.metadata["bodies"]
-    stored = [(name, *map(_figure, (y[0], y[-1], y.min(), y.max()))) for name, y in ledger.entries.items()]
+    known, stored = {} if run.recorded else run.accuracy.energy, []
+    for name, y in ledger.entries.items():
+        start, *later = y[0], y[-1], y.min(), y.max()
+        stored.append((name, *map(_figure, (start, *(map(known[name].like, later) if known else later)))))
     worst = f"{np.abs(ledger.balance).max():.1e}".replace("e-", "e−")
     remark = f"Energy error below {worst} J at all output times."
     masses = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in bodies]
@@ -89,28 +95,28 @@ def raised(cell: str) -> Markup:
 
 def _figure(value: float | None, digits: int = 6) -> str:
     """A number as people write it: a true minus sign, no e-notation where it can be helped."""
-    if value is None:
+    if value is None or math.isnan(value):
         return "–"
-    text = f"{value + 0.0:.{digits}g}"
+    text = figure(value, digits)
     mantissa, _, power = text.partition("e")
     return (f"{mantissa} × 10^{int(power)}" if power else text).replace("-", "−")
 
 
 def _mode_changes(run: Run) -> Table:
     """Mode changes; of very much the first and the last."""
-    many = len(run.changes) > _FIRST + _LAST
-    rows = []
-    for c in [*run.changes[:_FIRST], *run.changes[-_LAST:]] if many else run.changes:
+    changes = (run if run.recorded else run.accuracy).changes
+    many, rows = len(changes) > _FIRST + _LAST, []
+    for c in [*changes[:_FIRST], *changes[-_LAST:]] if many else changes:
         impulses = "; ".join(f"{name} {_figure(size)}" for name, size in (c.impulses.sizes if c.impulses else {}).items())
         work = "" if c.work is None else _figure(c.work)
         rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", work, impulses, c.note))
-    remark = f"the first {_FIRST} and the last {_LAST} of {len(run.changes)}" if many else ""
+    remark = f"the first {_FIRST} and the last {_LAST} of {len(changes)}" if many else ""
     heads = ("t / s", "kind", "what", "energy lost / J", "work of motions / J", "impulse / N·s", "")
     return Table("Mode changes", heads, rows, remark, "across")
 
 
 def _peaks(run: Run) -> Table:
-    peaks = peak_reactions(run)
+    peaks = known_peaks(run)
     couples, known = any(peak.couple is not None for peak in peaks), all(peak.determinate for peak in peaks)
     heads = ["", "on", "force / N", "at t / s", "Fx / N", "Fy / N", *["couple / N·m", "at t / s"] * couples, *[""] * (not known)]
     rows = []

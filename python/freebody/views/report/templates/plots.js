@@ -92,6 +92,11 @@ function drawPlot(plot, svg) {
     element("text", { x: x(t), y: height - 7, "text-anchor": "middle" }, svg, figure(t, end));
   }
   element("text", { x: margin.left - 22, y: height - 7, "text-anchor": "end" }, svg, "t / s");
+  if (data.none_from !== null) {
+    const room = { x: x(data.none_from), width: width - margin.right - x(data.none_from) };
+    const gone = element("rect", { class: "gone", ...room, y: margin.top, height: height - margin.top - margin.bottom }, svg);
+    element("title", {}, gone, "no digit holds");
+  }
   for (const event of data.events.slice(0, 60)) {
     const line = element("line", { class: event.kind, x1: x(event.t), x2: x(event.t), y1: margin.top, y2: height - margin.bottom }, svg);
     element("title", {}, line, event.name);

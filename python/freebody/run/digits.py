@@ -1,0 +1,312 @@
+"""How many digits of a run hold: the same motion is followed once more at another tolerance, and the two are held side by side.
+
+What two runs differ by at a time is the most that they did so far, so that curves which cross by chance gain nothing; a digit is
+of the largest size of the quantity so far. Where different things happen in the two, nothing holds from there on. Between the two
+instants of one impact the instants are compared, not what jumps there.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import Array, Change, ReportItem, Settings, State, cards
+from freebody.run.records import Reported, Window, unit_size
+from freebody.solve.figures import MOST, NOISE, Known, digits_of
+
+if TYPE_CHECKING:
+    from freebody.run.simulation import Run
+
+TIGHTER = 100.0  # the second run's error is small beside that of the first
+TIGHTEST = 1e-14  # the core takes no tolerance below
+SAFETY = 3.0  # what two runs differ by is an estimate of the error, and at a tight tolerance both have one
+ROUND_OFF = 2.0**-52
+JUST_MISSED = 1e-6  # of the duration: what only one run meets so near its end is no parting of ways
+EVENT = "event"
+PRINTED = 6  # digits of the figures in tables
+
+Read = Callable[["Run", Array], Array]
+"""Values (nt, k) of quantities of a run at times (nt,)."""
+
+
+def other_settings(settings: Settings) -> Settings:
+    """Those of the second run: a tighter tolerance; another method where there is none, or where steps are fixed, since the same
+    steps have the same errors."""
+    methods = cards.methods()
+    adaptive = [name for name, method in methods.items() if not method.fixed_step and name != settings.method]
+    half = replace(settings, max_step=settings.max_step and settings.max_step / 2)
+    if methods[settings.method].fixed_step:
+        return replace(half, method=adaptive[0], rtol=1e-12, step=None)
+    rtol = max(settings.rtol / TIGHTER, TIGHTEST)
+    return replace(half, rtol=rtol, method=settings.method if settings.rtol > 5 * rtol else adaptive[0])
+
+
+def other_start(start: State) -> State:
+    """The same start to round-off, so that a motion that hangs on the last bit of a number, like a fall from the top, is seen to."""
+    signs = np.resize([1.0, -1.0], len(start.q)) * ROUND_OFF
+    return replace(start, q=start.q * (1 + signs), u=start.u * (1 - signs))
+
+
+@dataclass(frozen=True)
+class Band:
+    """Quantities at times ``t`` (nt,): ``values``, ``error`` and ``size`` so far, each (nt, k)."""
+
+    t: Array
+    values: Array
+    error: Array
+    size: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Accuracy:
+    """A run beside the ``other`` that followed the same motion; ``parted``: before it began."""
+
+    run: Run
+    other: Run
+    parted: bool = False
+
+    # What happened in both
+
+    @cached_property
+    def _pairs(self) -> dict[tuple[str, str], list[tuple[float, float]]]:
+        """The times of what happened in the run and in the other, by what it was and to which part; infinite: it did not."""
+        mine, other = _times(self.run), _times(self.other)
+        pairs = {}
+        for key in {**mine, **other}:
+            most = max(len(times.get(key, ())) for times in (mine, other))
+            padded = ([*times.get(key, ()), *[math.inf] * most][:most] for times in (mine, other))
+            pairs[key] = list(zip(*padded, strict=True))
+        return pairs
+
+    @cached_property
+    def parting(self) -> float:
+        """From when on something switches in one of the two runs alone, or one has ended, s; infinite if never."""
+        start, end = self.run.edges[[0, -1]].tolist()
+        if self.parted:
+            return start
+        changed = [pair for (kind, _), pairs in self._pairs.items() if kind != EVENT for pair in pairs]
+        alone = [min(pair) for pair in changed if math.inf in pair]
+        if self.other.outcome.name is not self.run.outcome.name:
+            alone.append(self.other.outcome.t)
+        return min((t for t in alone if t < end - JUST_MISSED * (end - start)), default=math.inf)
+
+    @cached_property
+    def _apart(self) -> dict[float, float]:
+        """At each time at which something happened in the run: how far the two disagree, so far, about when."""
+        apart: dict[float, float] = {}
+        for pairs in self._pairs.values():
+            most = 0.0
+            for mine, other in pairs:
+                most = max(most, 0.0 if mine == other else abs(mine - other))
+                apart[mine] = max(apart.get(mine, 0.0), most)
+        return apart
+
+    def time(self, t: float) -> Known:
+        """A time of the run: when something happens it is known as far as the two agree on that."""
+        return Known(t, SAFETY * self._apart.get(t, 0.0) if t < self.parting else math.inf, abs(t))
+
+    @cached_property
+    def _both(self) -> dict[float, float]:
+        """The times of what happened in both runs."""
+        return {mine: other for pairs in self._pairs.values() for mine, other in pairs if max(mine, other) < math.inf}
+
+    def _there(self, times: Array) -> Array:
+        """The times in the other run: of what happens, when it happens there."""
+        return np.clip([self._both.get(float(t), float(t)) for t in times], *self.other.edges[[0, -1]])
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """The mode changes of the run, their times and losses with the digits that hold."""
+        there: dict[Any, list[float]] = {}
+        for change in reversed(self.other.changes):
+            there.setdefault((change.kind, change.of), []).append(change.lost)
+        apart: dict[Any, float] = {}
+        largest, known = max((abs(change.lost) for change in self.run.changes), default=0.0), []
+        for change in self.run.changes:
+            key, t = (change.kind, change.of), self.time(change.t)
+            lost = there[key].pop() if there.get(key) else math.inf
+            apart[key] = max(apart.get(key, 0.0), math.inf if t.error == math.inf else abs(change.lost - lost))
+            known.append(replace(change, t=t, lost=Known(change.lost, SAFETY * apart[key], abs(change.lost)).beside(largest)))
+        return known
+
+    # How far quantities are known
+
+    @cached_property
+    def t(self) -> Array:
+        """Times (nt,) at which the two are compared: none between the two instants of one change, and none after they part."""
+        start, end = self.run.edges[[0, -1]].tolist()
+        t: Array = np.linspace(start, end, int(np.clip(60 * (end - start), 400, 6000)) + 1)
+        t = t[(t < self.parting) & (t >= self.other.edges[0]) & (t <= self.other.edges[-1])]
+        # The first comparison time that is not before each of the two instants.
+        pairs = np.sort(np.array([*self._both.items()]).reshape(-1, 2))
+        first, last = (np.searchsorted(t, side, side="left") for side in pairs.T)
+        between = np.zeros(len(t) + 1)
+        np.add.at(between, first, 1)
+        np.add.at(between, last, -1)
+        return t[np.cumsum(between)[:-1] == 0]
+
+    def band(self, read: Read) -> Band:
+        """How far what is read is known at ``t``."""
+        mine, other = (read(run, self.t) for run in (self.run, self.other))
+        size = np.fmax.accumulate(np.abs(mine))
+        return Band(self.t, mine, np.fmax.accumulate(np.fmax(SAFETY * np.abs(mine - other), ROUND_OFF * size)), size)
+
+    def at(self, read: Read, times: Array) -> Band:
+        """How far it is known at any times of the run."""
+        values, band = read(self.run, times), self.band(read)
+        apart = SAFETY * np.abs(values - read(self.other, self._there(times)))
+        rows, none = np.searchsorted(band.t, times, side="right"), np.zeros_like(values[:1])
+        error = np.fmax(apart, np.vstack([none, band.error])[rows])
+        error[times >= self.parting] = np.inf
+        return Band(times, values, error, np.fmax(np.abs(values), np.vstack([none, band.size])[rows]))
+
+    def digits(self, text: str, times: Array) -> Array:
+        """How many digits (nt,) of an expression hold at times of the run."""
+        known = self.at(expression(text), times)
+        return np.floor(digits_of(known.error, known.size)[:, 0]).astype(int)
+
+    def figures(self, read: Read, t: float) -> list[Known]:
+        """What is read (k,) at a time of the run, with the digits that hold."""
+        known = self.at(read, np.array([t]))
+        return [Known(*each) for each in zip(known.values[0], known.error[0], known.size[0], strict=True)]
+
+    def extreme(self, band: Band, column: int, mine: tuple[float, float], other: tuple[float, float]) -> tuple[Known, Known]:
+        """Time and value of an extreme found in both runs, of a column of what is read. Where a valley (or, of a smallest value,
+        a peak) lies between the times of the two, either will do, and nothing is claimed about the time."""
+        (t, value), (there, its_value) = mine, other
+        if self.parting < math.inf:
+            return Known(t, math.inf, abs(t)), Known(value, math.inf, abs(value))
+        i = max(int(np.searchsorted(band.t, t, side="right")) - 1, 0)
+        error = max(float(band.error[i, column]), SAFETY * abs(value - its_value))
+        between = band.values[(band.t > min(t, there)) & (band.t < max(t, there)), column]
+        either = (np.abs(between - value) > error).any() and error < NOISE * abs(value)
+        return Known(t, math.nan if either else SAFETY * abs(t - there), abs(t)), Known(value, error, float(band.size[i, column]))
+
+    # The motion as a whole
+
+    @cached_property
+    def held(self) -> Array:
+        """How many digits (nt,) of all coordinates and rates hold at ``t``, not rounded."""
+        band = self.band(lambda run, t: np.hstack(run.motion.sample(t)))
+        units = np.array([column.unit for column in self.run.columns if column.kind in ("coordinate", "rate")])
+        size, n = band.size.copy(), len(units) // 2
+        # What is round-off is no motion: beside a radian, where bodies are, and the coordinate of a rate.
+        far = np.abs(self.run.motion.poses(self.run.edges[[0, -1]])[..., :2]).max(initial=0.0)
+        for unit, scale in (("rad", 1.0), ("m", far)):
+            same = units == unit
+            size[:, same] = np.maximum(size[:, same], NOISE * max(size[:, same].max(initial=0.0), scale))
+        size[:, n:] = np.maximum(size[:, n:], size[:, :n] / (np.ptp(self.run.edges) or 1.0))
+        return digits_of(band.error, size).min(axis=1, initial=MOST)
+
+    def until(self, number: int) -> float:
+        """Up to when so many digits hold, s: infinite if to the end, the start if never."""
+        held = np.flatnonzero(self.held >= number)
+        if not len(held):
+            return float(self.run.edges[0])
+        return math.inf if held[-1] == len(self.t) - 1 and self.parting == math.inf else float(self.t[held[-1]])
+
+    def to_json(self) -> dict[str, Any]:
+        """As plain data: the sentence, until when 1, 2, … digits hold (null: to the end), and what the second run was."""
+        held = {n: self.until(n) for n in range(1, int(self.held.max(initial=0)) + 1)}
+        settings, outcome = self.other.settings, self.other.outcome.name
+        second = {"method": settings.method, "rtol": settings.rtol, "outcome": outcome}
+        until = {n: None if t == math.inf else t for n, t in held.items()}
+        return {"sentence": self.sentence, "until": until, "none_from": self.none_from, "second": second}
+
+    @property
+    def none_from(self) -> float | None:
+        """From when on no digit holds, s; None if some do to the end."""
+        return None if (t := self.until(1)) == math.inf else t
+
+    @property
+    def sentence(self) -> str:
+        """Until when how many digits hold, and at which tolerance more would."""
+        if self.until(PRINTED) == math.inf:
+            return f"holds to {int(self.held[-1])} digits"
+        most = int(min(PRINTED, self.held.max(initial=0)))
+        parts = [f"holds to {most} digits until {self.until(most):.3g} s" if most else "no digit holds"]
+        if most and self.none_from is None:
+            parts.append(f"to {int(self.held[-1])} at the end")
+        elif most:
+            parts.append(f"from {self.none_from:.3g} s on no digit holds")
+        if self.parting < math.inf:
+            parts.append(f"what happens from {self.parting:.6g} s on depends on the tolerance")
+        return "; ".join(parts + self._better(most))
+
+    def _better(self, most: int) -> list[str]:
+        """Which tolerance would give as many digits to the end, or what the tightest would: digits are lost at the rate at which they
+        were, and an error is as large as the tolerance makes it."""
+        rtol = self.run.settings.rtol
+        if most < 2 or cards.methods()[self.run.settings.method].fixed_step:
+            return []
+        first, then = (int(np.flatnonzero(self.held >= number)[-1]) for number in (most, 1))
+        if first == then:
+            return []
+        lost = (self.held[first] - self.held[then]) / (self.t[then] - self.t[first])
+        needed = math.floor(math.log10(rtol) - (most - self.held[then]) - lost * (self.run.edges[-1] - self.t[then]))
+        if needed >= math.log10(TIGHTEST):
+            return [f"at rtol 1e{needed} it would hold to {most} digits to the end"]
+        reached = self.t[first] + math.log10(rtol / TIGHTEST) / lost
+        return [f"at rtol {TIGHTEST:g} it would hold to {most} until about {reached:.2g} s"] if rtol > 10 * TIGHTEST else []
+
+    @cached_property
+    def energy(self) -> dict[str, Known]:
+        """What is stored and every work at the end of the run, by the words of ``Energy.entries``."""
+        ledger = self.run.energy
+        ends = self.figures(lambda run, t: run.motion.ledger(t)[1], float(self.run.edges[-1]))
+        largest = max((entry.size for entry in ends), default=0.0)
+        return {label: ends[ledger.names.index(name)].beside(largest) for label, name in ledger.labels.items()}
+
+    # What the model asks for
+
+    @cached_property
+    def report(self) -> dict[str, Reported]:
+        """The reported quantities of the run, with the digits that hold."""
+        return {item.label: self._reported(item, self.run.report[item.label]) for item in self.run.source.report}
+
+    def _reported(self, item: ReportItem, mine: Reported) -> Reported:
+        if mine.value is None:
+            return mine
+        over, read, unit = Window.within(self.run.edges, item.over), expression(item.value), unit_size(item.unit)
+        t, value = mine.t, mine.value * unit
+        if (t if item.how == "at" else over.edges[-1]) >= self.parting:
+            known = Known(value, math.inf, abs(value))
+        else:
+            other = self.other.reported(item)
+            its_value = math.inf if other.value is None else other.value * unit
+            if item.how == "at":
+                [known], t = self.figures(read, t), self.time(t)
+                known = Known(value, max(known.error, SAFETY * abs(value - its_value)), max(known.size, abs(value)))
+            elif item.how in ("max", "min"):
+                t, known = self.extreme(self.band(read), 0, (t, value), (other.t, its_value))
+            else:
+                known = self._integral(item.how, read, over, value, its_value)
+        return replace(mine, value=Known(mine.value, known.error / unit, known.size / unit), t=t)
+
+    def _integral(self, how: str, read: Read, over: Window, value: float, its_value: float) -> Known:
+        """A mean, rms or integral over a window: it is known as far as the integrals up to any time agree."""
+        t = self.t[(self.t >= over.edges[0]) & (self.t <= over.edges[-1])]
+        mine, other = (read(run, t)[:-1, 0] ** (2 if how == "rms" else 1) for run in (self.run, self.other))
+        per = {"integral": 1.0, "mean": over.length, "rms": 2 * abs(value) * over.length}[how]
+        apart, size = (float(np.abs(np.cumsum(y * np.diff(t))).max(initial=0.0)) / per for y in (mine - other, mine))
+        return Known(value, SAFETY * max(apart, abs(value - its_value)), max(abs(value), size))
+
+
+def _times(run: Run) -> dict[tuple[str, str], list[float]]:
+    """When what happened, and to which part, in order of time."""
+    found: dict[tuple[str, str], list[float]] = {}
+    stated = [((EVENT, event.name), event.t) for event in run.events]
+    stated += [((change.kind, name), change.t) for change in run.changes for name in change.of or ("",)]
+    for key, t in stated:
+        found.setdefault(key, []).append(t)
+    return found
+
+
+def expression(text: str) -> Read:
+    """The values of an expression, as one column."""
+    return lambda run, t: run.motion.evaluate([text], t)

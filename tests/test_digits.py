@@ -1,0 +1,212 @@
+"""The digits that a run claims for its figures, beside solutions of many more digits."""
+
+import json
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from store import MODELS, WITHOUT_ANSWER, every, mechanism
+from typer.testing import CliRunner
+
+import freebody as fb
+from freebody import cli
+from freebody.core import Settings, quote
+from freebody.run.digits import Accuracy, expression, other_settings
+from freebody.solve.figures import Known, figure
+
+RTOLS = (1e-5, 1e-7, 1e-9, 1e-11)
+G = 9.81
+LONG = np.longdouble
+
+
+def chain(seed: int, sensitive: bool):
+    """Two rods, one hanging from the other: lengths, masses, angles from down and rates; thrown from above, or swinging a little."""
+    rng = np.random.default_rng([seed, sensitive])
+    reach, spin = (math.pi, 2.0) if sensitive else (0.4, 0.3)
+    return [rng.uniform(a, b, 2).round(3) for a, b in ((0.5, 1.2), (0.5, 2.0), (-reach, reach), (-spin, spin))]
+
+
+def rods(lengths, masses, angles, rates):
+    """Its model."""
+    m = fb.Mechanism("chain", gravity=G)
+    at, start = m.ground.O, {}
+    for i, (length, mass) in enumerate(zip(lengths, masses, strict=True)):
+        rod = m.rod(f"rod{i}", length=float(length), mass=float(mass))
+        m.hinge(at, rod.start, coordinate={"name": f"th{i}", "zero": "down", "absolute": True})
+        at, start[f"th{i}"] = rod.end, float(angles[i])
+    m.initial(**start, rates={f"th{i}": float(rate) for i, rate in enumerate(rates)})
+    return m
+
+
+def exact(draws, times, step):
+    """Angles and rates (nt, 2n, nd) of such chains in extended precision: Lagrange's equations, by Gragg's midpoint rule extrapolated
+    to order 26 (Hairer, Nørsett & Wanner, Solving ODEs I, II.9)."""
+    lengths, masses, angles, rates = (np.array(each, LONG).T for each in zip(*draws, strict=True))
+    n, carried = len(lengths), np.cumsum(masses[::-1], axis=0)[::-1] - masses
+    lever = lengths * (masses / 2 + carried)
+    c = np.array([[lengths[min(i, j)] * lever[max(i, j)] for j in range(n)] for i in range(n)])
+    for i in range(n):
+        c[i, i] = lengths[i] ** 2 * (masses[i] / 3 + carried[i])
+
+    def rate(y):
+        apart = y[:n, None] - y[None, :n]
+        a, b = c * np.cos(apart), -(c * np.sin(apart) * y[None, n:] ** 2).sum(1) - LONG(G) * lever * np.sin(y[:n])
+        for k in range(n):
+            for i in range(k + 1, n):
+                factor = a[i, k] / a[k, k]
+                a[i], b[i] = a[i] - factor * a[k], b[i] - factor * b[k]
+        for k in reversed(range(n)):
+            b[k] = (b[k] - (a[k, k + 1 :] * b[k + 1 :]).sum(0)) / a[k, k]
+        return np.concatenate([y[n:], b])
+
+    def midpoint(y, h, count):
+        before, now = y, y + h * rate(y)
+        for _ in range(count - 1):
+            before, now = now, before + 2 * h * rate(now)
+        return now
+
+    y, found = np.concatenate([angles, rates]), []
+    for span in np.diff(times, prepend=0.0):
+        count = math.ceil(span / step)
+        for _ in range(count):
+            h, table = LONG(span) / count, []
+            for j in range(1, 14):
+                row = midpoint(y, h / (2 * j), 2 * j)
+                for k in range(len(table)):
+                    ratio = (LONG(j) / (len(table) - k)) ** 2
+                    table[k], row = row, row + (row - table[k]) / (ratio - 1)
+                table.append(row)
+            y = table[-1]
+        found.append(y)
+    return np.array(found)
+
+
+TIMES = np.linspace(0, 10, 601)[1:]
+JUDGED = TIMES >= 0.5  # before, the largest error so far is not yet seen by these times
+FROM_135 = [np.array([1.0, 1.0]), np.array([1.0, 1.0]), np.radians([135.0, 135.0]), np.zeros(2)]
+DRAWS = {f"{kind} {seed}": chain(seed, kind == "sensitive") for kind in ("sensitive", "tame") for seed in range(20)}
+DRAWS |= {"from 135°": FROM_135}
+
+
+@cache
+def solutions():
+    """The motions (nt, 4) of all chains."""
+    return dict(zip(DRAWS, np.moveaxis(exact(list(DRAWS.values()), TIMES, 0.02), -1, 0), strict=True))
+
+
+def true_digits(values, exactly):
+    """How many digits (nt, k) of values are right: of the largest size so far, by the largest error so far."""
+    error = np.maximum.accumulate(np.abs(values - exactly).astype(float))
+    size = np.maximum.accumulate(np.abs(exactly).astype(float))
+    return np.floor(np.clip(-np.log10(np.maximum(error, 1e-300) / size), 0, 15))
+
+
+@pytest.mark.parametrize("name", DRAWS)
+def test_no_more_digits_are_claimed_than_are_right(name):
+    model = rods(*DRAWS[name])
+    for rtol in RTOLS:
+        done = model.simulate(10, rtol=rtol)
+        claimed = np.array([done.digits(text, TIMES) for text in ("th0", "th1", "rate(th0)", "rate(th1)")]).T
+        excess = (claimed - true_digits(np.hstack(done.motion.sample(TIMES)), solutions()[name]))[JUDGED]
+        assert excess.max() <= 0, rtol
+        if "tame" in name:
+            assert excess.min() >= -1, rtol
+
+
+def test_a_double_pendulum_from_135_degrees_has_no_digit_after_20_seconds():
+    done = rods(*FROM_135).simulate(20)
+    assert done.digits("th0", 20.0) == 0 and done.digits("th0", 1.0) >= 6
+    assert "no digit holds" in done.accuracy.sentence
+
+
+@every(set(MODELS) - WITHOUT_ANSWER)
+def test_figures_of_the_catalogue_are_as_near_to_a_tight_run_as_they_claim(model):
+    loose, tight = mechanism(model).simulate(rtol=1e-8), mechanism(model).simulate(rtol=1e-13)
+    for text in loose.coordinates:
+        text = quote(text)
+        [known] = loose.accuracy.figures(expression(text), float(loose.edges[-1]))
+        assert abs(known - tight.evaluate(text, float(tight.edges[-1]))) <= known.error, text
+    for label, known in loose.accuracy.report.items():
+        if known.value is not None:
+            assert abs(known.value - tight.report[label].value) <= known.value.error, label
+
+
+def test_the_tolerance_that_is_proposed_gives_as_many_digits():
+    model = mechanism("GEN-CHAIN/two_bars")
+    before = model.simulate(rtol=1e-9).accuracy
+    rtol = float(before.sentence.split("at rtol ")[1].split()[0])
+    after = model.simulate(rtol=rtol).accuracy
+    assert before.until(6) < math.inf and after.until(6) == math.inf
+
+
+def test_what_hangs_on_the_last_bit_of_a_number_is_seen():
+    m = fb.Mechanism("from the top", gravity=G)
+    rod = m.rod("rod", length=1.0, mass=1.0)
+    m.hinge(m.ground.O, rod.start, coordinate={"name": "th", "zero": "down"})
+    m.initial(th="180 deg")
+    done = m.simulate(15, rtol=1e-12)
+    assert done.digits("th", 1.0) > 10 and done.digits("th", 15.0) == 0
+
+
+def ball(height: float):
+    """A ball that bounces on the ground from a height (m)."""
+    m = fb.Mechanism("ball", gravity=G)
+    ball = m.particle("ball", mass=1.0)
+    m.contact("floor", ball.centre, m.ground.line("level", m.ground.O, angle=0), restitution=0.5)
+    m.initial(**{"ball.x": 0, "ball.y": height})
+    return m
+
+
+def test_instants_of_an_impact_are_compared_and_not_what_jumps_there():
+    runs = [ball(height).simulate(1.2) for height in (1.0, 1.0 + 1e-9)]
+    accuracy = Accuracy(*runs)
+    first = next(change for change in accuracy.changes if change.kind == "impact")
+    apart = math.sqrt(2 / G) * 0.5e-9
+    assert abs(first.t - math.sqrt(2 / G)) < first.t.error == pytest.approx(3 * apart, rel=1e-3)
+    assert accuracy.digits("rate(ball.y)", np.array([0.3, 0.6, 0.8])).min() >= 7
+
+
+def test_nothing_holds_after_the_events_of_the_two_runs_part():
+    runs = [ball(height).simulate(1.2) for height in (1.0, 8.0)]
+    accuracy = Accuracy(*runs)
+    assert accuracy.parting == pytest.approx(math.sqrt(2 / G))
+    assert accuracy.digits("ball.y", np.array([0.5])).max() == 0
+    assert accuracy.time(runs[0].impacts[0].t).digits == 0
+
+
+def test_another_method_follows_where_the_tolerance_is_at_its_end_or_steps_are_fixed():
+    assert other_settings(Settings(rtol=1e-9)).method == "dop853"
+    assert other_settings(Settings(rtol=1e-14)).method != "dop853"
+    fixed = rods(*DRAWS["tame 1"]).simulate(5, method="rk4", step=0.01)
+    assert fixed.accuracy.other.settings.method == "dop853"
+    right = true_digits(np.hstack(fixed.motion.sample(TIMES[:300])), solutions()["tame 1"][:300])
+    assert abs(fixed.digits("th0", 5.0) - right[-1, 0]) <= 1
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "size", "printed"),
+    [
+        (1.23456789, 1e-12, 2.0, "1.23457"),
+        (1.23456789, 3e-3, 2.0, "1.23"),
+        (1.2000001, 3e-3, 2.0, "1.20"),
+        (-123456.0, 20.0, 2e5, "-1.235e+05"),
+        (120.0, 0.3, 120.0, "120"),
+        (1e-9, 1e-7, 1.0, "0"),
+        (0.0, 1e-7, 1.0, "0"),
+        (0.7, 3.0, 1.0, "no digit"),
+        (0.7, math.inf, 1.0, "no digit"),
+        (0.7, math.nan, 1.0, "0.7"),
+        (0.7, 0.0, 1.0, "0.7"),
+    ],
+)
+def test_a_figure_is_printed_with_the_digits_that_hold(value, error, size, printed):
+    assert figure(Known(value, error, size)) == printed
+
+
+def test_the_command_line_prints_no_digit_that_does_not_hold():
+    asked = ["run", str(MODELS["GEN-CHAIN/two_bars"]), "--until", "30", "--no-report"]
+    printed = CliRunner().invoke(cli.app, asked).output
+    assert "no digit holds" in printed and printed.count("no digit ") >= 2
+    data = json.loads(CliRunner().invoke(cli.app, [*asked, "--json"]).output)
+    assert 0 < data["digits"]["until"]["6"] < data["digits"]["none_from"] < 30
