@@ -8,7 +8,7 @@ from textbook import BOOKS
 
 from freebody.check import Checker, Kind
 from freebody.model import Mechanism
-from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
 
 T, W, IF, D, U = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF, Kind.DIMENSIONS, Kind.UNDECIDABLE
 
@@ -213,7 +213,7 @@ def test_forces_are_unknowns_too(name: str, text: str, said: str) -> None:
 
 @pytest.mark.parametrize("text", ["limit: s'' = g", "follows: s'' = g", "shorter: s'' = g", "report: s"])
 def test_a_claim_that_lacks_a_part_is_no_label(text: str) -> None:
-    with pytest.raises(ModelProblem, match="a part of this claim is missing"):
+    with pytest.raises(StatementError, match="a part of this claim is missing"):
         book("block that slides down a slope").check(text)
 
 

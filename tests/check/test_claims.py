@@ -7,7 +7,7 @@ from textbook import BOOKS
 
 from freebody.check import Checker, Kind
 from freebody.model import Mechanism
-from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
 
 
 def checker(name: str) -> Checker:
@@ -173,5 +173,5 @@ def test_a_condition_that_holds_anyway_may_be_said() -> None:
 
 @pytest.mark.parametrize("text", ["if : theta = 0", "only if : theta = 0", "limit: theta = 0 as "])
 def test_an_empty_hypothesis_is_none(text: str) -> None:
-    with pytest.raises(ModelProblem, match="hypothesis is empty"):
+    with pytest.raises(StatementError, match="hypothesis is empty"):
         checker("pendulum on a cart").check(text)

@@ -10,7 +10,8 @@ import pytest
 import freebody as fb
 from freebody.check.language.dimensions import check_dimensions
 from freebody.check.language.parser import parse
-from freebody.check.residual import sides
+from freebody.check.language.statements import inlined
+from freebody.check.residual import equation_sides
 from freebody.check.symbols import Symbols, declarations
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
@@ -110,7 +111,8 @@ def test_what_holds_by_mechanics(model, text):
     letters = Symbols(model, DECLARED)
     program = letters.read(text)
     check_dimensions(program, letters.dimensions)
-    (both,) = sides(program, letters.values(letters.require(program), States(model)))
+    (line,) = inlined(program)
+    both = equation_sides(line, letters.values(letters.require(program), States(model)))
     assert both.residual == pytest.approx(np.zeros_like(both.residual), abs=1e-11)
     assert np.abs(both.left).max() > 1e-3 or text in ("l̇ = 0", "ΣF · i = 0", "(l/3) θ̈ − s̈ sin θ/2 + (g/2) cos θ = 0")
 

@@ -37,11 +37,29 @@ forces:
   coil: {type: spring, along: s - 0.2 m, stiffness: k}
 initial: {theta: 0.4, s: 0.3 m, rates: {theta: 1, s: 0.2}}
 """
+COLLAR = """
+freebody: 1
+name: a spring whose length is the coordinate, on one side of its anchor
+parameters: {w: 4 rad/s, k: 50 N/m, m: 2 kg, l0: 0.3 m}
+gravity: none
+bodies: {rod: {shape: rod, length: 1 m, mass: 0}, collar: {shape: particle, mass: m}}
+joints:
+  O: {type: hinge, of: [ground.O, rod.start], coordinate: theta}
+  slide: {type: slot, along: [rod.start, rod.end], point: collar.centre, coordinate: r}
+motions: {drive: {of: theta, is: w*t}}
+forces: {spring: {type: spring, between: [rod.start, collar.centre], stiffness: k, rest_length: l0}}
+initial: {r: 0.4 m, rates: {r: 0}}
+"""
+TEXTS = {"words": WORDS, "collar": COLLAR}
 
 
-@pytest.fixture(scope="module", params=family([*NAMED, "words"]))
+@pytest.fixture(scope="module", params=family([*NAMED, *TEXTS]))
 def model(request: pytest.FixtureRequest) -> fb.Mechanism:
-    return fb.Mechanism.loads(WORDS) if request.param == "words" else fb.Mechanism.load(SYSTEMS / f"{request.param}.yaml")
+    return (
+        fb.Mechanism.loads(TEXTS[request.param])
+        if request.param in TEXTS
+        else fb.Mechanism.load(SYSTEMS / f"{request.param}.yaml")
+    )
 
 
 def _stated(document: Document) -> Iterator[Block]:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from freebody.model.errors import ModelProblem
+from freebody.core import ModelError, MotionError
+from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import evaluate
+from freebody.symbolic.errors import StatementError
 
 from .case import Case, StatementSymbols
 from .claims import claimed
@@ -48,7 +51,9 @@ class Checker:
         known = self.letters(letters)
         program = known.read(text)
         meaning = StatementSymbols(known, program, self.sampler)
-        return Case(program, meaning, self.sampler, hypothesis or self.hypothesis, self.correcting)
+        given = hypothesis or self.hypothesis
+        given = replace(given, since="start") if meaning.needs_past and not given.since else given
+        return Case(program, meaning, self.sampler, given, self.correcting)
 
     def check(
         self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, correcting: bool = True
@@ -56,18 +61,26 @@ class Checker:
         """The verdict about an equation, several lines of them, or a claim (see docs/check.md).
 
         ``hypothesis``: the motions of which it is said. Without ``correcting`` it is only judged, which is quicker where it is wrong.
-        Raises ``StatementError`` and ``ModelProblem``.
+        Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
+        if broken := re.search("[\ud800-\udfff]", text):  # half of a character, as a damaged file has it
+            shown = text.encode(errors="replace").decode()
+            raise StatementError("this is no character", broken.span(), "write it again", shown)
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
-        if (verdict := claimed(checker, text, letters or {})) is not None:
-            return verdict
-        case = checker.case(text, letters)
-        if (error := misfit(case.program, case.meaning.letters.dimensions)) is None:
-            verdict = judged(case)
-        else:
-            verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
-        return replace(verdict, notes=case.meaning.letters.notes(case.program))
+        try:
+            return claimed(checker, text, letters or {}) or _stated(checker, text, letters)
+        except (ModelProblem, ModelError, MotionError) as error:
+            what, hint = error.args[-2:]
+        except ModelFileError as error:  # a number of a parameter that is none
+            what, hint = error.problems[0].what, error.problems[0].hint
+        except StatementError as error:
+            if error.text:
+                raise
+            what, hint = error.what, error.hint
+        word = next((word for word in re.findall("`([^`]+)`", what) if word in text), text)
+        start = text.find(word)
+        raise StatementError(what, (start, start + len(word)), hint, text)
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
@@ -82,6 +95,16 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
+
+
+def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
+    """The verdict about equations."""
+    case = checker.case(text, letters)
+    if (error := misfit(case.program, case.meaning.letters.dimensions)) is None:
+        verdict = judged(case)
+    else:
+        verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
+    return replace(verdict, notes=case.meaning.letters.notes(case.program))
 
 
 def _in_figures(case: Case) -> Verdict | None:

@@ -34,6 +34,8 @@ _BEYOND = re.compile(
 """What reads more than the configuration."""
 _SOLVED = re.compile(rf"\b(accel|ax|ay|alpha|tension)\(|\.({_FORCES})\b")
 """What reads an acceleration or an unknown force."""
+_SUMMED = re.compile(r"\.work\b|\bfriction_work\(")
+"""What is summed up from the start of a motion on."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
 _BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
@@ -78,6 +80,11 @@ class StatementSymbols:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
         one = self.letters.meanings.get(letter.name)
         return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
+
+    @property
+    def needs_past(self) -> bool:
+        """Whether it reads works, which a state has only as one of a motion from the start."""
+        return any(_SUMMED.search(text) for n in self.required for text in self._one(n).texts)
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -22,8 +23,8 @@ from .case import Case
 from .families import Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
-from .language.statements import Equation, Program, symbols_in, terms
-from .residual import HOLDS, equation_sides, magnitude, residual
+from .language.statements import Equation, symbols_in, terms
+from .residual import HOLDS, equation_sides, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 _STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what the integrator leaves
 _MOMENTS = 6
 _RUNS = 12
+_NEWTON = 20  # steps by which premises are made true
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
@@ -126,10 +128,8 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
     try:
         return checker.case(f"{expression} = 0", declared)
     except StatementError:
-        try:
+        with suppress(ModelProblem):
             return checker.case("quantity = 0", {**declared, "quantity": expression})
-        except ModelProblem:
-            pass
         raise
 
 
@@ -161,23 +161,23 @@ def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: st
     """The factors of unknowns in equations, when some coordinates or rates are changed and all else stays."""
     case, known = checker.case(statement, declared), checker.letters(declared).names
     wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Sym)]
-    before = [_factors(equation, wanted, case.values()) for equation in case.equations]
+    if not (wanted := [n for n in wanted if n.key in case.values()]):
+        raise ModelProblem(f"`{unknowns}` has no factor: it stands in none of these equations", "name symbols that are in them")
+
+    def factors(equation: Equation, values: Mapping[str, Array]) -> Array:
+        """What stands before each unknown, (K, rows, unknowns)."""
+        keys = [n.key for n in wanted]
+        return jacobian([equation], {**values, **{key: np.zeros_like(values[key]) for key in keys}}, keys)[1]
+
+    before = [factors(equation, case.values()) for equation in case.equations]
     for name, values in _changed_alone(checker, declared, names, case):
         for number, (equation, earlier) in enumerate(zip(case.equations, before, strict=True), 1):
-            change = np.abs(_factors(equation, wanted, values) - earlier).max(axis=(0, 1))
+            change = np.abs(factors(equation, values) - earlier).max(axis=(0, 1))
             if change.max() > 1e-7 * np.abs(earlier).max():
                 place = f"the factor of {spell(wanted[int(np.argmax(change))])} in equation {number}"
                 return Verdict(Kind.WRONG, statement, f"{place} depends on {name}")
     stated = f"no factor of {unknowns} in {len(before)} equations changes with {names}, on {len(case.samples().states)} motions"
     return Verdict(Kind.TRUE, statement, stated)
-
-
-def _factors(equation: Equation, unknowns: Sequence[Sym], values: Mapping[str, Array]) -> Array:
-    """What stands before each unknown in the rows of an equation, (K, rows, unknowns)."""
-    still = {**values, **{n.key: np.zeros_like(values[n.key]) for n in unknowns if n.key in values}}
-    ones = [{**still, n.key: np.ones_like(still[n.key])} if n.key in still else still for n in unknowns]
-    left = equation_sides(equation, still).residual
-    return np.stack([equation_sides(equation, one).residual - left for one in ones], axis=-1)
 
 
 def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -> Verdict:
@@ -209,34 +209,23 @@ def _changed_alone(checker: Checker, declared: Declared, names: str, case: Case)
 def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:
     """Whether an equation is true wherever others are, whatever the mechanics."""
     known = checker.letters(declared)
-    then, given = known.read(statement), known.read(premises.replace(" and ", "\n"))
+    then, given = known.read(statement), known.read(premises.replace(" and ", "\n")).equations
     conclusion, case = then.equations[0], checker.case(statement + "\n" + premises.replace(" and ", "\n"), declared)
-    values = dict(case.meaning.values(case.samples()))
     rng = np.random.default_rng(3)
-    values = {k: v * rng.uniform(0.5, 1.5, v.shape) for k, v in values.items()}
-    _solve(given, values)
+    values = {k: v * rng.uniform(0.5, 1.5, v.shape) for k, v in case.meaning.values(case.samples()).items()}
+    said = [n for e in given for n in symbols_in(e) if n.key in values and values[n.key].ndim == 1]
+    top = [n.key for n in sorted(dict.fromkeys(said), key=lambda n: -n.dots)]  # made true by the symbols with most dots
+    for _ in range(_NEWTON):
+        count = sum(equation_sides(e, values).residual.shape[1] for e in given)
+        base, slopes = jacobian(given, values, top[:count])
+        steps = np.einsum("kij,kj->ki", np.linalg.pinv(slopes), base)
+        values |= {key: values[key] - steps[:, i] for i, key in enumerate(top[:count])}
     found = residual(conclusion, values)
-    if max(residual(e, values).worst for e in given.equations) > 1e-9:
+    if max(residual(e, values).worst for e in given) > 1e-9:
         return Verdict(Kind.UNDECIDABLE, statement, "the premises could not be made true by their accelerations and forces")
     if found.worst < 1e-8:
         return Verdict(Kind.TRUE, statement, f"holds wherever `{premises}` does, on {len(found.ratio)} random numbers")
     return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(case, found))
-
-
-def _solve(given: Program, values: dict[str, Array]) -> None:
-    """Makes premises true by their symbols with most dots, by Newton's method on every set of numbers at once."""
-    known = [n for e in given.equations for n in symbols_in(e) if n.key in values and values[n.key].ndim == 1]
-    top = sorted(dict.fromkeys(known), key=lambda n: -n.dots)
-
-    def left(changed: Mapping[str, Array]) -> Array:
-        return np.concatenate([equation_sides(e, {**values, **changed}).residual for e in given.equations], axis=1)
-
-    for _ in range(20):
-        base = left({})
-        steps = {n.key: 1e-6 * (1 + np.abs(values[n.key])) for n in top[: base.shape[1]]}
-        columns = [(left({key: values[key] + step}) - base) / step[:, None] for key, step in steps.items()]
-        corrections = np.einsum("kij,kj->ki", np.linalg.pinv(np.stack(columns, axis=-1)), base)
-        values |= {key: values[key] - corrections[:, i] for i, key in enumerate(steps)}
 
 
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")

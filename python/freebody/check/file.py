@@ -127,7 +127,7 @@ def judged_alone(checker: Checker, text: str, letters: Mapping[str, _SAID] | Non
     """The verdict about one statement among many, which do not suffer if it cannot be read."""
     try:
         return checker.check(text, letters)
-    except (StatementError, ModelProblem) as error:
+    except StatementError as error:
         return Verdict(Kind.UNREADABLE, text, str(error))
 
 

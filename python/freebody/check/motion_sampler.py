@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -27,6 +28,8 @@ _TRIES = 40  # for one sample; a four-bar with random bars closes in about one o
 _FEW_TRIES = 8  # where a parameter is far from the model's, and states are rarer or none
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
+_STAGES = 12  # in which a closed loop goes from the start to another place
+_TOUCHING = 1e-9  # least square of a distance on the way, relative to that at its ends: below it the distance has been 0
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
@@ -119,7 +122,7 @@ class MotionSampler:
         return found if len(found) >= min(_ENOUGH, count) else []
 
     def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        if family.since:
+        if family.since and not family.at_start:
             found = self._since_start(rng, values, family)
         elif self.restricted:
             found = self._on_a_run(rng, values, family)
@@ -158,23 +161,42 @@ class MotionSampler:
     # -- anywhere
 
     def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        """A random state on the model's branch, none of whose limits is closed."""
+        """A random state of the start's assembly and side, none of whose limits is closed."""
         words = initial_state(self.start, self.core, values)
         t, own = 3 * rng.random() / self.rate, self.first.q
         angle = math.pi if self.loops == 0 or words["branch"] else 0.6
         spread = self.sizes * np.array([angle if c["dimension"] == "rad" else 1.0 for c in self.coordinates])
-        guess = self._named(own + spread * rng.uniform(-1, 1, len(own)))
-        rates = self._rates(rng, family)
-        state, _ = self.core.assemble(words["p"], t, guess=guess, rates=rates, branch=words["branch"])
+        move, rates = spread * rng.uniform(-1, 1, len(own)), self._rates(rng, family)
+        state, stages = self.first, _STAGES if self.loops else 1  # a loop that is moved far at once may close elsewhere
+        for done in np.arange(1, stages + 1) / stages:
+            p, guess = self.first.p + done * (words["p"] - self.first.p), self._named(state.q + move / stages)
+            state, _ = self.core.assemble(p, done * t, guess=guess, rates=rates, branch=words["branch"])
         small = [f"({text}) - ({size * _about(rng)!r})" for text, size in family.small]
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in family.small if not family.at_rest]
         for text in (*family.vanishing, *small, *slow):
             state = self._vanished(text, state, list(rates), words["branch"])
         solved = self.core.instant(state)
-        if not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
+        if self._changes_side(state, own) or not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
             return None
         judges = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all()
         return state if judges and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
+
+    def _changes_side(self, state: State, own: Array) -> bool:
+        """Whether a distance that the model reads, as of the ends of a spring, would be 0 on the straight way from the start: then
+        its two points would have changed sides, and what is x on the one is −x on the other."""
+        at = [self.core.evaluate(self._distances, state.at(q)) for q in (own, (own + state.q) / 2, state.q)]
+        first, half, last = np.array(at) ** 2  # along a line d² is a parabola, c + b s + a s²
+        a, b = 2 * (first - 2 * half + last), 4 * half - 3 * first - last
+        with np.errstate(all="ignore"):
+            between = (-b > 0) & (-b < 2 * a)
+            return bool(np.any(between & (first - b**2 / (4 * a) < _TOUCHING * np.maximum(first, last))))
+
+    @cached_property
+    def _distances(self) -> list[str]:
+        """The distances that springs, dampers and expressions of the model read."""
+        pairs = [force["with"]["between"] for force in self.spec["forces"] if "between" in force["with"]]
+        read = re.findall(r"distance\([^()]*\)", json.dumps(self.spec, ensure_ascii=False))
+        return [*(f"distance({a}, {b})" for a, b in pairs), *read]
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""

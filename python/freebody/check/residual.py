@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
@@ -10,9 +10,25 @@ import numpy as np
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, advice, is_zero, sampled, size, spread
-from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Quotient, exchange, walk
+from freebody.symbolic.tree import (
+    Add,
+    Column,
+    Cross,
+    Dot,
+    Fn,
+    Matrix,
+    Mul,
+    Negative,
+    Node,
+    Num,
+    Pow,
+    Quotient,
+    Sym,
+    exchange,
+    walk,
+)
 
-from .language.statements import Equation, Program, inlined, terms
+from .language.statements import Equation, rows, symbols_in, terms
 
 HOLDS = 1e-10
 """Below it, relative to the terms, an equation holds but for round-off."""
@@ -26,6 +42,10 @@ _FLOOR = 1e-6  # of a component of a vector against its largest: below it is rou
 _THROUGH_ZERO = ("sin", "cos", "tan", "sinh", "asin", "atan")
 """Functions whose zero may be a difference of angles that are equal but for round-off."""
 _MANY = 400  # terms, beyond which brackets stay
+_STEP = 1e-4  # of a symbol's size, by which slopes are taken: they are exact where an equation is linear in it
+_DIRECTIONS = {Sym(name) for name in ("i", "j", "k")}
+_FIGURE = Sym("the figure")
+_SIGNIFICANT = 3  # digits of a whole number that count though they are zeros
 
 
 @dataclass(frozen=True)
@@ -42,16 +62,8 @@ class Sides:
         return (self.left - self.right).reshape(len(self.left), -1)
 
 
-def sides(program: Program, values: Mapping[str, Array]) -> list[Sides]:
-    """The equations of a program, evaluated with its own names. Keys of ``values`` are those of ``Sym.key``."""
-    try:
-        return [equation_sides(line, values) for line in inlined(program)]
-    except StatementError as error:
-        raise error.within(program.text) from None
-
-
 def equation_sides(equation: Equation, values: Mapping[str, Array]) -> Sides:
-    """Both sides of an equation. Raises ``StatementError`` where they are of different kinds."""
+    """Both sides of an equation; ``values`` by ``Sym.key``. Raises ``StatementError`` where they are of different kinds."""
     left, right = sampled(equation.left, values), sampled(equation.right, values)
     if is_zero(equation.right):
         right = np.zeros_like(left)
@@ -80,13 +92,17 @@ class Residual:
 def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
     """The relative residual. Raises ``StatementError``."""
     with np.errstate(all="ignore"):
-        found = equation_sides(equation, values)
-        left, right = (magnitude(side, values).reshape(len(found.left), -1) for side in (equation.left, equation.right))
-        size = np.zeros_like(found.residual) + (left + right)
+        found, size = equation_sides(equation, values), sizes(equation, values)
         if found.left.ndim == 2:
             size = np.maximum(size, _FLOOR * size.max(axis=1, keepdims=True))
         ratio = np.divide(found.residual, size, out=np.zeros_like(size), where=size != 0)
     return Residual(found, ratio)
+
+
+def sizes(equation: Equation, values: Mapping[str, Array]) -> Array:
+    """The sum of the sizes of all terms of an equation, (K, n): one column a component."""
+    rest = equation_sides(equation, values).residual
+    return np.zeros_like(rest) + sum(magnitude(side, values).reshape(len(rest), -1) for side in (equation.left, equation.right))
 
 
 def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
@@ -148,28 +164,50 @@ def _length(value: Array) -> Array:
 
 
 def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
-    """How far the sides may lie apart, by half the last printed digit of each figure with a decimal point; (K, n)."""
-    base = equation_sides(equation, values).residual
-    size = (magnitude(equation.left, values) + magnitude(equation.right, values)).reshape(len(base), -1)
-    allowed = HOLDS * size
+    """How far the sides may lie apart, by half the last printed digit of each measured figure; (K, n)."""
+    allowed = HOLDS * sizes(equation, values)
     for figure in figures(equation):
         allowed = allowed + np.abs(slope(equation, figure, values)) * last_digit(figure) / 2
     return allowed
 
 
 def figures(equation: Equation) -> list[Num]:
-    """The figures with a decimal point."""
-    return [n for n in walk(equation) if isinstance(n, Num) and "." in n.text]
+    """The figures that are measured: those with a decimal point or a power of ten, and where no symbol stands beside it, as in
+    T = 575 N, a whole number of two digits or more."""
+    alone = [term for row in rows(equation) for term in terms(row) if _DIRECTIONS.issuperset(symbols_in(term))]
+    exponents = [id(n.exponent) for term in alone for n in walk(term) if isinstance(n, Pow)]
+    plain = {id(n) for term in alone for n in walk(term) if isinstance(n, Num) and len(n.text) > 1 and id(n) not in exponents}
+    found = [n for n in walk(equation) if isinstance(n, Num) and n.text[:1].isdecimal()]
+    return [n for n in found if id(n) in plain or not n.text.isdecimal()]
 
 
 def last_digit(figure: Num) -> float:
-    """What one more in the last printed digit is worth."""
-    digits, _, power = figure.text.partition("e")
-    return 10.0 ** (int(power or 0) - len(digits.split(".")[1]))
+    """What one more in the last printed digit is worth; of a whole number zeros beyond the third digit only hold a place."""
+    digits, _, power = figure.text.lower().partition("e")
+    whole, point, decimals = digits.partition(".")
+    held = 0 if point else min(len(whole) - len(whole.rstrip("0")), max(len(whole) - _SIGNIFICANT, 0))
+    return 10.0 ** (int(power or 0) - len(decimals) + held)
 
 
 def slope(equation: Equation, figure: Num, values: Mapping[str, Array]) -> Array:
-    """How fast the sides part as a figure grows."""
-    step = last_digit(figure)
-    moved = exchange(equation, figure, Num(figure.value + step, figure.text))
-    return (equation_sides(moved, values).residual - equation_sides(equation, values).residual) / step
+    """How fast the sides part as a figure grows, (K, rows)."""
+    count, of = len(next(iter(values.values()), [0])), exchange(equation, figure, _FIGURE)
+    return jacobian([of], {**values, _FIGURE.key: np.full(count, figure.value)}, [_FIGURE.key])[1][:, :, 0]
+
+
+# -- how fast the sides part
+
+
+def jacobian(equations: Sequence[Equation], values: Mapping[str, Array], keys: Iterable[str]) -> tuple[Array, Array]:
+    """Left less right of equations, (K, rows), and how fast it grows with symbols, (K, rows, columns): a number has one column, a
+    vector one for each direction that it takes."""
+
+    def left(moved: Mapping[str, Array]) -> Array:
+        return np.concatenate([equation_sides(equation, {**values, **moved}).residual for equation in equations], axis=1)
+
+    base, columns = left({}), []
+    for key in keys:
+        step = _STEP * (np.max(np.abs(values[key])) or 1.0)
+        ways = [way for way in np.eye(3) if (values[key] @ way).any()] if values[key].ndim == 2 else [1.0]
+        columns += [(left({key: values[key] + step * way}) - base) / step for way in ways]
+    return base, np.stack(columns, axis=-1) if columns else np.zeros((*base.shape, 0))

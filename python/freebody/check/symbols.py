@@ -16,7 +16,7 @@ from freebody.model.writer import Writer
 from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Sym, walk
+from freebody.symbolic.tree import Column, Matrix, Sym, walk
 
 from .language.dimensions import misfit
 from .language.parser import parse, parse_expression
@@ -31,13 +31,14 @@ if TYPE_CHECKING:
 
     from .families import Samples
 
-_PARTS: dict[str, tuple[str, ...]] = {
-    "force": ("value",),
-    "motion": ("force",),
-    "contact": ("N", "T", "Fx", "Fy"),
-    "string": ("tension",),
-    "stop": ("N",),
+_WITHOUT = {
+    "contact": {"tension", "slack"},
+    "string": {"N", "T", "gap", "x", "y", "slip"},
+    "stop": {"T", "tension", "slack", "x", "y", "slip"},
 }
+"""Readings of every limit that say nothing of one kind."""
+_NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
+_OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])")
 _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _SHORT = {"Fx": "x", "Fy": "y"}
@@ -76,6 +77,7 @@ class Symbols:
         self.metadata = mechanism.source().metadata
         self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
+        self.declared: set[str] = set()
         for name, said in (declared or {}).items():
             self._declare(name, said)
 
@@ -109,18 +111,41 @@ class Symbols:
                 with suppress(ModelProblem):
                     measured, dimension = self._measure(name)
                     self._put(name, Meaning("reading", (measured,), dimension))
+        for found in _OWNED.finditer(text):
+            owner, word = found.groups()
+            if owner in self.named.owners and found[0] not in self.meanings:
+                has = [name.removeprefix(f"{owner}.") for name in self.meanings if name.startswith(f"{owner}.")]
+                hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
+                raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
         program = parse(text, self.names, self.still)
         given = {line.name for line in program.assignments}
         strange = any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
         if strange and self._learn_printed():
             program = parse(text, self.names, self.still)
+        names = self.names
+        if clashing := self._clashing(program):
+            names = tuple(name for name in names if name not in clashing)
+            program = parse(text, names, self.still)
         if not misfit(program, self.dimensions, strictly=True):
             return program
         try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
-            other = parse(text, self.names, self.still, units=True)
+            other = parse(text, names, self.still, units=True)
         except StatementError:
             return program
         return program if other == program or misfit(other, self.dimensions) else other
+
+    def _clashing(self, program: Program) -> set[str]:
+        """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""
+        found = set()
+        for line in program.equations if len(program.lines) > 1 else ():
+            meaning = self.meanings.get(line.left.name) if isinstance(line.left, Sym) and not line.left.dots else None
+            if meaning is not None and line.left.name not in self.declared:
+                moves = any(isinstance(n, Sym) and n.name not in self.still for n in walk(line.right))
+                other = meaning.kind == "direction" or (meaning.kind in ("parameter", "gravity") and moves)
+                other |= isinstance(line.right, Column | Matrix) and not meaning.is_vector
+                if other or misfit(Program((line,)), self.dimensions, strictly=True):
+                    found.add(line.left.name)
+        return found
 
     def _learn_printed(self) -> bool:
         """Those of printed equations join the others, which go before them; whether there are any that did not before."""
@@ -134,7 +159,11 @@ class Symbols:
     def notes(self, program: Program) -> tuple[str, ...]:
         """Of each symbol of a program that usually means something else what that is called here."""
         used = {folded(n.name) for n in walk(program) if isinstance(n, Sym)}
-        return tuple(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used)
+        own = [line.name.name for line in program.assignments if line.name.name in self.meanings and not line.name.dots]
+        clashes = [
+            f"Here {name} is what the statement gives that name, not the {self.meanings[name].kind} of the model." for name in own
+        ]
+        return (*clashes, *(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used))
 
     # --- values --------------------------------------------------------------------------------
 
@@ -194,15 +223,16 @@ class Symbols:
         rough = {joint["name"] for joint in self.spec["joints"] if joint["with"].get("friction")}
         joints = {joint["name"]: joint for joint in self.metadata["joints"] if joint["reaction"]}
         for owner, kind in self.named.owners.items():
-            parts = _PARTS.get(kind, ())
-            if owner in joints:
-                there = {"M": joints[owner]["couple"], "friction": owner in rough}
-                parts = tuple(part for part in joints[owner]["readings"] if there.get(part, True))
-            for part in parts:
-                text = f"{spell(owner)}.{part}"
-                meaning = Meaning("reaction", (text,), self.named.dimension(f"{owner}.{part}", self.writer.scope))
-                endings = [f".{part}", f"_{part}", *([f"_{_SHORT[part]}"] if part in _SHORT else [])]
-                out |= {text: meaning, **{f"{owner.replace(' ', '_')}{end}": meaning for end in endings}}
+            if kind == "joint" and owner not in joints:
+                continue
+            absent = _WITHOUT.get(kind, set()) | (set() if owner in rough else {"friction"})
+            absent |= {"M"} if kind == "joint" and not joints[owner]["couple"] else set()
+            for part in (word for word in self.named.readings[owner] if word not in absent):
+                text, force = f"{spell(owner)}.{part}", part not in _NO_FORCE
+                dimension = self.named.dimension(f"{owner}.{part}", self.writer.scope)
+                endings = [f".{part}", *([f"_{part}", f"_{_SHORT.get(part, part)}"] if force else [])]
+                names = (text, *(f"{owner.replace(' ', '_')}{ending}" for ending in endings))
+                out |= dict.fromkeys(names, Meaning("reaction" if force else "reading", (text,), dimension))
         return out
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
@@ -216,6 +246,7 @@ class Symbols:
 
     def _put(self, name: str, meaning: Meaning) -> None:
         self.meanings[name] = meaning
+        self.declared.add(name)
         self.__dict__.pop("_spellings", None)
 
     def _measure(self, said: str) -> tuple[str, Dimension | None]:
@@ -233,7 +264,7 @@ class Symbols:
                 raise problem from None
 
     def _written_out(self, token: str, is_call: bool) -> str:
-        if is_call or token in self.named.values or token in self._bodies:
+        if is_call or (token in self.named.values and token not in self.declared) or token in self._bodies:
             return token
         name = token if token in self.meanings else self._spellings.find(folded(token)) if "." not in token else None
         found = self.meanings.get(name[0] if isinstance(name, tuple) else name or "")

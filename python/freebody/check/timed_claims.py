@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
@@ -60,7 +61,7 @@ def report(checker: Checker, declared: Declared, label: str, figure: str) -> Ver
 
 def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: str, expression: str) -> Verdict:
     """An expression has one value at a moment of the runs with several numbers of a parameter."""
-    if name not in checker.mechanism.parameters:
+    if name not in [*checker.mechanism.parameters]:
         raise ModelProblem(f"the model has no parameter `{name}`", f"it has {', '.join(checker.mechanism.parameters)}")
     before, found = checker.mechanism.parameters[name], {}
     try:
@@ -93,12 +94,13 @@ def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[
     steps = -np.linalg.pinv(slopes) @ equation_sides(equation, values).residual[0]
     after, edits, last = equation, [], True
     for figure, step in zip(chosen, steps, strict=True):
-        digits, _, power = figure.text.partition("e")
-        places = len(digits.split(".")[1])
-        text = f"{(figure.value + step) / 10.0 ** int(power or 0):.{places}f}" + figure.text[len(digits) :]
+        digits, unit = re.split("[eE]", figure.text)[0], last_digit(figure)
+        power = figure.text[len(digits) :]
+        rounded = round((figure.value + step) / unit) * unit / float(f"1{power}")
+        text = f"{rounded:.{len(digits.partition('.')[2])}f}{power}"
         after = exchange(after, figure, Num(float(text), text))
         edits.append(("figure", figure.text, text))
-        last &= abs(float(text) - figure.value) < 1.5 * last_digit(figure)
+        last &= abs(float(text) - figure.value) < 1.5 * unit
     left = np.abs(equation_sides(after, values).residual)
     if np.all(left <= rounding(after, values) * (1 + _ROUND)):
         yield Correction(tuple(edits), spell(after), float(len(edits)), tuple(figure.span for figure in chosen)), last

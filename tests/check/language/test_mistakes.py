@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from both_sides import sides
 
 from freebody.check.language.dimensions import DimensionError, check_dimensions
 from freebody.check.language.parser import parse
 from freebody.check.language.spelling import spell
-from freebody.check.residual import sides
 from freebody.symbolic.errors import StatementError
 
 KNOWN = ["m", "g", "l", "theta", "x", "F", "i", "j", "k", "t"]

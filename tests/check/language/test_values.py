@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from both_sides import sides
 
 from freebody.check.language.parser import parse
-from freebody.check.residual import sides
 
 K = 5
 RNG = np.random.default_rng(7)

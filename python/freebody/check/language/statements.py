@@ -150,7 +150,8 @@ def _entries(node: Node) -> list[Node] | None:
 def _products(factors: tuple[Node, ...]) -> list[Node] | None:
     """A product whose last column or matrix is multiplied from the left."""
     out: list[Node] | None = None
-    for factor in reversed(factors):
+    flat = [inner for factor in factors for inner in (factor.factors if isinstance(factor, Mul) else (factor,))]
+    for factor in reversed(flat):
         if isinstance(factor, Matrix) and out is not None:
             if any(len(line) != len(out) for line in factor.rows):
                 return None
@@ -159,10 +160,10 @@ def _products(factors: tuple[Node, ...]) -> list[Node] | None:
             if out is not None:
                 return None
             out = column
-        elif out is not None:
-            out = [_times(factor, item) for item in out]
-        else:
+        elif out is None or any(isinstance(n, Matrix | Column) for n in walk(factor)):
             return None
+        else:
+            out = [_times(factor, item) for item in out]
     return out
 
 

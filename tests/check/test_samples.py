@@ -1,0 +1,118 @@
+"""What true motions are sampled: works are of motions from the start, places stay on the start's side of every distance."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from freebody.check import Checker, Kind
+from freebody.model import Mechanism
+
+T, W, IF = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF
+
+# Each drives with a constant force or couple along its first coordinate q, which starts at 0: W = value q. `E` at rest is 0.
+_DRIVEN = {
+    "disk on a motor": """
+bodies: {d: {shape: disk, radius: 1 m, mass: 2 kg}}
+joints: {pin: {type: hinge, of: [ground.O, d.centre], coordinate: q}}
+forces: {drive: {type: torque, on: d, from: ground, value: 3 N*m}}
+""",
+    "cart that is pulled": """
+parameters: {F: 2 N, m: 0.7 kg}
+bodies: {cart: {shape: particle, mass: m}}
+joints: {track: {type: slot, along: {through: ground.O, angle: 0}, point: cart.centre, coordinate: q}}
+forces: {drive: {type: force, at: cart.centre, value: F, direction: 0}}
+""",
+    "bead on a turning rod": """
+parameters: {T: 1 N*m, m: 0.2 kg, l: 1 m}
+bodies: {rod: {shape: rod, length: l, mass: m}, bead: {shape: particle, mass: m}}
+joints:
+  O: {type: hinge, of: [ground.O, rod.start], coordinate: q}
+  along: {type: slot, along: [rod.start, rod.end], point: bead.centre, coordinate: r}
+forces: {drive: {type: torque, on: rod, from: ground, value: T}}
+""",
+}
+
+
+def _driven(name: str) -> Checker:
+    start = "r: 0.3 m, " if "bead" in name else ""
+    text = f"freebody: 1\ngravity: none\n{_DRIVEN[name]}\ninitial: {{q: 0, {start}at_rest: true}}\nrun: {{until: 1 s}}\n"
+    return Checker(Mechanism.loads(text), {"W": "drive.work"})
+
+
+@pytest.mark.parametrize("name", _DRIVEN)
+@pytest.mark.parametrize(
+    ("statement", "kind"),
+    [
+        ("W = drive.value*q", T),
+        ("W = energy()", T),
+        ("drive.work = drive.value*q", T),
+        ("W = 0", W),
+        ("2 W = drive.value*q", W),
+        ("energy() = drive.value*q", IF),
+        ("only if from the start: energy() = drive.value*q", T),
+        ("at start: W = 0", T),
+    ],
+)
+def test_work_is_of_a_motion_from_the_start(name: str, statement: str, kind: Kind) -> None:
+    verdict = _driven(name).check(statement)
+    assert verdict.kind is kind, str(verdict)
+
+
+# A spring along the line on which its ends move: the equations of it hold on one side of the place where they meet.
+_COLLINEAR = {
+    "collar on a driven rod": ("m r'' - m r theta'^2 = k (l0 - r)", 0.4),
+    "collar on a free rod": ("m r'' - m r theta'^2 = k (l0 - r)", -0.4),
+    "collar beyond its anchor": ("m r'' - m r theta'^2 = k (l0 - (r - a))", 0.6),
+}
+
+
+@pytest.mark.parametrize("name", _COLLINEAR)
+def test_places_stay_on_the_starts_side(name: str) -> None:
+    equation, start = _COLLINEAR[name]
+    text = f"""
+freebody: 1
+gravity: none
+parameters: {{w: 4 rad/s, k: 50 N/m, m: 2 kg, l0: 0.3 m, a: 0.2 m}}
+bodies:
+  rod: {{shape: rod, length: 1 m, mass: m, points: {{A: [a - 0.5 m, 0]}}}}
+  collar: {{shape: particle, mass: m}}
+joints:
+  O: {{type: hinge, of: [ground.O, rod.start], coordinate: theta}}
+  slide: {{type: slot, along: [rod.start, rod.end], point: collar.centre, coordinate: r}}
+motions: {{{"drive: {of: theta, is: w*t}" if "driven" in name else ""}}}
+forces:
+  spring: {{type: spring, between: [{"rod.A" if "anchor" in name else "rod.start"}, collar.centre], stiffness: k, rest_length: l0}}
+initial: {{r: {start} m}}
+"""
+    checker = Checker(Mechanism.loads(text))
+    equation = equation if start > 0 else equation.replace("l0 - r", "-l0 - r")
+    verdict = checker.check(equation)
+    assert verdict.kind is T, str(verdict)
+    turned = checker.check(equation.replace("l0", "(-l0)"))
+    assert turned.kind is W, str(turned)
+
+
+@pytest.mark.parametrize("side", [1, -1])
+def test_a_closed_loop_keeps_the_assembly_of_its_start(side: int) -> None:
+    text = f"""
+freebody: 1
+parameters: {{a: 0.3 m, b: 1 m, c: 0.9 m, d: 0.8 m}}
+bodies:
+  crank: {{shape: rod, length: a, mass: 1 kg}}
+  coupler: {{shape: rod, length: b, mass: 1 kg}}
+  rocker: {{shape: rod, length: c, mass: 1 kg}}
+ground: {{points: {{D: [d, 0]}}}}
+joints:
+  A: {{type: hinge, of: [ground.O, crank.start], coordinate: theta}}
+  B: {{type: hinge, of: [crank.end, coupler.start]}}
+  C: {{type: hinge, of: [coupler.end, rocker.end]}}
+  D: {{type: hinge, of: [ground.D, rocker.start], coordinate: phi}}
+initial: {{theta: 60 deg, guess: {{phi: {80 * side} deg}}}}
+"""
+    checker = Checker(Mechanism.loads(text))
+    # twice the area of the triangle of coupler and rocker, whose sign tells the two assemblies of a four-bar apart
+    area = "sin(angle(coupler) - angle(rocker))"
+    found = checker.sampler.samples().values([area])[area]
+    own = checker.sampler.core.evaluate([area], checker.sampler.first)[0]
+    assert np.all(np.sign(found) == np.sign(own))
