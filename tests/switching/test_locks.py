@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import freebody as fb
+from freebody.views import plots
 from freebody.views.peaks import peak_reactions
 
 G = 9.81
@@ -55,6 +56,9 @@ def test_what_a_prescribed_motion_needs_is_among_the_largest_reactions(tmp_path:
         [peak] = [peak for peak in peak_reactions(each) if peak.joint == "motor"]
         assert peak.size is None and peak.body == ""
         assert_allclose(peak.couple, 3 * G)
+        [curve] = plots.reactions(each, "motor", part="M").lines[:1]
+        assert curve.get_label() == "motor.force"
+        assert_allclose(curve.get_ydata(), 3 * G)
 
 
 def test_a_report_names_the_force_of_a_lock(tmp_path: Path) -> None:

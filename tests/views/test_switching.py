@@ -131,7 +131,7 @@ def test_the_report_shows_what_switched(run):
     page = report_html(run)
     data = json.loads(page.split('id="data">')[1].split("</script>")[0])
     assert [event["kind"] for event in data["events"]] == ["impact", "impact"]
-    assert "Contacts, strings and stops" in {plot["title"] for plot in data["plots"]}
+    assert "Contacts, strings, stops, locks and motions" in {plot["title"] for plot in data["plots"]}
     assert "<h2>Mode changes</h2>" in page and "ball free" not in page.split("Peak reactions")[1].split("</section>")[0]
 
 

@@ -86,7 +86,8 @@ class Header:
         """From JSON."""
         made = cls(**json.loads(text))
         start, end = (
-            {key: np.array(value) if key != "t" else value for key, value in each.items()} for each in (made.start, made.end)
+            {key: np.array(value) if isinstance(value, list) else value for key, value in each.items()}
+            for each in (made.start, made.end)
         )
         return replace(
             made,

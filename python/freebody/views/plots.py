@@ -109,19 +109,20 @@ def energy(run: Run, ax: Axes | None = None) -> Axes:
 
 @quiet()
 def reactions(run: Run, *names: str, part: str = "size", ax: Axes | None = None) -> Axes:
-    """A part of the reactions of joints over time (``Fx``, ``Fy``, ``M``, ``size``), and the forces of contacts, strings and
-    stops; indeterminate ones are named, not drawn. Without names, all that can carry a load."""
+    """A part of the reactions of joints over time (``Fx``, ``Fy``, ``M``, ``size``), and the forces of contacts, strings, stops,
+    locks and prescribed motions; indeterminate ones are named, not drawn. Without names, all that can carry a load."""
     run = refined_at_jumps(run)
-    shown = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *limit_forces(run)]
+    held = held_by(run, "N*m" if part == "M" else "N")
+    shown = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *held]
     silent = [name for name in shown if name in run.reactions and not run.reactions[name].determinate]
-    limits = limit_forces(run)
+    placed = [limit["name"] for limit in run.metadata["limits"] if limit["type"] != "stop"]
     drawn: list[tuple[str, Array, str]] = []
     for name in shown:
-        if name not in limits:
+        if name in run.reactions:
             drawn += [] if name in silent else [(name, getattr(run.reactions[name], part), "-")]
-        elif part == "size":
-            drawn += [(text, values, "-") for text, values in limits[name].items()]
-        elif part != "M":
+        elif part in ("size", "M"):
+            drawn += [(text, values, "-") for text, values in held.get(name, {}).items()]
+        elif name in placed:
             drawn.append((name, run[f"{quote(name)}.{part}"], "-"))
     title = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
     return _over_time(run, drawn, "couple  [N·m]" if part == "M" else "force  [N]", title, ax)
@@ -140,16 +141,16 @@ def _over_time(run: Run, curves: Sequence[tuple[str, Array, str]], what: str, ti
     return ax
 
 
-def limit_forces(run: Run) -> dict[str, dict[str, Array]]:
-    """For each contact, string and stop (but those of angles), what it carries: values (nt,) in N by expression; no friction
+def held_by(run: Run, unit: str = "N") -> dict[str, dict[str, Array]]:
+    """What each contact, string, stop, lock and prescribed motion carries in a unit, N or N*m: values (nt,) by expression; no friction
     that is 0 throughout."""
-    own = {quote(limit["name"]): limit["name"] for limit in run.metadata["limits"] if limit["dimension"] != "rad"}
-    found: dict[str, dict[str, Array]] = {name: {} for name in own.values()}
-    columns = (column.name for column in run.columns if column.kind == "limit")
-    for text, values in zip(columns, run.blocks["limit"].T, strict=True):
-        owner, _, part = text.rpartition(".")
-        if owner in own and part != "gap" and (part != "T" or values.any()):
-            found[own[owner]][text] = values
+    own = {quote(part["name"]): part["name"] for each in ("limits", "locks", "motions") for part in run.metadata[each]}
+    found: dict[str, dict[str, Array]] = {}
+    columns = (column for column in run.columns if column.kind == "limit")
+    for column, values in zip(columns, run.blocks["limit"].T, strict=True):
+        owner, _, part = column.name.rpartition(".")
+        if part != "gap" and (column.unit or "N") == unit and (part != "T" or values.any()):
+            found.setdefault(own[owner], {})[column.name] = values
     return found
 
 

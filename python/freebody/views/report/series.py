@@ -11,7 +11,7 @@ from freebody.core import Array, quote
 from freebody.run.records import plain
 from freebody.symbolic.symbols import unicode_name
 from freebody.views.peaks import couple_noise
-from freebody.views.plots import gaps, limit_forces, pretty_unit, refined_at_jumps
+from freebody.views.plots import gaps, held_by, pretty_unit, refined_at_jumps
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -77,8 +77,10 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     couples = [(name, reaction.M) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
     sizes = [(name, r.size) for name, r in known]
     made = [_plot("Reactions, size of the force", "N", run, sizes, note)] if known or silent else []
-    limits = [(plain(text), y) for forces in limit_forces(run).values() for text, y in forces.items()]
-    made += [_plot("Contacts, strings and stops", "N", run, limits)] if limits else []
+    held, turned = ([(plain(text), y) for each in held_by(run, unit).values() for text, y in each.items()] for unit in ("N", "N*m"))
+    what = "Contacts, strings, stops, locks and motions"
+    made += [_plot(what, "N", run, held)] if held else []
+    made += [_plot(f"{what}, couple", "N*m", run, turned)] if turned else []
     return made + ([_plot("Reactions, couple", "N*m", run, couples)] if couples else [])
 
 
