@@ -1,12 +1,15 @@
 """Every system of the catalogue: each question goes through, each answer agrees with its independent value."""
 
 import math
+import re
 
 import pytest
 from store import MODELS, every, mechanism
 
 from freebody import catalogue
 from freebody.catalogue import Answer, Asked, Question, ask
+from freebody.catalogue.show import figures, show_asked, show_summary
+from freebody.solve.figures import Known
 
 
 @every([system.id for system in catalogue.systems()], "identity")
@@ -59,9 +62,22 @@ def test_json_has_what_a_script_needs():
     rows = catalogue.rows({"X": [Asked("q", [Answer("a", [1.0, 2.0], "m", [1.0, 2.0], "closed form")], "stopped")]})
     assert rows[0] == {
         "system": "X", "question": "q", "label": "a", "value": [1.0, 2.0], "unit": "m", "check": [1.0, 2.0],
-        "against": "closed form", "digits": 16.0, "tolerance": 1e-10, "ok": True,
+        "against": "closed form", "digits": 16.0, "tolerance": 1e-10, "ok": True, "independent": True,
     }  # fmt: skip
     assert rows[1] == {"system": "X", "question": "q", "failure": "stopped"}
+
+
+def test_figures_are_printed_with_the_digits_that_agree_and_hold():
+    assert figures(Answer("", [1.23456789, 1e-17], check=[1.234568, 0.0])) == "1.234568, 0"
+    assert figures(Answer("", [Known(1.23456789, 3e-3, 1.0), 2.0], check=[1.23456789, 2.0])) == "1.23, 2"
+
+
+def test_what_is_held_against_the_same_run_is_no_independent_answer(capsys):
+    kept = Answer("energy", 1.0, check=1.0, against="energy put in", own=True)
+    show_asked(Asked("q", [kept]))
+    assert "the same run: energy put in" in capsys.readouterr().out
+    show_summary({"X": [Asked("q", [kept, Answer("a", 1.0, check=1.0)])]})
+    assert re.search(r"X +1 +1 ", capsys.readouterr().out)
 
 
 def test_an_unknown_system_is_met_with_the_known_ones():

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.solve.figures import Known
+
 if TYPE_CHECKING:
     from freebody.catalogue.case import Case
     from freebody.symbolic.letters import Letters
@@ -32,7 +34,8 @@ class Answer:
 
     ``against`` says where ``check`` comes from. ``tolerance`` is relative to the largest figure of the row, or to
     ``scale`` where that is larger: give it where the true value may be 0. ``said``: the answer symbolically, of which the figures
-    are values.
+    are values. ``own``: the check is of the same run, which shows that it is consistent, and not that it is right. Figures that are
+    ``Known`` have no more digits than hold.
     """
 
     label: str
@@ -43,6 +46,7 @@ class Answer:
     tolerance: float = 1e-10
     scale: float = 0.0
     said: str = ""
+    own: bool = False
 
     @property
     def error(self) -> float:
@@ -54,9 +58,22 @@ class Answer:
 
     @property
     def digits(self) -> float:
-        """Digits of agreement, at most 16."""
+        """Digits of agreement, at most 16; no more than hold of any figure."""
         error = self.error
-        return min(MOST_DIGITS, -math.log10(error)) if error > 0 else math.nan if math.isnan(error) else MOST_DIGITS
+        agree = min(MOST_DIGITS, -math.log10(error)) if error > 0 else math.nan if math.isnan(error) else MOST_DIGITS
+        return min([agree, *(float(x.digits) for x in self.row if isinstance(x, Known))])
+
+    @property
+    def row(self) -> list[float]:
+        """The figures."""
+        return list(self.value) if isinstance(self.value, (list, tuple)) else np.atleast_1d(np.asarray(self.value, float)).tolist()
+
+    @property
+    def known(self) -> list[float]:
+        """The figures with the digits that agree, and hold."""
+        size = max(float(np.max(np.abs(np.asarray(self.check, float)), initial=0.0)), self.scale)
+        errors = (max(self.error * size, getattr(x, "error", 0.0)) for x in self.row)
+        return [Known(x, error, max(size, abs(x))) for x, error in zip(self.row, errors, strict=True)]
 
     @property
     def ok(self) -> bool:
@@ -74,6 +91,7 @@ class Answer:
             "digits": round(self.digits, 1),
             "tolerance": self.tolerance,
             "ok": self.ok,
+            "independent": not self.own,
             **({"letters": self.said} if self.said else {}),
         }
 

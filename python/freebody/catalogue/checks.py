@@ -55,7 +55,7 @@ def _ledgers(case: Case) -> Iterator[Answer]:
         stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential), still]
         size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
         left = float(np.abs(energy.balance).max() / size) if size else 0.0
-        yield Answer(f"{name}: left over", left, "", 0.0, "conservation: energy stored − work done", 1e-9, 1.0)
+        yield Answer(f"{name}: left over", left, "", 0.0, "energy stored − work done", 1e-9, 1.0, own=True)
 
 
 def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:

@@ -16,6 +16,7 @@ from rich.text import Text
 from freebody.catalogue.answers import Answer, Asked
 from freebody.catalogue.system import System
 from freebody.check.verdict import Kind
+from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def show_asked(asked: Asked) -> None:
     rows = []
     for answer in asked.answers:
         digits = "missing" if math.isnan(answer.digits) else f"{answer.digits:.1f}"
-        cells = (answer.label, answer.said or figures(answer.value), answer.unit, digits, _source(answer))
+        cells = (answer.label, answer.said or figures(answer), answer.unit, digits, _source(answer))
         rows.append([Text(cell, "" if answer.ok else "bold red") for cell in cells])
     rich.print(table(asked.label, ("", "freebody", "unit", "digits", "agrees with"), rows, ("freebody", "digits"), edge=True))
     if asked.failure:
@@ -81,10 +82,10 @@ def show_totals(judged: Iterable[Judged]) -> None:
 
 
 def show_summary(results: dict[str, list[Asked]]) -> None:
-    """One line for every system."""
+    """One line for every system; answers are those with an independent check."""
     rows = []
     for identity, asked in results.items():
-        answers = [answer for question in asked for answer in question.answers]
+        answers = [answer for question in asked for answer in question.answers if not answer.own]
         fewest = min((answer.digits for answer in answers), default=math.nan)
         verdict = Text("ok", "green") if all(question.ok for question in asked) else Text("FAILED", "bold red")
         seconds = f"{sum(question.seconds for question in asked):.1f}"
@@ -93,16 +94,16 @@ def show_summary(results: dict[str, list[Asked]]) -> None:
     rich.print(table("", ("system", *counts, ""), rows, counts, edge=True))
 
 
-def figures(value) -> str:
-    """A figure, or the first of a long row."""
-    row = np.atleast_1d(np.asarray(value, float))
-    shown = ", ".join(f"{x:.8g}" for x in row[:4])
+def figures(answer: Answer) -> str:
+    """A figure, or the first of a long row, with the digits that hold."""
+    row = answer.known
+    shown = ", ".join(figure(x, 8) for x in row[:4])
     return shown if len(row) <= 4 else f"{shown}, … ({len(row)})"
 
 
 def _source(answer: Answer) -> str:
     if answer.ok:
-        return answer.against
+        return f"the same run: {answer.against}" if answer.own else answer.against
     value, check = np.broadcast_arrays(np.ravel(answer.value).astype(float), np.ravel(answer.check).astype(float))
     worst = int(np.argmax(np.nan_to_num(np.abs(value - check), nan=np.inf)))
     return f"{answer.against}: {check[worst]:.10g}, not {value[worst]:.10g}"
