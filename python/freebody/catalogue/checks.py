@@ -12,12 +12,10 @@ from freebody.catalogue.answers import Answer, Question
 from freebody.catalogue.case import Case
 
 if TYPE_CHECKING:
-    from freebody.solve.instant import Instant
+    pass
 
 ROUTES = ("minimal", "newton_euler", "constraints")
 STATES_OF_A_RUN = 4
-NOTHING = 1e-30
-"""N and m/s²: what is less is no force and no acceleration in any of these systems."""
 
 
 def _routes(case: Case) -> Iterator[Answer]:
@@ -37,10 +35,9 @@ def _routes(case: Case) -> Iterator[Answer]:
             one, *others = (solved(route) for route in ROUTES)
             residuals += [one.residual, *(other.residual for other in others)]
             for other in others:
-                force, acceleration = one.sizes
-                mine, its = (np.array(list(each.accelerations.values())) for each in (one, other))
-                accelerations.append(_apart(mine, its, acceleration))
-                reactions.append(_apart(*_determined(one, other), force))
+                gaps = one.apart(other)
+                accelerations.append(gaps[0])
+                reactions.append(gaps[1])
         against = "the other two routes"
         yield Answer(f"{name}: accelerations apart", max(accelerations), "", 0.0, against, 1e-10, 1.0)
         yield Answer(f"{name}: reactions apart", max(reactions), "", 0.0, against, 1e-10, 1.0)
@@ -56,17 +53,6 @@ def _ledgers(case: Case) -> Iterator[Answer]:
         size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
         left = float(np.abs(energy.balance).max() / size) if size else 0.0
         yield Answer(f"{name}: left over", left, "", 0.0, "energy stored − work done", 1e-9, 1.0, own=True)
-
-
-def _determined(one: Instant, other: Instant) -> tuple[np.ndarray, np.ndarray]:
-    pairs = [(one.reactions[name], other.reactions[name]) for name in one.reactions]
-    known = [(a.values[k], b.values[k]) for a, b in pairs for k in [a.determined & b.determined]]
-    return np.concatenate([*(a for a, _ in known), []]), np.concatenate([*(b for _, b in known), []])
-
-
-def _apart(a: np.ndarray, b: np.ndarray, size: float) -> float:
-    """Largest difference relative to the largest entry, or to the terms that cancel in it."""
-    return float(np.abs(a - b).max(initial=0.0) / max(np.abs([a, b]).max(initial=0.0), size, NOTHING))
 
 
 FREE_QUESTIONS = (Question("three routes to the same instant", _routes), Question("energy ledger", _ledgers))

@@ -139,6 +139,26 @@ def diagram(
 
 
 @app.command(cls=Command)
+def certify(
+    model: Model,
+    changes: Changes = None,
+    until: Until = None,
+    method: Method = None,
+    rtol: Rtol = None,
+    digits: Annotated[int, typer.Option(metavar="NUMBER", help="How many digits each route must agree to.")] = 5,
+    as_json: AsJson = False,
+) -> None:
+    """Find the motion again by independent routes, and say to how many digits they agree and which link is the weakest."""
+    from freebody.cli import show
+    from freebody.run.certificate import Certificate
+
+    certificate = Certificate(simulated(model, changes, until=until, method=method, rtol=rtol))
+    show.certificate(certificate, digits, as_json)
+    if certificate.weakest.digits < digits:
+        raise typer.Exit(NOT_TRUE)
+
+
+@app.command(cls=Command)
 def animate(
     model: Model,
     output: Annotated[

@@ -19,6 +19,7 @@ from freebody.views.peaks import known_peaks
 
 if TYPE_CHECKING:
     from freebody.core import Change, CompiledModel
+    from freebody.run.certificate import Certificate
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant, Reaction
     from freebody.views.compare import Comparison
@@ -93,6 +94,22 @@ def run(done: Run) -> None:
         table("energy", ["", "start [J]", "end [J]"], ledger),
         f"Energy error below {closure(done):.1e} of the largest entry.\n",
         table("largest reactions", ["", "on", "force [N]", "at t [s]", "couple [N·m]", "at t [s]"], peaks),
+    )
+
+
+def certificate(found: Certificate, asked: int, as_json: bool) -> None:
+    """The routes with how many digits agree, and the weakest."""
+    weakest = found.weakest
+    if as_json:
+        stated = {"weakest": weakest.name, "asked": asked, "ok": weakest.digits >= asked, "digits": found.run.accuracy.to_json()}
+        print_json({"name": found.run.name, **stated, "routes": [asdict(route) for route in found.routes]})
+        return
+    rows = [(each.name, each.stated, each.what) for each in found.routes]
+    put(
+        _ending(found.run),
+        f"The motion {found.run.accuracy.sentence}.\n",
+        table("agreement", ["route", "digits", "what is compared"], rows, ["digits"]),
+        f"The weakest link is {weakest.name}, with {weakest.stated} digits.",
     )
 
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 STILL = 1e-4
 """Relative to the largest acceleration among the terms that balance: below it is the rounding of what a person types, above
 it a load that nothing carries."""
+NOTHING = 1e-30
+"""N and m/s²: what is less is no force and no acceleration."""
 _FORCES = "N|T|F|Fx|Fy|tension"
 
 
@@ -196,6 +198,16 @@ class Instant:
         """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
         return self._solved.sizes
 
+    def apart(self, other: Instant) -> tuple[float, float]:
+        """Largest differences of accelerations and of reactions that both determine, relative to the largest, or to the terms that
+        cancel in it."""
+        force, acceleration = self.sizes
+        accelerations = [np.array(list(instant.accelerations.values())) for instant in (self, other)]
+        pairs = [(one, other.reactions[name]) for name, one in self.reactions.items()]
+        known = [(one.values[both], its.values[both]) for one, its in pairs for both in [one.determined & its.determined]]
+        reactions = [np.concatenate([*side, []]) for side in zip(*known, strict=True)] or [np.empty(0)] * 2
+        return _gap(*accelerations, acceleration), _gap(*reactions, force)
+
     def nonequilibrium(self) -> dict[str, str]:
         """What moves or accelerates, in words, by coordinate; nothing in an equilibrium."""
         found: dict[str, str] = {}
@@ -272,6 +284,10 @@ class Instant:
 
     def __str__(self) -> str:
         return rich_tables.captured(self, 100)
+
+
+def _gap(one: Array, other: Array, size: float) -> float:
+    return float(np.abs(one - other).max(initial=0.0) / max(np.abs([one, other]).max(initial=0.0), size, NOTHING))
 
 
 def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], metadata: Mapping[str, Any]) -> None:

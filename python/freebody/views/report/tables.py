@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from markupsafe import Markup, escape
 
+from freebody.run.certificate import Certificate
 from freebody.run.storage import versions
 from freebody.solve.figures import figure
 from freebody.solve.instant import Instant
@@ -73,6 +74,7 @@ def below(run: Run) -> list[Table]:
         _mode_changes(run),
         _peaks(run),
         Table("Energy ledger", ("J", "start", "end", "least", "most"), stored, remark),
+        _certificate(run),
         Table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), masses),
     )
     return [table for table in tables if table.rows]
@@ -125,6 +127,16 @@ def _peaks(run: Run) -> Table:
         rows.append([p.joint, p.body, *figures, *["" if p.determinate else "indeterminate"] * (not known)])
     remark = "Forces as they act on the body named, in the fixed axes, when the force is largest."
     return Table("Peak reactions", heads, rows, remark, "across")
+
+
+def _certificate(run: Run) -> Table:
+    """How many digits independent routes agree to; a run from a file has none, nor one that did not move."""
+    title, heads = "Agreement certificate", ("route", "digits", "what is compared")
+    if run.recorded or len(run.edges) < 2:
+        return Table(title, heads, ())
+    found = Certificate(run)
+    rows = [(route.name, route.stated, route.what) for route in found.routes]
+    return Table(title, heads, rows, f"The weakest link is {found.weakest.name}, with {found.weakest.stated} digits.", "across")
 
 
 def settings(run: Run) -> Table:

@@ -1,0 +1,59 @@
+"""The agreement certificate: routes agree on good motions, and the weakest link is named where they do not."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+from store import MODELS, WITHOUT_ANSWER, every, run
+from typer.testing import CliRunner
+
+from freebody import cli
+from freebody.run.certificate import Certificate
+
+SENSITIVE = {"GEN-CHAIN/two_bars", "GEN-SLIDER/dead_point"}
+"""A chaotic motion, and rest in a singular position, where each route accelerates round-off in its own way."""
+
+
+@every(set(MODELS) - WITHOUT_ANSWER - SENSITIVE)
+def test_all_routes_agree_on_the_motions_of_the_catalogue(model):
+    found = Certificate(run(model))
+    assert found.weakest.digits >= 5, found.weakest
+
+
+def test_the_weakest_link_of_a_chaotic_motion_is_the_motion_itself():
+    found = Certificate(run("GEN-CHAIN/two_bars"))
+    assert found.weakest.name in ("second integrator", "tolerance halved", "tighter tolerance")
+    assert found.weakest.digits < 4 < min(route.digits for route in found.routes[:3])
+
+
+class Lying:
+    """A motion whose rates are by a part in ten thousand not what they are."""
+
+    def __init__(self, motion):
+        self.motion = motion
+
+    def __getattr__(self, name):
+        return getattr(self.motion, name)
+
+    def state(self, t):
+        state = self.motion.state(t)
+        return replace(state, u=state.u * (1 + 1e-4))
+
+
+def test_rates_that_are_not_those_of_the_motion_are_found():
+    good = run("examples/new_gun")
+    wrong = Certificate(replace(good, motion=Lying(good.motion)))
+    digits = {route.name: route.digits for route in wrong.routes}
+    assert 3 < digits["finite differences"] < 4.5 and digits["three forms"] > 12
+
+
+def test_the_command_names_the_weakest_link_and_fails_below_what_is_asked():
+    asked = ["certify", str(MODELS["examples/new_gun"])]
+    done = CliRunner().invoke(cli.app, asked)
+    assert done.exit_code == 0 and "The weakest link is" in done.output
+    assert CliRunner().invoke(cli.app, [*asked, "--digits", "14"]).exit_code == 3
+    data = json.loads(CliRunner().invoke(cli.app, [*asked, "--json"]).output)
+    known = {route["name"]: route["digits"] for route in data["routes"] if route["digits"] is not None}
+    assert data["weakest"] == min(known, key=known.get) and data["ok"]
+    assert math.isfinite(sum(known.values())) and len(np.unique(list(known))) == len(data["routes"])
