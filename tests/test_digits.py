@@ -210,3 +210,13 @@ def test_the_command_line_prints_no_digit_that_does_not_hold():
     assert "no digit holds" in printed and printed.count("no digit ") >= 2
     data = json.loads(CliRunner().invoke(cli.app, [*asked, "--json"]).output)
     assert 0 < data["digits"]["until"]["6"] < data["digits"]["none_from"] < 30
+
+
+def test_of_several_equal_extremes_any_time_will_do():
+    m = rods(*DRAWS["tame 0"])
+    accuracy = m.simulate(2).accuracy
+    band = accuracy.band(expression("th0"))
+    value, small = float(band.values[100, 0]), 1e-12
+    far, near = (accuracy.extreme(band, 0, (0.5, value), (there, value + small))[0] for there in (1.5, 0.5 + 1e-6))
+    assert far.digits is None and figure(far) == "0.5"
+    assert near.digits == 5 and figure(near) == "0.50000"
