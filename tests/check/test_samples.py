@@ -116,3 +116,32 @@ initial: {{theta: 60 deg, guess: {{phi: {80 * side} deg}}}}
     found = checker.sampler.samples().values([area])[area]
     own = checker.sampler.core.evaluate([area], checker.sampler.first)[0]
     assert np.all(np.sign(found) == np.sign(own))
+
+
+ABOVE = """
+freebody: 1
+parameters: {m: 1 kg, r: 0.1 m, h: 1 m}
+bodies: {ball: {shape: disk, radius: r, mass: m}}
+ground: {lines: {top: {through: ground.O, angle: 0}}}
+joints: {place: {type: free, of: [ground.O, ball.centre], coordinates: [x, y, a]}}
+contacts: {floor: {of: [ball, ground.top], friction: 0.3}}
+initial: {x: 0, y: HEIGHT, a: 0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("height", "statement", "kind"),
+    [
+        ("h", "m y'' = -m g", T),
+        ("h", "m y'' = floor.N - m g", Kind.UNDECIDABLE),  # the ball has not landed: nothing tells the factor of N
+        ("h", "m y'' = 2 floor.N - m g", Kind.UNDECIDABLE),
+        ("h", "floor.N = 0", Kind.UNDECIDABLE),
+        ("h", "floor.gap = y - r", T),
+        ("r", "m y'' = floor.N - m g", T),
+        ("r", "m y'' = 2 floor.N - m g", W),
+        ("r", "floor.N = 0", W),
+    ],
+)
+def test_a_force_that_no_sample_has_decides_nothing(height: str, statement: str, kind: Kind) -> None:
+    verdict = Checker(Mechanism.loads(ABOVE.replace("HEIGHT", height))).check(statement)
+    assert verdict.kind is kind, str(verdict)

@@ -78,19 +78,15 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
 def _has_bare_angles(case: Case, equation: Equation) -> bool:
     """Whether angles stand outside of functions."""
     inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
-    angles = _angles(case, equation)
-    return any(n in angles and id(n) not in inside for n in walk(equation))
-
-
-def _angles(case: Case, equation: Equation) -> list[Sym]:
     known = case.meaning.vocabulary
-    plain = dict.fromkeys(Sym(n.name) for n in symbols_in(equation))
-    return [n for n in plain if n in known.coordinates and n in known.angular]
+    return any(n in known.coordinates and n in known.angular and id(n) not in inside for n in walk(equation))
 
 
 def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
     """The motions in which the angles of an equation are small, in words."""
-    angles = _angles(case, equation)
+    known = case.meaning.vocabulary
+    plain = dict.fromkeys(Sym(n.name) for n in symbols_in(equation))
+    angles = [n for n in plain if n in known.coordinates and n in known.angular]
     small = tuple((text, size) for n in angles for text in case.meaning.texts(n))
     return f"small {', '.join(n.name for n in angles)}", replace(case.hypothesis, small=small)
 
@@ -107,16 +103,16 @@ def _to_first_order(case: Case, equation: Equation) -> str:
 def first_order(case: Case, equation: Equation, family: Family) -> bool:
     """Whether what is left is of higher order than each term, as what is small grows smaller. Raises ``NoMotion``."""
     larger = replace(family, small=tuple((text, 10 * size) for text, size in family.small))
-    far, near = (_beside_terms(equation, case.values(each, count=_STATES)) for each in (larger, family))
+
+    def beside_terms(values: Mapping[str, Array]) -> float:
+        """What is left of the equation beside the least of its terms, in the median."""
+        left = np.abs(residual(equation, values).sides.residual).max(axis=1)
+        sizes = [np.abs(sampled(term, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
+        with np.errstate(all="ignore"):
+            return float(np.max([np.median(left / size) for size in sizes], initial=0.0))
+
+    far, near = (beside_terms(case.values(each, count=_STATES)) for each in (larger, family))
     return bool(near < HOLDS or (near < _NEGLIGIBLE and near < far / 3))
-
-
-def _beside_terms(equation: Equation, values: Mapping[str, Array]) -> float:
-    """What is left of an equation beside the least of its terms, in the median."""
-    left = np.abs(residual(equation, values).sides.residual).max(axis=1)
-    sizes = [np.abs(sampled(term, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
-    with np.errstate(all="ignore"):
-        return float(np.max([np.median(left / size) for size in sizes], initial=0.0))
 
 
 def _holds(case: Case, equation: Equation, family: Family) -> bool:

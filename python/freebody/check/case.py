@@ -57,14 +57,12 @@ class StatementSymbols:
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every symbol on true states, by ``Sym.key``; what is 0 on all of them but for round-off is 0."""
         found = self.letters.values(self._valued, samples)
-        return {n.key: self._without_round_off(n, found[n.key]) for n in self._valued}
-
-    def _without_round_off(self, letter: Sym, value: Array) -> Array:
-        one = self._one(letter)
-        if one.kind in ("parameter", "gravity") or one.dimension is None:
-            return value
-        size = self.sampler.unit(one.dimension) * self.sampler.rate**letter.dots
-        return np.zeros_like(value) if np.max(np.abs(value), initial=0.0) < _ROUND_OFF * size else value
+        for n in self._valued:
+            one = self._one(n)
+            if one.kind not in ("parameter", "gravity") and one.dimension is not None:
+                size = self.sampler.unit(one.dimension) * self.sampler.rate**n.dots
+                found[n.key] = found[n.key] * (np.max(np.abs(found[n.key]), initial=0.0) >= _ROUND_OFF * size)
+        return found
 
     def fits(self, equation: Equation) -> bool:
         """Whether its terms have one dimension, as far as that is known."""
@@ -80,6 +78,11 @@ class StatementSymbols:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
         one = self.letters.meanings.get(letter.name)
         return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
+
+    def limit(self, letter: Sym) -> str | None:
+        """The contact, string or stop of which a symbol reads something."""
+        owners = (text.rpartition(".")[0] for text in self.texts(letter))
+        return next((name for name in owners if self.letters.named.owners.get(name) in ("contact", "string", "stop")), None)
 
     @property
     def needs_past(self) -> bool:
@@ -136,7 +139,9 @@ class StatementSymbols:
 
     @cached_property
     def _parameters(self) -> list[Sym]:
-        own = [Sym(name) for name in self.letters.of_kind("parameter", "gravity") if self._matters(name)]
+        there = self.letters.of_kind("parameter", "gravity")  # of them those that are more than numbers of the start
+        used = (name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in there)
+        own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
         made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
         return self._once([*made, *(n for n in own if n in self.used), *own])
@@ -145,10 +150,6 @@ class StatementSymbols:
         """Without symbols that only name again what another does."""
         first = {self._one(n).texts: n for n in reversed(found)}
         return [n for n in dict.fromkeys(found) if first[self._one(n).texts] == n]
-
-    def _matters(self, name: str) -> bool:
-        """Whether a parameter is more than a number of the start."""
-        return name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) is not None
 
     @cached_property
     def _mechanics(self) -> str:

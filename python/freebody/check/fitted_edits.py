@@ -41,7 +41,9 @@ class FittedEdits:
         with np.errstate(all="ignore"):
             for required in required_terms(equation, self.values):
                 yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._letters(required))
-                found = _constant(required.needed) if _is_figure(required.node) else None
+                node = required.node  # a number, or a fraction of two
+                parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
+                found = _constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
                 if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
                     yield Edit.at(equation, "factor", required.node, number)
                 if required.addend:
@@ -190,12 +192,6 @@ class FittedEdits:
         for i in range(max(map(len, parts), default=0)):
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
         return rows
-
-
-def _is_figure(node: Node) -> bool:
-    """Whether it is a number, or a fraction of two."""
-    parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
-    return all(isinstance(part, Num) for part in parts)
 
 
 def _constant(values: Array) -> float | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -57,11 +57,20 @@ def nearest(case: Case, equation: Equation) -> str:
     said = _said(case, equation, stated.letters)
     kinds = {name: entry["kind"] for name, entry in stated.letters.items()}
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
-    found = [*_balances(asked, stated.answers[1:]), *_rows(stated.answers[0], max((s.dots for s in said), default=0))]
-    common = [each for each in found if (unknown & each.unknown if unknown else _rates(said) & _rates(each.unknown))]
+    level = max((s.dots for s in said), default=0)
+    found = []
+    for (words, _), answer in zip(asked, stated.answers[1:], strict=True):
+        there = frozenset(read(each["letter"]) for each in answer["linear"]["coefficients"])
+        found.append(_True(words, read(answer["left"]), read(answer["right"]), there))
+    for row in stated.answers[0]:  # what loops ask of the configuration, the rates or the accelerations
+        tree = read(row[_LEVELS[level]])
+        there = frozenset(s for s in symbols(tree) if s.dots == level)
+        found.append(_True(f"the closure at {row['name']}", tree, ZERO, there))
+    wanted = unknown or frozenset(s for s in said if s.dots == 1)
+    common = [each for each in found if wanted & each.unknown]
     if not common:
         return ""
-    best = min(common, key=lambda each: each.distance(said, unknown or _rates(said)))
+    best = min(common, key=lambda each: each.distance(said, wanted))
     table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in stated.letters.items()})
     stated = equation_text(best.left, best.right, table, width=_LONG)
     return f"{best.words} reads: {stated}" if len(stated) < _LONG else f"{best.words} is too long to be printed"
@@ -77,23 +86,6 @@ def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str,
                 how = "moments about" if "about" in twist.question else "forces along"
                 words = f"the balance of {how} {twist.name} for {' + '.join(bodies)}"
                 yield words, {"ask": "equation", "bodies": bodies, **twist.question}
-
-
-def _balances(asked: Sequence[tuple[str, Any]], answers: Sequence[Mapping[str, Any]]) -> Iterator[_True]:
-    for (words, _), answer in zip(asked, answers, strict=True):
-        unknown = frozenset(read(each["letter"]) for each in answer["linear"]["coefficients"])
-        yield _True(words, read(answer["left"]), read(answer["right"]), unknown)
-
-
-def _rows(rows: Sequence[Mapping[str, Any]], level: int) -> Iterator[_True]:
-    """What loops ask of the configuration, the rates or the accelerations."""
-    for row in rows:
-        tree = read(row[_LEVELS[level]])
-        yield _True(f"the closure at {row['name']}", tree, ZERO, frozenset(s for s in symbols(tree) if s.dots == level))
-
-
-def _rates(found: frozenset[Sym]) -> frozenset[Sym]:
-    return frozenset(s for s in found if s.dots == 1)
 
 
 def _said(case: Case, equation: Equation, table: Mapping[str, Any]) -> frozenset[Sym]:

@@ -27,7 +27,7 @@ _ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
 def printed(mechanism: Builder) -> dict[str, str]:
     """What each means, as a declaration. Nothing where the model does not start."""
     derived = _derived(mechanism)
-    parts = (_loads, _numbers, _bodies, _whole, _directions) if derived else ()
+    parts = (_named, _bodies, _whole, _directions) if derived else ()
     return {name: meant for part in parts for name, meant in part(derived)}
 
 
@@ -44,16 +44,12 @@ def _derived(mechanism: Builder) -> SymbolicState | None:
         return None
 
 
-def _loads(derived: SymbolicState) -> Iterator[tuple[str, str]]:
+def _named(derived: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Loads; parameters and coordinates of which another is written alike; masses and inertias that are numbers in the model."""
     names = derived.symbols.loads
-    for load in derived.free.loads:
-        if load.symbol in names:
-            one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
-            yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
-
-
-def _numbers(derived: SymbolicState) -> Iterator[tuple[str, str]]:
-    """Parameters and coordinates of which another is written alike; masses and inertias that are numbers in the model."""
+    for load in (load for load in derived.free.loads if load.symbol in names):
+        one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
+        yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
     names = derived.symbols.names
     for name in derived.symbols.renamed:
         if name in names and derived.table.get(name, {}).get("kind") in ("coordinate", "parameter"):

@@ -151,8 +151,12 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         if lost:
             what = f"{', '.join(lost)} is not determined by the balances of this model (its parts can be pre-stressed)"
         return Verdict(Kind.UNDECIDABLE, text, what)
-    if equation.relation != "=":
-        return _compared(case, equation, found, text)
+    if equation.relation != "=":  # one side is not above the other, on every state
+        gap = found.ratio if equation.relation.startswith("<") else -found.ratio
+        if gap.max() <= HOLDS:
+            return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, found))
+        broken = Residual(found.sides, np.maximum(gap, 0.0))
+        return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, broken))
     worst = found.worst
     if HOLDS <= worst <= FAILS:  # on fresh states, badly conditioned ones aside if they are few
         again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
@@ -203,8 +207,14 @@ def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, 
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
-    values = case.values()
-    blind = [spell(term) for term in unreached(equation, values)]
+    values, unseen = case.values(), unreached(equation, case.values())
+    blind = [spell(term) for term in unseen]
+    idle = {
+        n.key: owner for term in unseen for n in symbols_in(term) if (owner := case.meaning.limit(n)) and not values[n.key].any()
+    }
+    if idle:
+        what = f"{', '.join(idle)} is 0 on all motions that were tried, which leave {', '.join({*idle.values()})} as at the start"
+        return Verdict(Kind.UNDECIDABLE, text, f"{what}: nothing is known of others", untested=tuple(blind))
     if blind and len(blind) == len(terms(equation, expand=True)):
         motions = "of this model" if case.hypothesis == ALL else "of which it is said"
         alone = len(blind) == 1  # it says that this is 0, and so it is
@@ -235,15 +245,6 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
     what = "wrong, and no single or double edit corrects it"
     return Verdict(Kind.WRONG, text, what, evidence=seen, true=nearest(case, equation))
-
-
-def _compared(case: Case, equation: Equation, found: Residual, text: str) -> Verdict:
-    """A statement that one side is not above the other, tried on every state."""
-    gap = found.ratio if equation.relation.startswith("<") else -found.ratio
-    if gap.max() <= HOLDS:
-        return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, found))
-    broken = Residual(found.sides, np.maximum(gap, 0.0))
-    return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, broken))
 
 
 def _sufficiency(case: Case) -> str:

@@ -57,13 +57,9 @@ def without_circles(tree: Tree) -> Tree:
     """The expression with ``pythagorean`` applied to every sum in it, but those that functions are of."""
 
     def put(part: Tree) -> Tree | None:
-        return (
-            pythagorean(add(*map(without_circles, part.terms)))
-            if isinstance(part, Add)
-            else part
-            if isinstance(part, Fn)
-            else None
-        )
+        if isinstance(part, Add):
+            return pythagorean(add(*map(without_circles, part.terms)))
+        return part if isinstance(part, Fn) else None
 
     return rebuilt(tree, put)
 

@@ -39,18 +39,13 @@ def rate(node: Node, still: Collection[str] = ()) -> Node:
 
     Raises ``StatementError`` at what has no derivative.
     """
-    return _short(node, derivative(node, lambda letter: _rate(letter, still)))
+    one_more = lambda n: _ZERO if n.name in still else Sym(n.name, n.dots + 1, span=n.span)
+    return _short(node, derivative(node, lambda letter: _ONE if letter == Sym("t") else one_more(letter)))
 
 
 def partial(node: Node, by: Sym) -> Node:
     """Its change with one letter, all others held. Raises ``StatementError`` at what has no derivative."""
     return _short(node, derivative(node, lambda letter: _ONE if letter == by else _ZERO))
-
-
-def _rate(letter: Sym, still: Collection[str]) -> Node:
-    if letter == Sym("t"):
-        return _ONE
-    return _ZERO if letter.name in still else Sym(letter.name, letter.dots + 1, span=letter.span)
 
 
 def _short(node: Node, found: Node) -> Node:
@@ -77,8 +72,10 @@ class _Rules:
                 return self.each(factors, lambda parts: _product(parts))
             case Cross(left=left, right=right) | Dot(left=left, right=right):
                 return self.each((left, right), lambda parts: _ZERO if _ZERO in parts else type(node)(*parts))
-            case Quotient(top=top, bottom=bottom):
-                return self.quotient(top, bottom)
+            case Quotient(top=top, bottom=bottom):  # (a/b)˙ = ȧ/b − a ḃ/b²
+                first, second = self.of(top), _product([top, self.of(bottom)])
+                terms = [_ZERO if first == _ZERO else Quotient(first, bottom)]
+                return _sum([*terms, *([] if self.stands(bottom) else [Negative(Quotient(second, Pow(bottom, _TWO)))])])
             case Pow(base=base, exponent=exponent):
                 return self.power(node, base, exponent)
             case Fn(name="atan2", args=(y, x)):
@@ -102,14 +99,6 @@ class _Rules:
         """Each factor in turn."""
         rates = [self.of(factor) for factor in factors]
         return _sum([product([*factors[:i], rate, *factors[i + 1 :]]) for i, rate in enumerate(rates) if rate != _ZERO])
-
-    def quotient(self, top: Node, bottom: Node) -> Node:
-        """(a/b)˙ = ȧ/b − a ḃ/b²."""
-        first = self.of(top)
-        terms = [_ZERO if first == _ZERO else Quotient(first, bottom)]
-        if not self.stands(bottom):
-            terms.append(Negative(Quotient(_product([top, self.of(bottom)]), Pow(bottom, _TWO))))
-        return _sum(terms)
 
     def power(self, node: Node, base: Node, exponent: Node | Fraction) -> Node:
         """(aⁿ)˙ = n aⁿ⁻¹ ȧ."""

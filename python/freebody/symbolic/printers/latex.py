@@ -54,8 +54,8 @@ def _part(part: Part) -> str:
         case Atom():
             return _atom(part.text, part.kind)
         case Script(base, below, above):
-            scripts = (f"{sign}{_braced(latex(raised))}" for sign, raised in (("_", below), ("^", above)) if raised)
-            return latex(base) + "".join(scripts)
+            scripts = ((sign, latex(raised)) for sign, raised in (("_", below), ("^", above)) if raised)
+            return latex(base) + "".join(sign + (shown if len(shown) == 1 else f"{{{shown}}}") for sign, shown in scripts)
         case Accent(inner, sign):
             shown = latex(inner)
             letter = re.fullmatch(r"(\\[a-zA-Z]+)|\w", shown) if sign != "¯" else None
@@ -92,7 +92,3 @@ def _atom(text: str, kind: str) -> str:
         case "bigl" | "bigr" | "Bigl" | "Bigr":
             return f"\\{kind}{text}"
     return sign
-
-
-def _braced(shown: str) -> str:
-    return shown if len(shown) == 1 else f"{{{shown}}}"

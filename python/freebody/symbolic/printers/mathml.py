@@ -70,12 +70,9 @@ def _part(part: Part) -> str:
         case Root(inner):
             return f"<msqrt>{_row(inner)}</msqrt>"
         case Grid(rows):
-            lines = (f"<mtr>{''.join(f'<mtd>{_cell(cell)}</mtd>' for cell in row)}</mtr>" for row in rows)
+            cells = ((f"<mtd>{''.join(map(_part, cell))}</mtd>" for cell in row) for row in rows)
+            lines = (f"<mtr>{''.join(row)}</mtr>" for row in cells)
             return f"<mrow><mo>[</mo><mtable>{''.join(lines)}</mtable><mo>]</mo></mrow>"
-
-
-def _cell(formula: Formula) -> str:
-    return "".join(map(_part, formula))
 
 
 def _bold(letter: str) -> str:

@@ -34,15 +34,15 @@ class Printer(ABC, Generic[Made]):
 
     def vector(self, components: Sequence[tuple[Tree, str]]) -> Made:
         """A vector by its components along unit directions."""
-        terms = [self._component(tree, self.direction(name)) for tree, name in components if not is_zero(tree)]
+        terms = []
+        for tree, unit in ((tree, self.direction(name)) for tree, name in components if not is_zero(tree)):
+            negative, shown = False, self.expression(tree)
+            if isinstance(tree, Add) or self.ends_below(shown):
+                shown = self.bracket(shown)
+            else:
+                negative, shown = self._term(tree)
+            terms.append((negative, unit if shown == self.number(1) else self.juxtapose([shown, unit])))
         return self._sum(terms) if terms else self.number(0)
-
-    def _component(self, tree: Tree, unit: Made) -> tuple[bool, Made]:
-        shown = self.expression(tree)
-        if isinstance(tree, Add) or self.ends_below(shown):
-            return False, self.juxtapose([self.bracket(shown), unit])
-        negative, shown = self._term(tree)
-        return negative, unit if shown == self.number(1) else self.juxtapose([shown, unit])
 
     def _sum(self, terms: Sequence[tuple[bool, Made]]) -> Made:
         """Terms behind their signs, whether they are negative; a leading plus is left out."""

@@ -125,8 +125,7 @@ class TextPrinter(Printer[str]):
         return f"{self.bracket(above) if ends_bare else above}/{self.bracket(below) if several else below}"
 
     def raised(self, base: str, exponent: Fraction) -> str:
-        base = self.bracket(base) if base.endswith(("′", "'")) else base
-        return base + (self._exponent(exponent))
+        return (self.bracket(base) if base.endswith(("′", "'")) else base) + self._exponent(exponent)
 
     def root(self, tree: Tree) -> str:
         inner = self.expression(tree)
