@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
@@ -104,7 +104,12 @@ def judge(path: Path) -> Iterator[Judged]:
     given = read(path)
     checkers: dict[tuple[str, str], Checker] = {}
     for statement in given.statements:
-        found = [_one(path, given, statement, values, checkers) for values in _settings(statement.set_)]
+        said = {name: value if isinstance(value, list) else [value] for name, value in statement.set_.items()}
+        counts = {len(each) for each in said.values()} - {1} or {1}  # a list tries each number
+        if len(counts) > 1 or 0 in counts:
+            raise ModelProblem(f"{path}: `{statement.id}`: the lists of `set` have different lengths", "give each as many numbers")
+        settings = [{name: each[i % len(each)] for name, each in said.items()} for i in range(*counts)]
+        found = [_one(path, given, statement, values, checkers) for values in settings]
         verdict = next((v for v in found if not v.ok), found[0])
         expected = None if statement.verdict is None else verdict.kind is WORDS.get(statement.verdict)
         yield Judged(statement, verdict, expected)
@@ -129,13 +134,6 @@ def judged_alone(checker: Checker, text: str, letters: Mapping[str, _SAID] | Non
         return checker.check(text, letters)
     except StatementError as error:
         return Verdict(Kind.UNREADABLE, text, str(error))
-
-
-def _settings(given: Mapping[str, Any]) -> list[dict[str, Any]]:
-    """One mapping for each number of a list."""
-    lists = {name: value for name, value in given.items() if isinstance(value, Sequence) and not isinstance(value, str)}
-    count = max(map(len, lists.values()), default=1)
-    return [{name: lists[name][i] if name in lists else value for name, value in given.items()} for i in range(count)]
 
 
 def as_json(verdict: Verdict) -> dict[str, Any]:

@@ -119,8 +119,12 @@ class Symbols:
                 raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
         program = parse(text, self.names, self.still)
         given = {line.name for line in program.assignments}
-        strange = any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
-        if strange and self._learn_printed():
+        if any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program)):
+            taken = {folded(name) for name in self.meanings}
+            for name, said in printed(self.mechanism).items():  # those of printed equations join the others, which go before them
+                if folded(name) not in taken:
+                    with suppress(ModelProblem):
+                        self._declare(name, said)
             program = parse(text, self.names, self.still)
         names = self.names
         if clashing := self._clashing(program):
@@ -146,15 +150,6 @@ class Symbols:
                 if other or misfit(Program((line,)), self.dimensions, strictly=True):
                     found.add(line.left.name)
         return found
-
-    def _learn_printed(self) -> bool:
-        """Those of printed equations join the others, which go before them; whether there are any that did not before."""
-        taken = {folded(name) for name in self.meanings}
-        new = {name: said for name, said in printed(self.mechanism).items() if folded(name) not in taken}
-        for name, said in new.items():
-            with suppress(ModelProblem):
-                self._declare(name, said)
-        return bool(new)
 
     def notes(self, program: Program) -> tuple[str, ...]:
         """Of each symbol of a program that usually means something else what that is called here."""

@@ -114,7 +114,7 @@ class Line:
                 factors = [Quotient(top, bottom, span=self.span(top))]
             elif self.accept("*"):
                 factors.append(self.signed(self.factor))
-            elif self.now.kind in _BEGINS and not self.closes_bars():
+            elif self.now.kind in _BEGINS and not (self.now.kind == "|" and sum(t.kind == "|" for t in self.row[: self.at]) % 2):
                 if self.now.kind == "number":
                     hint = "write `*` between them, or `,` between the entries of a matrix"
                     raise StatementError(f"the number {self.now.text} stands behind a factor", self.now.span, hint)
@@ -122,16 +122,16 @@ class Line:
             else:
                 return _product(factors)
 
-    def closes_bars(self) -> bool:
-        """Whether a bar here is the second one of |a|."""
-        return self.now.kind == "|" and sum(t.kind == "|" for t in self.row[: self.at]) % 2 == 1
-
     def factor(self) -> Node:
         base = self.primary()
         while self.now.kind in ("raised", "^"):
             exponent = self.exponent()
             transposed = isinstance(base, Matrix | Column) and exponent in (Sym("T"), Sym("⊤"))
-            base = _transposed(base) if transposed else Pow(base, exponent, span=self.span(base))
+            if transposed:
+                rows = base.rows if isinstance(base, Matrix) else tuple((item,) for item in base.items)
+                base = _matrix(tuple(zip(*rows, strict=True)), base.span)
+            else:
+                base = Pow(base, exponent, span=self.span(base))
         return base
 
     def exponent(self) -> Node:
@@ -211,11 +211,7 @@ class Line:
         span = self.span(open_)
         if len({len(row) for row in rows}) > 1:
             raise StatementError("the rows of this matrix have different lengths", span, "put `;` between the rows")
-        if rows == [(rows[0][0],)]:
-            return rows[0][0]
-        if len(rows[0]) == 1:
-            return Column(tuple(row[0] for row in rows), span=span)
-        return Matrix(tuple(rows), span=span)
+        return rows[0][0] if rows == [(rows[0][0],)] else _matrix(rows, span)
 
     def nested(self) -> list[tuple[Node, ...]]:
         """Rows that have brackets of their own; empty where they have none."""
@@ -347,8 +343,6 @@ def _product(factors: Sequence[Node]) -> Node:
     return Mul(tuple(factors), span=(factors[0].span[0], factors[-1].span[1]))
 
 
-def _transposed(node: Matrix | Column) -> Node:
-    if isinstance(node, Column):
-        return Matrix((node.items,), span=node.span)
-    rows = tuple(zip(*node.rows, strict=True))
-    return Column(tuple(r[0] for r in rows), span=node.span) if len(rows[0]) == 1 else Matrix(rows, span=node.span)
+def _matrix(rows: Sequence[tuple[Node, ...]], span: Span) -> Node:
+    """A matrix, or a column where each row has one entry."""
+    return Column(tuple(row[0] for row in rows), span=span) if len(rows[0]) == 1 else Matrix(tuple(rows), span=span)

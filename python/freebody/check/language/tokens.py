@@ -164,7 +164,8 @@ class _Reader:
         text = self.spelling(self.at, end)
         if text in _WORDS and not self.names.find(text):
             return self.take([_Piece("line", "\n", 0, end)])
-        if text == "x" and self.crosses(end):
+        between = self.blank and self.row[end].kind is Kind.SPACE and self.out and self.out[-1].kind in _OPERANDS
+        if text == "x" and between and self.names.known and not self.names.find("x"):  # no symbol, but a cross product
             return self.take([_Piece("×", "×", 0, end)])
         self.take(self.best(self.at, end) or self.unknown(self.at, end))
 
@@ -181,12 +182,6 @@ class _Reader:
 
     def marks(self, start: int, end: int) -> int:
         return sum(g.dots for g in self.row[start:end])
-
-    def crosses(self, end: int) -> bool:
-        """Whether an x between blanks is the sign of a cross product: only where no letter x is known."""
-        if not self.names.known or self.names.find("x") or not self.out or self.out[-1].kind not in _OPERANDS:
-            return False
-        return self.blank and self.row[end].kind is Kind.SPACE
 
     def _best(self, start: int, end: int) -> tuple[_Piece, ...] | None:
         """The fewest known names that the glyphs from ``start`` to ``end`` are; None where there is no way."""
