@@ -11,6 +11,7 @@ import numpy as np
 import freebody as fb
 from freebody.core.cards import joints
 from freebody.run.records import quote
+from freebody.solve.perturbed_states import others
 
 NAMES = ("g", "t", "pi", "e", "i", "m", "N", "kg", "rad", "x", "T", "s", "l", "sin", "E_k", "alpha", "lambda", "λ", "θ", "m_rod",
          "I_rod", "upper arm", "b[1]", "d")  # fmt: skip
@@ -197,6 +198,20 @@ def _drawn(seed: int) -> Draw:
         if draw.rng.random() < chance:
             add()
     return draw
+
+
+def rough(seed: int) -> fb.Mechanism:
+    """A model whose slides have friction. It moves, with rates that keep closed what is closed, where no motion prescribes them."""
+    draw = _drawn(seed)
+    bare = draw.mechanism()
+    for joint in draw.model["joints"].values():
+        joint |= {"friction": draw.within(0.1, 0.4)} if joint["type"] in ("slider", "slot", "curved_slot") else {}
+    source, start = bare.source(), {"guess": draw.values, "at_rest": True}
+    moving = [] if draw.model["motions"] else others(source, bare.start()[0])
+    names = [quote(coordinate["name"]) for coordinate in source.metadata["coordinates"]]
+    for state in moving[:1]:
+        start = {word: dict(zip(names, part.tolist(), strict=True)) for word, part in (("guess", state.q), ("rates", state.u))}
+    return fb.Mechanism.loads(json.dumps(draw.model | {"initial": start}), "random")
 
 
 def locked(seed: int) -> tuple[fb.Mechanism, fb.Mechanism, str]:

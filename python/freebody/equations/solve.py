@@ -26,6 +26,10 @@ class TooLarge(ValueError):
     """A symbolic answer would be too long to read; the sentence says what to do instead."""
 
 
+class Unconfirmed(ArithmeticError, ValueError):
+    """A symbolic answer that numbers which share nothing with it do not bear out, so that it is not given."""
+
+
 class Singular(ValueError):
     """The equations do not determine the unknowns."""
 
@@ -50,7 +54,7 @@ def solve(
         raise TooLarge(f"{many}; ask for numbers, or for a smaller set of equations")
     found = _solved_measured(a, b) if numeric else [presented(entry, letters, patience=patience) for entry in _solved(a, b)]
     if not all(equal(add(*map(mul, row, found)), entry) for row, entry in zip(matrix, right, strict=True)):
-        raise ArithmeticError("the symbolic answer does not satisfy the equations at random values; take the numbers instead")
+        raise Unconfirmed("the symbolic answer does not satisfy the equations at random values; take the numbers instead")
     return found
 
 

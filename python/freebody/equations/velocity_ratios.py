@@ -17,7 +17,7 @@ from freebody.equations.solve import TooLarge, coefficients, solve
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import measured
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.linear import Linear
+from freebody.symbolic.linear import Linear, linear_in
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
@@ -133,10 +133,12 @@ def _sum_up(found: Ratios, subject: SymbolicState, put: Put) -> None:
     from freebody.equations.topics.lagrange import equations
 
     names = subject.names
-    gone = {Sym(load.symbol): ZERO for load in subject.free.loads if load.unknown and load.kind != "motion"}
+    holding = [Sym(load.symbol) for load in subject.free.loads if load.unknown and load.kind != "motion"]
+    gone = dict.fromkeys(holding, ZERO)
     gone |= {Sym(name, 1): ZERO for name in names if subject.at_rest}
     accelerations = [Sym(name, 2) for name in names]
     stated = equations(replaced(subject, at_rest=False))[2]  # the rates are letters of the kinetic energy
+    _require_no_work(found, subject, [linear_in(each.residual, holding) for each in stated], put)
     rows = [coefficients(found.moving(replace(put(each.residual), gone)), accelerations) for each in stated]
     k, c = ([part[name] for name in names] for part in (found.rates, found.rests))
     inertia = [mul(k[i], entry, k[j]) for i, (row, _) in enumerate(rows) for j, entry in enumerate(row)]
@@ -144,6 +146,20 @@ def _sum_up(found: Ratios, subject: SymbolicState, put: Put) -> None:
     rests = [mul(k[i], rest) for i, (_, rest) in enumerate(rows)]
     found.inertia = _by_loads(add(*inertia), subject)
     found.load = _by_loads(negative(add(*moved, *rests)), subject)
+
+
+def _require_no_work(found: Ratios, subject: SymbolicState, equations: Sequence[Linear], put: Put) -> None:
+    """Raises ``TooLarge`` where a load of what closes the loops has power in the motion that they leave: by friction that follows from
+    it, it stays in the one equation of motion."""
+    values = dict(subject.values)
+    for x, tree in found.named.items():
+        values[x] = float(evaluate(tree, values, subject.tables))
+    factors = [float(evaluate(found.rates[name], values, subject.tables)) for name in subject.names]
+    for x in dict.fromkeys(x for each in equations for x in each.coefficients):
+        own = [float(evaluate(put(each.coefficients.get(x, ZERO)), values, subject.tables)) for each in equations]
+        powers = np.multiply(factors, own)
+        if abs(powers.sum()) > _NOTHING * np.abs(powers).max():
+            raise TooLarge(f"{x.name} has power in the motion that the loops leave, by friction; ask for numbers")
 
 
 def _by_loads(tree: Tree, subject: SymbolicState) -> Tree:

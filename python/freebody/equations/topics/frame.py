@@ -9,6 +9,7 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Writte
 from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.directions import Directions
+from freebody.equations.solve import Unconfirmed
 from freebody.equations.topics.common import Asked, NotHere, document, known, place_of, rates, spread
 from freebody.solve.symbolic_state import Arrow, Direction, SymbolicState
 from freebody.symbolic.algebra import equal, quotient
@@ -104,7 +105,7 @@ def _directly(subject: SymbolicState, place: Arrow, arrows: Mapping[str, Arrow],
     a = rates(v, names)
     gap = [axis for axis in (0, 1) for found, word in ((v, "v"), (a, "a")) if not equal(found[axis], arrows[word].xy[axis])]
     if gap:
-        raise ArithmeticError(f"direct differentiation of the position of {point} does not give what the frame gives")
+        raise Unconfirmed(f"direct differentiation of the position of {point} does not give what the frame gives")
     made: list[Block] = [Heading("By direct differentiation")]
     for what, pair in (("r", place.xy), ("v", v), ("a", a)):
         made += [Equation(Written.of(Name(what, (axis,))), spread(tree)) for axis, tree in zip("xy", pair, strict=True)]

@@ -13,7 +13,7 @@ from freebody.document.document import Document
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.sentences import joined
-from freebody.equations.solve import Singular, TooLarge
+from freebody.equations.solve import Singular, TooLarge, Unconfirmed
 from freebody.equations.topics.common import Asked, document
 from freebody.equations.topics.impact_equations import Impact, Rows, after, applied, blow
 from freebody.equations.topics.impulse_momentum import Solution, jumps
@@ -158,7 +158,7 @@ def _answers(found: Impact) -> list[Block]:
         solved = jumps(found)
     except (TooLarge, Singular) as error:
         return [*made, Paragraph(f"No more is given symbolically: {error}."), *_matrix(found)]
-    except ArithmeticError as error:
+    except Unconfirmed as error:
         return [*made, Paragraph(f"No more is given symbolically: {error}.")]
     made += _given(found)
     made += _stated(solved.known, "From the constraints before the impact, the rates then")

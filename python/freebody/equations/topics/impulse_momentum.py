@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.core import Array
 from freebody.equations.answers import with_positive_divisors
-from freebody.equations.solve import Singular, TooLarge, linear_system, solve
+from freebody.equations.solve import Singular, TooLarge, Unconfirmed, linear_system, solve
 from freebody.equations.topics.abbreviations import Names
 from freebody.equations.topics.common import spread
 from freebody.equations.topics.impact_equations import MOST_OPERATIONS, Impact, Row, Rows, after, require_brief
@@ -86,14 +86,14 @@ class Jumps:
 
 
 def jumps(found: Impact) -> Jumps:
-    """What an impact leaves. Raises ``TooLarge``, ``Singular``; ``ArithmeticError`` where it is not what the run tells."""
+    """What an impact leaves. Raises ``TooLarge``, ``Singular``; ``Unconfirmed`` where it is not what the run tells."""
     if not all(found.holds(each) for each in found.conditions()):
-        raise ArithmeticError(found.otherwise())
+        raise Unconfirmed(found.otherwise())
     rows = Rows.of(found)
     rows.require_small()
     solved = _System(found, rows).solved()
     if not found.agrees(solved.spelt()):
-        raise ArithmeticError(found.otherwise())
+        raise Unconfirmed(found.otherwise())
     return solved
 
 

@@ -16,7 +16,7 @@ from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.conserved import energies
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.derivation.sentences import joined
-from freebody.equations.solve import Singular, TooLarge, coefficients, solve
+from freebody.equations.solve import Singular, TooLarge, Unconfirmed, coefficients, solve
 from freebody.equations.topics.common import Asked, document
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal, quotient
@@ -69,7 +69,7 @@ def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequen
         own, _ = coefficients(each.residual, accelerations)
         try:
             made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.letters))
-        except (TooLarge, Singular, ArithmeticError):
+        except (TooLarge, Singular, Unconfirmed):
             return None
         sides = (mul(factor, balance.balance.residual) for factor, balance in zip(made[-1], balances, strict=True))
         if not equal(each.residual, add(*sides)):

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
+from freebody.equations.solve import Unconfirmed
 from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, known, place_of, rate, rates, spread
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.symbolic.algebra import equal
@@ -29,7 +30,7 @@ def moment(asked: Asked, *, about: str | None = None, bodies: Sequence[str] | st
     v, changing = rates(of.place.xy, names), rate(of.momentum, names)
     extra = cross(v, (along_x.momentum, along_y.momentum))
     if not equal(of.right, add(changing, extra)):
-        raise ArithmeticError("the rate of angular momentum is not what the accelerations give")
+        raise Unconfirmed("the rate of angular momentum is not what the accelerations give")
     acting = Equation(
         _written("Σ M", point, typed("∑M")), of.left, f"Moments about {point} on {' + '.join(group or subject.free.bodies)}"
     )
