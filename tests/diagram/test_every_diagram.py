@@ -12,7 +12,7 @@ from matplotlib.transforms import Bbox
 from store import WITHOUT_ANSWER, every, mechanism
 from store import diagram as drawn
 
-from freebody.core import FreeBodies
+from freebody.core import FreeBodies, cards
 from freebody.equations import Letter, Letters, Sym, latex
 from freebody.solve.symbols import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
@@ -334,6 +334,22 @@ def test_the_normal_forces_of_the_ground_are_drawn_upwards(model):
         for load in mark.action.loads:
             if load.kind == "joint" and load.card.presses and "ground" in load.of and mark.action.body != "ground":
                 assert mark.action.force @ gravity < 1e-9 * (1 + np.hypot(*gravity)), load.symbol
+
+
+@every_model
+@pytest.mark.parametrize("to_scale", [False, True])
+def test_what_presses_is_drawn_from_outside_onto_its_surface(model, to_scale):
+    """Normal forces of contacts push with their heads; those of sliders on the face that lies on the guide, in no body."""
+    for cut in drawn(model, None, to_scale).cuts:
+        scenery = cut.panels[0].scenery
+        sliders = {joint["name"] for joint in scenery.sketch.metadata["joints"] if cards.joints()[joint["type"]].slides}
+        for mark in (mark for mark in cut.forces if isinstance(mark, Arrow)):
+            [load, *_] = mark.action.loads
+            slides = load.kind == "joint" and load.name in sliders and load.card.presses
+            if slides or (load.kind == "contact" and load.card.presses):
+                assert np.array_equal(mark.head, mark.at), load.symbol
+            if slides and mark.action.body == load.of[1]:
+                assert not scenery.within(mark.head + np.linspace(0.05, 0.95, 9)[:, None] * (mark.tail - mark.head)), load.symbol
 
 
 @every_model

@@ -88,11 +88,14 @@ def _track(sketch: Sketch, line: Any, points: list[str], below: float) -> None:
 def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
     body, point, along = sketch.line(fields["line"])
     height, right = 1.1 * sketch.size, np.array([along[1], -along[0]])
+    above = height
     if any(len(stroke.points) == 4 for stroke in sketch.figures[body].strokes):  # the body is a block of its own
-        height = float(max(((stroke.points - point) @ right).max() for stroke in sketch.figures[body].strokes))
+        across = np.concatenate([(stroke.points - point) @ right for stroke in sketch.figures[body].strokes])
+        height, above = float(across.max()), float(-across.min())
     else:
         block = shapes.turn(shapes.box(3.6 * sketch.size, 2 * height), float(np.arctan2(along[1], along[0])), point)
         sketch.figures[body].add(block, "block")
+    sketch.faces[name] = body, point + np.outer([height, -above], right)
     if isinstance(fields["line"], Mapping) and fields["line"]["point"]:
         _track(sketch, fields["along"], [fields["line"]["point"]], height)
 

@@ -86,6 +86,8 @@ class Sketch:
         self.poses = np.concatenate([fixed, poses], axis=1)
         self.names = [GROUND, *(body["name"] for body in self.metadata["bodies"])]
         self.figures = {name: Figure(name) for name in self.names}
+        self.faces: dict[str, tuple[str, Array]] = {}
+        """Of a slider by the name of its joint: its body, and where its two faces are (2, 2) in the body's frame, beside the joint's point."""
         self.pairs: list[Pair] = []
         self.cords: list[Cord] = []
         self.at: dict[str, tuple[str, Array]] = {}

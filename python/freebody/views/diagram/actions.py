@@ -29,7 +29,8 @@ class Action:
     symbolic diagram ``force`` is a unit direction and ``couple`` a sign; to scale they are in N and N·m.
 
     ``name`` and ``kind`` are those of the load; ``kind`` ``effective`` is a term m a or I α. ``pulls``: it can only be drawn away
-    from its body, as the pull of a string is; ``bound``: a couple that stands at the joint that passes it on or that it drives.
+    from its body, as the pull of a string is; ``presses``: it is drawn towards the surface that it presses on; ``bound``: a couple
+    that stands at the joint that passes it on or that it drives.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Action:
     loads: tuple[Load, ...] = ()
     pulls: bool = False
     bound: bool = False
+    presses: bool = False
 
     @property
     def label(self) -> str:
@@ -96,7 +98,14 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
     pulls = load.card.pulls and force @ part.force > 0  # a string or a link; else a spring between two points
     if not load.card.pulls and load.kind == "force" and len(others) == 1:
         pulls = force @ np.subtract(others[0], part.point) > 0
-    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), bool(pulls), bound)
+    presses, size = load.card.presses and load.kind != "joint", float(np.hypot(*force))
+    if load.kind == "joint" and load.name in sketch.faces and size > 0:
+        # A slider is pressed on the face that lies on its guide, not in its middle.
+        presses = True
+        body, faces = sketch.faces[load.name]
+        push = force / size if part.body == body else -force / size
+        at = at + push * ((sketch.moved(body, faces) - at) @ push).min()
+    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), bool(pulls), bound, presses)
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:

@@ -96,7 +96,9 @@ def _choices(action: Action, scenery: Scenery, per_newton: float | None) -> list
     way = action.force / size
     lengths = [LENGTH * more for more in _LONGER] if per_newton is None else [max(per_newton * size, SHORTEST)]
     starts = [at + aside * np.array([-way[1], way[0]]) for aside in _ASIDES]
-    choices = [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
+    choices: list[Arrow] = []
+    if not action.presses:
+        choices += [Arrow(action, start, start, start + length * way) for start in starts for length in lengths]
     if action.kind not in ("weight", "effective") and not action.pulls:
         choices += [Arrow(action, start, start - length * way, start) for start in starts for length in lengths]
     return choices
