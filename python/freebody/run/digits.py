@@ -209,25 +209,40 @@ class Accuracy:
             return float(self.run.edges[0])
         return math.inf if held[-1] == len(self.t) - 1 and self.parting == math.inf else float(self.t[held[-1]])
 
-    def to_json(self) -> dict[str, Any]:
-        """As plain data: the sentence, until when 1, 2, … digits hold (null: to the end), and what the second run was."""
-        held = {n: self.until(n) for n in range(1, int(self.held.max(initial=0)) + 1)}
-        settings, outcome = self.other.settings, self.other.outcome.name
-        second = {"method": settings.method, "rtol": settings.rtol, "outcome": outcome}
-        until = {n: None if t == math.inf else t for n, t in held.items()}
-        return {"sentence": self.sentence, "until": until, "none_from": self.none_from, "second": second}
-
     @property
     def none_from(self) -> float | None:
         """From when on no digit holds, s; None if some do to the end."""
         return None if (t := self.until(1)) == math.inf else t
 
     @property
+    def stated(self) -> int:
+        """The number of digits that the sentence speaks of: as many as tables print, if ever so many hold."""
+        return int(min(PRINTED, self.held.max(initial=0)))
+
+    @property
+    def better(self) -> tuple[float, float] | None:
+        """The tolerance with which as many digits as ``stated`` would hold for longer, and up to when, s (infinite: to the end); None
+        where they do, or that cannot be told. Digits are taken to be lost at the rate at which they were, and errors to be as large as
+        the tolerance makes them."""
+        rtol, most, end = self.run.settings.rtol, self.stated, self.run.edges[-1]
+        if most < 2 or self.until(most) == math.inf or cards.methods()[self.run.settings.method].fixed_step:
+            return None
+        first, then = (int(np.flatnonzero(self.held >= number)[-1]) for number in (most, 1))
+        if first == then:
+            return None
+        lost = (self.held[first] - self.held[then]) / (self.t[then] - self.t[first])
+        needed = math.floor(math.log10(rtol) - (most - self.held[then]) - lost * (end - self.t[then]))
+        if needed >= math.log10(TIGHTEST):
+            return 10.0**needed, math.inf
+        reached = float(self.t[first]) + math.log10(rtol / TIGHTEST) / lost
+        return (TIGHTEST, reached) if rtol > 10 * TIGHTEST else None
+
+    @property
     def sentence(self) -> str:
         """Until when how many digits hold, and at which tolerance more would."""
         if self.until(PRINTED) == math.inf:
             return f"holds to {int(self.held[-1])} digits"
-        most = int(min(PRINTED, self.held.max(initial=0)))
+        most = self.stated
         parts = [f"holds to {most} digits until {self.until(most):.3g} s" if most else "no digit holds"]
         if most and self.none_from is None:
             parts.append(f"to {int(self.held[-1])} at the end")
@@ -235,23 +250,26 @@ class Accuracy:
             parts.append(f"from {self.none_from:.3g} s on no digit holds")
         if self.parting < math.inf:
             parts.append(f"what happens from {self.parting:.6g} s on depends on the tolerance")
-        return "; ".join(parts + self._better(most))
+        if self.better:
+            rtol, until = self.better
+            when = "to the end" if until == math.inf else f"until about {until:.2g} s"
+            parts.append(f"at rtol {rtol:.0e} it would hold to {most} digits {when}")
+        return "; ".join(parts)
 
-    def _better(self, most: int) -> list[str]:
-        """Which tolerance would give as many digits to the end, or what the tightest would: digits are lost at the rate at which they
-        were, and an error is as large as the tolerance makes it."""
-        rtol = self.run.settings.rtol
-        if most < 2 or cards.methods()[self.run.settings.method].fixed_step:
-            return []
-        first, then = (int(np.flatnonzero(self.held >= number)[-1]) for number in (most, 1))
-        if first == then:
-            return []
-        lost = (self.held[first] - self.held[then]) / (self.t[then] - self.t[first])
-        needed = math.floor(math.log10(rtol) - (most - self.held[then]) - lost * (self.run.edges[-1] - self.t[then]))
-        if needed >= math.log10(TIGHTEST):
-            return [f"at rtol 1e{needed} it would hold to {most} digits to the end"]
-        reached = self.t[first] + math.log10(rtol / TIGHTEST) / lost
-        return [f"at rtol {TIGHTEST:g} it would hold to {most} until about {reached:.2g} s"] if rtol > 10 * TIGHTEST else []
+    def to_json(self) -> dict[str, Any]:
+        """As plain data: the sentence, until when 1, 2, … digits hold (null: to the end), and what the second run was."""
+
+        def plain(t: float) -> float | None:
+            return None if t == math.inf else t
+
+        settings, better = self.other.settings, self.better
+        return {
+            "sentence": self.sentence,
+            "until": {n: plain(self.until(n)) for n in range(1, int(self.held.max(initial=0)) + 1)},
+            "none_from": self.none_from,
+            "better": better and {"rtol": better[0], "digits": self.stated, "until": plain(better[1])},
+            "second": {"method": settings.method, "rtol": settings.rtol, "outcome": self.other.outcome.name},
+        }
 
     @cached_property
     def energy(self) -> dict[str, Known]:
