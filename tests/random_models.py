@@ -176,6 +176,29 @@ class Draw:
             coordinate = self.of(*self.values)
             self.model["stops"][name] = {"of": quote(coordinate), "least": self.values[coordinate]} | self.engaged()
 
+    def switches(self) -> None:
+        """A floor below a point, a stop that is still open, a force that begins to act, and crossings to be recorded."""
+        point, place = (chosen := self.point()), self.place(chosen)
+        surface = {"through": self.ground_point(place - [0, self.within(0.1, 0.6)]).split(".")[1], "angle": self.about(0.3)}
+        self.model["ground"]["lines"]["floor"] = surface
+        touch = {"restitution": self.of(0, 0.4, 0.8)} | self.of({}, {"friction": 0.2})
+        self.model["contacts"]["floor"] = {"of": [point, "ground.floor"], **touch}
+        for name, sign in (("rise", 1), ("fall", -1)):
+            coordinate = self.of(*self.values)
+            self.model["events"][name] = {
+                "when": f"{quote(coordinate)} - ({self.values[coordinate] + sign * self.within(0.05, 0.4)!r})"
+            }
+        coordinate = self.of(*self.values)
+        value = self.values[coordinate]
+        self.model["stops"]["open"] = {
+            "of": quote(coordinate),
+            "most": value + self.within(0.1, 0.5),
+            "restitution": self.of(0, 0.5),
+        }
+        law = f"-20*max(0, {quote(coordinate)} - ({value + self.within(0.05, 0.3)!r}))"
+        self.model["forces"]["buffer"] = {"type": "law", "along": quote(coordinate), "value": law}
+        self.model["run"] = {"until": 1.5, "impacts": "newton", "painleve": "impact"}
+
     def mechanism(self, loops: bool = True) -> fb.Mechanism:
         values = {"guess": self.values} if loops else self.values
         model = self.model | {"initial": {**values, "at_rest": True}}
@@ -212,6 +235,13 @@ def rough(seed: int) -> fb.Mechanism:
     for state in moving[:1]:
         start = {word: dict(zip(names, part.tolist(), strict=True)) for word, part in (("guess", state.q), ("rates", state.u))}
     return fb.Mechanism.loads(json.dumps(draw.model | {"initial": start}), "random")
+
+
+def switching(seed: int) -> fb.Mechanism:
+    """Such a model with more that switches on its way."""
+    draw = _drawn(seed)
+    draw.switches()
+    return draw.mechanism()
 
 
 def locked(seed: int) -> tuple[fb.Mechanism, fb.Mechanism, str]:

@@ -93,7 +93,7 @@ def test_an_instant_tells_signs_ranks_and_refuses_the_indeterminate(indeterminat
 def test_extremes_are_refined_between_the_samples():
     window = Window(np.array([0.0, 2.0, 4.0]))
     t, value = maximum(lambda t: np.cos(t - 1.2345678), window)
-    assert t == pytest.approx(1.2345678, abs=1e-7) and value == pytest.approx(1.0, abs=1e-15)
+    assert t == pytest.approx(1.2345678, abs=5e-12) and value == pytest.approx(1.0, abs=1e-15)
     t, value = maximum(lambda t: -np.abs(t - 1.7654321), window)
     assert t == pytest.approx(1.7654321, abs=1e-8)
     assert maximum(lambda t: t, window) == (4.0, 4.0)
@@ -112,7 +112,7 @@ def test_reported_quantities(pendulum):
     assert report["largest pull"].value >= pendulum.reactions["pivot"].size.max()
     assert report["largest pull"].unit == "N" and report["angle when plumb"].unit == "deg"
     assert report["never"].value is None and "did not happen" in str(report["never"])
-    window = pendulum.reported(ReportItem("", "rate(phi1)", "integral", over=(0.5, 1.5)))
+    window = pendulum.reported(ReportItem("turn", "rate(phi1)", "integral", over=(0.5, 1.5)))["turn"]
     assert window.value == pytest.approx(pendulum.evaluate("phi1", 1.5) - pendulum.evaluate("phi1", 0.5), abs=1e-8)
     assert window.unit == "rad/s*s"
     with pytest.raises(ValueError, match="outside the run"):

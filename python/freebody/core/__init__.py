@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from freebody._core import parse
 
-from .compiled import BEFORE, CompiledModel, ReportItem, Settings, Spec, quote
+from .compiled import BEFORE, EXTREMES, CompiledModel, ReportItem, Settings, Spec, quote
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .limits import Limit
@@ -17,6 +17,7 @@ from .state import Array, State
 
 __all__ = [
     "BEFORE",
+    "EXTREMES",
     "GROUND",
     "Array",
     "Body",

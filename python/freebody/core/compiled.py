@@ -20,6 +20,8 @@ Spec = dict[str, Any]
 """A model as the core reads it; crates/freebody/src/spec/ says what stands in it."""
 BEFORE = "before "
 """In front of an event's name: the moment just before it."""
+EXTREMES = ("max", "min", "maxima", "minima", "mean", "rms", "integral")
+"""What a report can ask for of a whole run, or a part of it."""
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*(\[[^\]]*\])*")
 
 
@@ -48,7 +50,7 @@ class Settings:
 class ReportItem:
     """A quantity that the model asks for.
 
-    ``how`` is ``at``, ``max``, ``min``, ``mean``, ``rms`` or ``integral``; ``at`` is ``start``, ``end``, an event's name, ``before``
+    ``how`` is ``at`` or one of ``EXTREMES``; ``at`` is ``start``, ``end``, an event's name, ``before``
     and an event's name, or a time in s; ``over`` is a window in s; ``unit`` converts the printed figure, empty: SI. In a model without
     numbers a time may be an expression of parameters, marked by ``=``.
     """

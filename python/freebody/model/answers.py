@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from dataclasses import fields, replace
 from typing import Any
 
-from freebody.core import BEFORE, ReportItem, Settings, cards
+from freebody.core import BEFORE, EXTREMES, ReportItem, Settings, cards
 
 from . import start, units
 from .errors import ModelProblem, Path
 from .names import suggestion
-from .schema import EXTREMES, Question, Run
+from .schema import Question, Run
 from .writer import Writer
 
 _STATISTIC = re.compile(rf"\s*({'|'.join(EXTREMES)})\s+of\s+(.+)", re.DOTALL)

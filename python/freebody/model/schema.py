@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field, model_validator
 
-from freebody.core import Settings, cards
+from freebody.core import EXTREMES, Settings, cards
 
 from .elements import Force, Joint
 from .switches import Contact, Event, Stop, String
@@ -226,7 +226,6 @@ class Run(Section):
 
 
 Moment = Number
-EXTREMES = ("max", "min", "mean", "rms", "integral")
 
 
 class Question(Section):
@@ -236,6 +235,8 @@ class Question(Section):
     at: Moment = Field(None, description="`start`, `end`, an event, or a time.")
     max: Text = None
     min: Text = None
+    maxima: Text = Field(None, description="All local ones.")
+    minima: Text = Field(None, description="All local ones.")
     mean: Text = None
     rms: Text = None
     integral: Text = None
@@ -246,9 +247,11 @@ class Question(Section):
     def _one_question(self) -> Question:
         asked = self.model_fields_set & {"value", *EXTREMES}
         if len(asked) != 1:
-            raise refuse("a report needs one of `value`, `max`, `min`, `mean`, `rms`, `integral`", "give exactly one of them")
+            raise refuse(
+                f"a report needs one of `value`, {', '.join(f'`{word}`' for word in EXTREMES)}", "give exactly one of them"
+            )
         if "over" in self.model_fields_set and "value" in asked:
-            raise refuse("`over` goes with max, min, mean, rms or integral", "for one moment write `at`")
+            raise refuse(f"`over` goes with {', '.join(EXTREMES)}", "for one moment write `at`")
         if "at" in self.model_fields_set and "value" not in asked:
             raise refuse("`at` goes with `value`", "for a window write `over: [a, b]`")
         return self

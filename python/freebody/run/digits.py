@@ -284,9 +284,11 @@ class Accuracy:
     @cached_property
     def report(self) -> dict[str, Reported]:
         """The reported quantities of the run, with the digits that hold."""
-        return {item.label: self._reported(item, self.run.report[item.label]) for item in self.run.source.report}
+        of = {label: item for item in self.run.source.report for label in self.run.report if label.rpartition("[")[0] == item.label}
+        of |= {item.label: item for item in self.run.source.report if item.label in self.run.report}
+        return {label: self._reported(of[label], label, mine) for label, mine in self.run.report.items()}
 
-    def _reported(self, item: ReportItem, mine: Reported) -> Reported:
+    def _reported(self, item: ReportItem, label: str, mine: Reported) -> Reported:
         if mine.value is None:
             return mine
         over, read, unit = Window.within(self.run.edges, item.over), expression(item.value), unit_size(item.unit)
@@ -294,12 +296,14 @@ class Accuracy:
         if (t if item.how == "at" else over.edges[-1]) >= self.parting:
             known = Known(value, math.inf, abs(value))
         else:
-            other = self.other.reported(item)
-            its_value = math.inf if other.value is None else other.value * unit
+            other = self.other.report.get(label)
+            its_value = math.inf if other is None or other.value is None else other.value * unit
             if item.how == "at":
                 [known], t = self.figures(read, t), self.time(t)
                 known = Known(value, max(known.error, SAFETY * abs(value - its_value)), max(known.size, abs(value)))
-            elif item.how in ("max", "min"):
+            elif other is None:
+                known = Known(value, math.inf, abs(value))
+            elif item.how in ("max", "min", "maxima", "minima"):
                 t, known = self.extreme(self.band(read), 0, (t, value), (other.t, its_value))
             else:
                 known = self._integral(item.how, read, over, value, its_value)

@@ -9,8 +9,9 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 
-from freebody.core import Array, ReportItem, cards, quote
+from freebody.core import EXTREMES, Array, ReportItem, cards, quote
 from freebody.solve.figures import figure
 from freebody.symbolic.alphabet import GREEK
 from freebody.symbolic.symbols import Name
@@ -19,6 +20,12 @@ Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt
 
 KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
 """Of columns, in their order."""
+_DEGREE = 16
+"""Of the polynomial that follows a signal between two samples: eight of them are in a step, which one of degree 8 follows."""
+_FOLLOWED = 1e-9
+"""Part of its swing that the last coefficients of a polynomial may have which follows a signal."""
+_LEVEL = 1e-13
+"""Part of the size of a signal that is round-off."""
 ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
@@ -152,29 +159,55 @@ class Window:
         return np.append(inner.ravel(), self.edges[-1])
 
 
-def maximum(signal: Signal, window: Window, candidates: int = 6) -> tuple[float, float]:
-    """Time and value of the largest value in the window: the best samples, each refined."""
+def maximum(signal: Signal, window: Window, candidates: int = 6, rate: Signal | None = None) -> tuple[float, float]:
+    """Time and value of the largest value in the window: the best samples, each refined; by the ``rate`` of the signal, if given."""
     t = window.samples()
-    return refined(signal, t, signal(t), candidates)
+    return refined(signal, t, signal(t), candidates, rate)
 
 
-def refined(signal: Signal, t: Array, y: Array, candidates: int = 6) -> tuple[float, float]:
+def refined(signal: Signal, t: Array, y: Array, candidates: int = 6, rate: Signal | None = None) -> tuple[float, float]:
     """Time and value of the largest value, from samples y (nt,) at times t (nt,): the best of them, each refined."""
     padded = np.concatenate([[-np.inf], y, [-np.inf]])
     peaks = np.flatnonzero((y >= padded[:-2]) & (y >= padded[2:]))
     best = peaks[np.argsort(y[peaks])[-candidates:]]
-    found = [_zoom(signal, t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)]) for i in best]
-    return max(found, key=lambda pair: pair[1])
+    return max((_peak(signal, t, i, rate) for i in best), key=lambda pair: pair[1])
 
 
-def minimum(signal: Signal, window: Window) -> tuple[float, float]:
-    """Time and value of the smallest value in the window."""
-    when, negative = maximum(lambda t: -signal(t), window)
-    return when, -negative
+def maxima(signal: Signal, window: Window, rate: Signal | None = None) -> list[tuple[float, float]]:
+    """Times and values of all local maxima within the window, in order; its ends are none. What rises or falls by less than
+    round-off is level."""
+    t = window.samples()
+    y = signal(t)
+    level = _LEVEL * float(np.abs(y).max())
+    found, best, rises = [], 0, False
+    for i, value in enumerate(y.tolist()):
+        if rises and value < y[best] - level:
+            found.append(_peak(signal, t, best, rate))
+        if (value < y[best] - level) if rises else (value > y[best] + level):
+            best, rises = i, not rises
+        elif (value > y[best]) if rises else (value < y[best]):
+            best = i
+    return found
 
 
-def _zoom(signal: Signal, start: float, end: float) -> tuple[float, float]:
-    """The largest value between two times, by narrowing a small grid about its best place; kinks do no harm."""
+def _peak(signal: Signal, t: Array, i: int, rate: Signal | None) -> tuple[float, float]:
+    """The largest value beside sample ``i``: of each side by itself, for steps end at samples."""
+    sides = [(a, b) for a, b in pairwise(t[max(i - 1, 0) : i + 2].tolist()) if a < b]
+    here = float(t[i]), float(signal(t[i : i + 1])[0])
+    return max((here, *(_largest(signal, *side, rate) for side in sides)), key=lambda pair: pair[1])
+
+
+def _largest(signal: Signal, start: float, end: float, rate: Signal | None) -> tuple[float, float]:
+    """The largest value between two times: at a root of the derivative, or at an end, where it may jump. What no polynomial
+    follows has a kink there: then by narrowing a small grid about the best place."""
+    followed = Chebyshev.interpolate(rate or signal, _DEGREE, [start, end])
+    sizes = np.abs(followed.coef)
+    if sizes[-2:].max() <= _FOLLOWED * sizes[1:].sum() + _LEVEL * sizes[0]:
+        roots = (followed if rate else followed.deriv()).roots()
+        inside = [float(root.real) for root in roots if abs(root.imag) <= _FOLLOWED * (end - start) and start < root.real < end]
+        t = np.array([start, *inside, np.nextafter(end, start), end])
+        y = signal(t)
+        return float(t[y.argmax()]), float(y.max())
     # A smooth peak is flat to round-off within the square root of the machine's epsilon.
     least = 1e-9 * max(abs(start), abs(end))
     while True:
@@ -200,15 +233,23 @@ def integral(signal: Signal, window: Window, rtol: float = 1e-11) -> float:
     return sum(quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)[0] for a, b in steps)
 
 
-def reduce(how: str, signal: Signal, window: Window) -> tuple[float | None, float]:
-    """Time (None where it is not one) and value of an extreme, mean, rms or integral over a window."""
-    if how in ("max", "min"):
-        return (maximum if how == "max" else minimum)(signal, window)
-    if how in ("integral", "mean"):
-        return None, integral(signal, window) / (1.0 if how == "integral" else window.length)
+def reduce(how: str, signal: Signal, window: Window, rate: Signal | None = None) -> list[tuple[float | None, float]]:
+    """Time (None where it is not one) and value of an extreme, mean, rms or integral over a window; of all local maxima or minima.
+    ``rate`` is the time derivative of the signal, if there is one."""
+    if how in ("min", "minima"):
+        falling = rate and (lambda t: -rate(t))
+        return [(t, -y) for t, y in reduce(how.replace("min", "max"), lambda t: -signal(t), window, falling)]
+    if how == "max":
+        return [maximum(signal, window, rate=rate)]
+    if how == "maxima":
+        return [*maxima(signal, window, rate)]
+    if how == "integral":
+        return [(None, integral(signal, window))]
+    if how == "mean":
+        return [(None, integral(signal, window) / window.length)]
     if how == "rms":
-        return None, float(np.sqrt(integral(lambda t: signal(t) ** 2, window) / window.length))
-    raise ValueError(f"no such reduction: {how!r}; there are max, min, mean, rms, integral")
+        return [(None, float(np.sqrt(integral(lambda t: signal(t) ** 2, window) / window.length)))]
+    raise ValueError(f"no such reduction: {how!r}; there are {', '.join(EXTREMES)}")
 
 
 def columns_of(metadata: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:

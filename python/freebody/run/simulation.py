@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import BEFORE, Change, CompiledModel, Event, Motion, Outcome, ReportItem, Settings, State
+from freebody.core import BEFORE, Change, CompiledModel, Event, ModelError, Motion, Outcome, ReportItem, Settings, State
 from freebody.run import storage
 from freebody.run.digits import Accuracy, other_settings, other_start
 from freebody.run.records import (
@@ -22,6 +22,7 @@ from freebody.run.records import (
     Column,
     Energy,
     Reported,
+    Signal,
     Window,
     columns_of,
     quote,
@@ -201,18 +202,23 @@ class Run:
         """The quantities that the model asks for, by label."""
         if isinstance(self.motion, storage.Recorded):
             return dict(self.motion.header.report)
-        return {item.label: self.reported(item) for item in self.source.report}
+        return {label: reported for item in self.source.report for label, reported in self.reported(item).items()}
 
     def unit_of(self, text: str) -> str:
         """The SI unit of a simple expression; empty where it takes more to tell."""
         return unit_of(text, self.columns, self.metadata)
 
-    def reported(self, item: ReportItem) -> Reported:
-        """One such quantity."""
+    def reported(self, item: ReportItem) -> dict[str, Reported]:
+        """One such quantity, by its label; all local extremes as ``label[1]``, ``label[2]`` …."""
         si = self.unit_of(item.value)
         if item.how != "at":
-            when, value = reduce(item.how, lambda t: self.evaluate(item.value, t), Window.within(self.edges, item.over))
-            return Reported.of(item, value, when, f"{si}*s" if si and item.how == "integral" else si)
+            window, own = Window.within(self.edges, item.over), f"{si}*s" if si and item.how == "integral" else si
+            found = reduce(item.how, lambda t: self.evaluate(item.value, t), window, self._rate(item.value))
+            figures = [Reported.of(item, value, when, own) for when, value in found]
+            if item.how not in ("maxima", "minima"):
+                return {item.label: figures[0]}
+            numbered = {f"{item.label}[{i}]": figure for i, figure in enumerate(figures, 1)}
+            return numbered or {item.label: Reported(None, "", note=f"there are no {item.how}")}
         at, before = (item.at[len(BEFORE) :], True) if str(item.at).startswith(BEFORE) else (item.at, False)
         if at in ("start", "end"):
             moments = [float(self.edges[0 if at == "start" else -1])]
@@ -221,9 +227,18 @@ class Run:
         else:
             moments = [float(at)] if self.edges[0] <= at <= self.edges[-1] else []
         if not moments:
-            return Reported(None, "", note=f"{at} did not happen")
+            return {item.label: Reported(None, "", note=f"{at} did not happen")}
         note = ", ".join(["just before"] * before + [f"the first of {len(moments)}"] * (len(moments) > 1))
-        return Reported.of(item, (self.before if before else self.evaluate)(item.value, moments[0]), moments[0], si, note)
+        value = (self.before if before else self.evaluate)(item.value, moments[0])
+        return {item.label: Reported.of(item, value, moments[0], si, note)}
+
+    def _rate(self, text: str) -> Signal | None:
+        """The time derivative of an expression of the configuration; None for any other."""
+        try:
+            self.motion.evaluate([f"rate({text})"], self.edges[:1])
+        except ModelError:
+            return None
+        return lambda t: self.evaluate(f"rate({text})", t)
 
     @cached_property
     def edges(self) -> Array:

@@ -16,6 +16,9 @@ const NEAR_SINGULAR: f64 = 0.1;
 /// That below which the steps look out for a singular configuration: far enough to come to it by a step across.
 const WATCHED: f64 = 0.5;
 
+/// Size of a guard, for its round-off, while coordinates are small: places are sums of some lengths.
+const ROUNDOFF: f64 = 4.0;
+
 /// A phase of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]
 pub struct Phase {
@@ -71,6 +74,8 @@ pub struct HybridSystem<'m> {
     /// Independence of the closing rows at the end of the last step; 0 where a phase begins, before it is known.
     pub(super) independence: f64,
     scales: Vec<f64>,
+    /// A large change of each coordinate.
+    units: Vec<f64>,
     /// Size of a guard, for its round-off.
     roundoff_scale: f64,
 }
@@ -109,6 +114,7 @@ impl<'m> HybridSystem<'m> {
             near_singular: false,
             independence: 0.0,
             scales: vec![1.0; size],
+            units: vec![],
             roundoff_scale: 1.0,
         }
     }
@@ -193,10 +199,9 @@ impl<'m> HybridSystem<'m> {
         let inertia = numbers.mass.iter().sum::<f64>() * length * length + turning;
         let energy = (inertia * rate * rate).max(self.workspace.kinetic_energy()).max(f64::MIN_POSITIVE);
         scales.resize(self.scales.len(), energy);
-        // A gap is told to the round-off of places.
-        let shift = |i: &usize| m.coordinate(*i).dimension == "m";
-        self.roundoff_scale = 4.0 * (0..n).filter(shift).map(|i| q[i].abs() / length).fold(1.0, f64::max);
         self.scales = scales;
+        self.units = units;
+        self.roundoff_scale = ROUNDOFF;
         self.speed = length * rate;
         self.time = 1.0 / rate;
         self.strength = energy / length;
@@ -364,6 +369,9 @@ impl System for HybridSystem<'_> {
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
         let m = self.workspace.m;
+        // A gap is told to the round-off of places and angles, which grows with them.
+        let largest = y.iter().zip(&self.units).map(|(q, unit)| q.abs() / unit).fold(1.0, f64::max);
+        self.roundoff_scale = self.roundoff_scale.max(ROUNDOFF * largest);
         let laws: Vec<&ModelExpr> = m.events.iter().map(|e| &e.when).collect();
         let values = if laws.is_empty() { vec![] } else { self.read(&laws, t, y)? };
         out[..values.len()].copy_from_slice(&values);

@@ -50,8 +50,11 @@ impl Runner<'_> {
         let first = *crossings.first().expect("the caller saw one");
         let (hits, later): (Vec<Mark>, Vec<Mark>) =
             crossings.into_iter().partition(|mark| is_tie(mark.t, first.t, self.norm.time));
-        self.note_touches(&segment, marks, first.t);
-        self.step_onto(&segment, first, later.first().map_or(segment.t1, |mark| mark.t))?;
+        let arrived = self.step_onto(&segment, first, later.first().map(|mark| mark.t))?;
+        self.note_touches(&segment, marks, self.now.t);
+        if !arrived {
+            return self.look_around(&[], false);
+        }
         let has_jumped = self.act(&hits)?;
         if has_jumped {
             self.stepper.reset();
@@ -86,21 +89,25 @@ impl Runner<'_> {
         Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
     }
 
-    /// Makes a true step to a zero that was found on the dense output of a longer one, and once
-    /// more when the function is not yet zero there; not beyond `next`, where another one vanishes.
-    fn step_onto(&mut self, segment: &Segment, hit: Mark, next: f64) -> Result<(), Outcome> {
-        let (t0, t1) = (segment.t0.min(next), segment.t0.max(next));
-        let mut t = hit.t;
+    /// Makes a true step to a zero that was found on the dense output of a longer one, and once more when the function is
+    /// not yet zero there. Answers whether it got there: not where another one vanishes clearly before, at `next` as the
+    /// dense output tells it; which comes first is then found from there.
+    fn step_onto(&mut self, segment: &Segment, hit: Mark, next: Option<f64>) -> Result<bool, Outcome> {
+        let last = next.unwrap_or(segment.t1);
+        let (t0, t1) = (segment.t0.min(last), segment.t0.max(last));
+        let (mut t, mut arrives) = (hit.t, true);
         for _ in 0..3 {
             if t == self.now.t {
-                return Ok(());
+                return Ok(true);
             }
             self.step_to(t)?;
             let mut values = vec![0.0; self.system.system.switches()];
             let system = &mut *self.system.system;
             system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
-            let slope = Probe::new(system, segment).slope(hit.index, t).map_err(Outcome::DynamicsError)?;
-            let better = (t - values[hit.index] / slope).clamp(t0, t1);
+            let slope = Probe::new(system, segment).slope(hit.index, t, self.detector.noise(hit.index));
+            let found = t - values[hit.index] / slope.map_err(Outcome::DynamicsError)?;
+            let better = found.clamp(t0, t1);
+            arrives = next.is_none() || better != last || is_tie(found, last, self.norm.time);
             if better.is_nan() || (better - t).abs() <= 4.0 * f64::EPSILON * t.abs() {
                 break;
             }
@@ -108,7 +115,7 @@ impl Runner<'_> {
         }
         let landed = self.segment()?;
         self.push(landed);
-        Ok(())
+        Ok(arrives)
     }
 
     /// Makes a step to `t`, which is known to be short enough.

@@ -19,6 +19,9 @@ const CONVERGED: f64 = 1e-9;
 const FAR_FROM_ZERO: f64 = 1e-2;
 /// A function changes at most this many times as fast as its steepest secant.
 const STEEPER: f64 = 1.5;
+/// Parts of a step over which a rate is taken: the least whose change stands out of round-off by this much.
+const SLOPE_REACHES: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
+const STANDS_OUT: f64 = 100.0;
 /// Values of one function in one step that are asked for beside the samples and extrema.
 const PATIENCE: usize = 300;
 
@@ -141,7 +144,7 @@ impl EventDetector {
                 continue;
             }
             let largest = values.iter().fold(0.0, |top: f64, value| top.max(value.abs()));
-            self.memory[i].size = self.memory[i].size.max(largest);
+            self.memory[i].size = self.memory[i].size.max(largest).max(probe.system.switch(i).scale);
             let nodes = self.nodes(i, values, &mut probe)?;
             self.walk(i, &nodes, &mut probe, &mut marks)?;
         }
@@ -314,6 +317,11 @@ impl EventDetector {
         }
     }
 
+    /// Size below which a value of function `i` is zero.
+    pub fn noise(&self, i: usize) -> f64 {
+        NOISE * self.memory[i].size
+    }
+
     /// Function `i` is not watched any more.
     pub fn mute(&mut self, i: usize) {
         self.memory[i].is_muted = true;
@@ -389,12 +397,18 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// Rate of switching function `i` at time `t`.
-    pub fn slope(&mut self, i: usize, t: f64) -> Result<f64, DynamicsError> {
+    /// Rate of switching function `i` at time `t`, whose values are told to a `noise`.
+    pub fn slope(&mut self, i: usize, t: f64, noise: f64) -> Result<f64, DynamicsError> {
         let (low, high) =
             if self.ahead() > 0.0 { (self.segment.t0, self.segment.t1) } else { (self.segment.t1, self.segment.t0) };
-        let reach = 1e-4 * self.length();
-        let (a, b) = ((t - reach).max(low), (t + reach).min(high));
-        Ok((self.one(i, b)? - self.one(i, a)?) / (b - a))
+        let (mut change, mut time) = (0.0, 1.0);
+        for reach in SLOPE_REACHES.map(|part| part * self.length()) {
+            let (a, b) = ((t - reach).max(low), (t + reach).min(high));
+            (change, time) = (self.one(i, b)? - self.one(i, a)?, b - a);
+            if change.abs() > STANDS_OUT * noise {
+                break;
+            }
+        }
+        Ok(change / time)
     }
 }

@@ -1,0 +1,114 @@
+"""What switches, and in which order, does not depend on the tolerance at which a motion is followed."""
+
+from collections import defaultdict
+
+import numpy as np
+import pytest
+from random_models import switching
+from seen import kinds
+from seen import model as loaded
+from store import every
+
+import freebody as fb
+
+TOLERANCES = np.logspace(-5, -13, 17)
+
+CLEARANCE = """
+parameters: {{l1: 0.153 m, l2: 0.306 m, a: 0.05 m, b: 0.025 m, c: {clearance} m}}
+ground: {{points: {{U: [0, b + c], D: [0, -b - c]}}, lines: {{floor: {{through: D, angle: 0}}, roof: {{through: U, angle: 180 deg}}}}}}
+bodies:
+  crank: {{shape: rod, length: l1, mass: 0.038, inertia: 7.4e-5}}
+  rod: {{shape: rod, length: l2, mass: 0.038, inertia: 5.9e-4}}
+  slider: {{mass: 0.076, inertia: 2.7e-6, points: {{c1: [-a, b], c2: [a, b], c3: [-a, -b], c4: [a, -b]}}}}
+joints:
+  O: {{type: hinge, of: [ground.O, crank.start], coordinate: th1}}
+  A: {{type: hinge, of: [crank.end, rod.start], coordinate: {{name: th2, absolute: true}}}}
+  B: {{type: hinge, of: [rod.end, slider.origin], coordinate: {{name: th3, absolute: true}}}}
+contacts:
+  c1: {{of: [slider.c1, ground.roof], restitution: {restitution}, friction: {friction}}}
+  c2: {{of: [slider.c2, ground.roof], restitution: {restitution}, friction: {friction}}}
+  c3: {{of: [slider.c3, ground.floor], restitution: {restitution}, friction: {friction}}}
+  c4: {{of: [slider.c4, ground.floor], restitution: {restitution}, friction: {friction}}}
+initial: {{th1: 0, th2: 0, th3: 0, rates: {{th1: 150, th2: -75, th3: -0.01}}}}
+run: {{until: 0.1, impacts: newton}}
+"""
+"""A slider-crank whose slider has clearance (Flores, Leine, Glocker 2010, *Multibody System Dynamics* 23): its corners lift off
+together, and bounce without end."""
+
+SLOT = """
+parameters: {{b: 0.02 m, c: {clearance} m, tilt: {tilt} deg}}
+ground: {{points: {{U: [0, b + c], D: [0, -b - c]}}, lines: {{low: {{through: D, angle: 0}}, high: {{through: U, angle: 180 deg}}}}}}
+bodies:
+  block: {{mass: 0.5, inertia: 2e-4, points: {{p1: [-0.04, -b], p2: [0.04, -b], p3: [-0.04, b], p4: [0.04, b]}}}}
+gravity: [9.81*sin(tilt), -9.81*cos(tilt)]
+joints: {{J: {{type: free, of: [ground.O, block.origin], coordinates: [x, y, th]}}}}
+forces: {{shake: {{type: force, at: block.p2, x: 0, y: "12*sin(40*t)"}}}}
+contacts:
+  p1: {{of: [block.p1, ground.low], restitution: {restitution}, friction: 0.1}}
+  p2: {{of: [block.p2, ground.low], restitution: {restitution}, friction: 0.1}}
+  p3: {{of: [block.p3, ground.high], restitution: {restitution}, friction: 0.1}}
+  p4: {{of: [block.p4, ground.high], restitution: {restitution}, friction: 0.1}}
+initial: {{x: 0, y: -c, th: 0, at_rest: true}}
+run: {{until: 0.5, impacts: newton}}
+"""
+"""A block in a straight slot of some play, that a force at one of its corners rocks."""
+
+FAMILY = {
+    **{
+        f"clearance {size} of {restitution} and {friction}": CLEARANCE.format(
+            clearance=size, restitution=restitution, friction=friction
+        )
+        for size in (0.0003, 0.001, 0.003, 0.01)
+        for restitution, friction in ((0.0, 0.0), (0.4, 0.01), (0.7, 0.2))
+    },
+    **{
+        f"slot {size} at {tilt}°, {restitution}": SLOT.format(clearance=size, tilt=tilt, restitution=restitution)
+        for size in (0.0001, 0.001)
+        for tilt in (0, 20)
+        for restitution in (0.0, 0.3)
+    },
+}
+
+
+@every(FAMILY, share=5)
+def test_the_sequence_of_mode_changes_does_not_depend_on_the_tolerance(model):
+    mechanism = loaded(FAMILY[model])
+    runs = [mechanism.simulate(rtol=float(rtol)) for rtol in TOLERANCES]
+    assert all(run.outcome.ok for run in runs), [run.outcome.sentence for run in runs]
+    assert {tuple(kinds(run)) for run in runs} == {tuple(kinds(runs[-1]))}
+    assert len(kinds(runs[-1])) > 3
+
+
+SENSITIVITY = 1e4
+"""Change of the instants of a second of motion, s, over the tolerance: impacts and swings make errors grow."""
+
+
+def outcome(mechanism: fb.Mechanism, rtol: float) -> tuple[str, dict[tuple[str, ...], list[float]]]:
+    """How a run ends, and when each of its changes and events happens, in s."""
+    try:
+        run = mechanism.simulate(rtol=rtol)
+    except fb.MotionError as error:
+        return error.kind.value, {}
+    instants = defaultdict(list)
+    for change in run.motion.record["changes"]:
+        instants[(change["kind"], *change["of"])].append(change["t"])
+    for event in run.events:
+        instants[event.name, event.kind].append(event.t)
+    return run.outcome.name.value, dict(instants)
+
+
+@every(map(str, range(300)), "seed", share=40)
+def test_outcome_and_events_do_not_depend_on_the_tolerance(seed):
+    mechanism = switching(int(seed))
+    try:
+        mechanism.start()
+    except fb.MotionError as error:
+        pytest.skip(error.kind.value)
+    *others, known = [(rtol, *outcome(mechanism, float(rtol))) for rtol in TOLERANCES[:-1]]
+    for rtol, end, instants in others:
+        assert end == known[1], rtol
+        assert {name: len(times) for name, times in instants.items()} == {name: len(times) for name, times in known[2].items()}, (
+            rtol
+        )
+        for name, times in instants.items():
+            assert times == pytest.approx(known[2][name], rel=0, abs=SENSITIVITY * rtol), (rtol, name)
