@@ -55,7 +55,7 @@ def test_a_cart_that_rubs_stays_where_it_comes_to_rest() -> None:
     """With −c ẋ the root 0 is single: nothing drifts, and the rest dies out, as the cart takes part in all of it."""
     stated = said(CART + DRAG)
     assert "No load restores x: a small perturbation stays as it is." in stated and "drift" not in stated
-    assert "Apart from that, small perturbations of x, θ decay for all values" in stated
+    assert "Apart from that, small perturbations of x, θ decay if - c > 0 Masses" in stated
 
 
 def test_matrices_do_not_take_letters_of_the_model() -> None:
@@ -70,7 +70,7 @@ def test_matrices_do_not_take_letters_of_the_model() -> None:
 EQUAL = {
     "equal frequencies, each with a direction of its own": ("", "Small perturbations stay small and oscillate for all values"),
     "one is pulled by the other's angle and so at its own frequency": (PULL, "A repeated eigenvalue has one eigenvector only"),
-    "one of them is damped": (BEARING, "Small perturbations stay small: some decay, others oscillate for all values"),
+    "one of them is damped": (BEARING, "Small perturbations stay small: some decay, others oscillate if - c > 0 Masses"),
 }
 
 
@@ -114,6 +114,14 @@ joints:
 motions: {hold: {of: s, is: p*theta + d*rate(theta) + x*s + v*rate(s), level: acceleration}}
 initial: {s: 0, theta: 0, at_rest: true}
 """
+
+
+@pytest.mark.parametrize(("p", "d"), [(30, 7), (30, -7), (5, 7), (-5, -7)])
+def test_gains_are_conditions_whatever_they_are_in_the_model(p: float, d: float) -> None:
+    """s̈ = p θ + d θ̇ holds the broom up, λ² + κ d λ + κ (p − g) = 0 with κ = 3/2l, where p > g and d > 0."""
+    hand = HAND.replace("p: 30", f"p: {p}").replace("d: 7", f"d: {d}").replace(" + x*s + v*rate(s)", "").replace(" x: 1, v: 1.5,", "")
+    stated = said(hand)
+    assert "decay if - d > 0 - p − g > 0 Masses, inertias, lengths, stiffnesses and gravity are taken as positive." in stated
 
 
 def test_a_hand_that_follows_a_law_is_part_of_what_is_left() -> None:

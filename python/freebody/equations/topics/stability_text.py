@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -17,13 +18,16 @@ from freebody.symbolic.decimals import shown
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
 
+_POSITIVE = ("kg", "kg*m^2", "m", "N/m")
+"""Units of masses, inertias, lengths and stiffnesses."""
+_TAKEN = "Masses, inertias, lengths, stiffnesses and gravity are taken as positive."
 Factors = list[tuple[list[Tree], int]]
 
 
 def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter]) -> list[Block]:
     """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short."""
     made: list[Block] = []
-    positive = [letter.name for letter, value in subject.values.items() if not letter.dots and value > 0]
+    positive = _positive(subject)
     try:
         matrix = found.first_order()
         parts = factors(characteristic(matrix, subject.letters), subject.letters)
@@ -40,6 +44,19 @@ def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, L
     except (TooLarge, Singular) as error:
         made.append(Paragraph(f"No more is given symbolically: {error}."))
     return made + _numbers(subject, found)
+
+
+def _positive(subject: SymbolicState) -> list[str]:
+    """Masses, inertias, lengths, stiffnesses and gravity: the only symbols that are taken as positive, where they are so. Gains,
+    dampings and the rest may have any sign, whatever they are in the model."""
+    spec, letters = subject.source.spec, subject.letters
+    read_as = (str([spec["gravity"], *(force["with"].get("stiffness", "") for force in spec["forces"])]), "g")
+    named = {word for text in read_as for word in re.findall(r"[^\W\d]\w*", text)}
+    return [
+        name
+        for name in letters.of_kind("parameter", "constant")
+        if (letters[name].unit in _POSITIVE or name in named) and subject.values[Sym(name)] > 0
+    ]
 
 
 def _product(parts: Factors) -> Tree:
@@ -94,7 +111,8 @@ def _stability(
     never = any(each.never for each in stated)
     moving = listed(Sym(letters[name].name) for name in near.moving)
     made.append(Paragraph(_verdict(stated, bool(near.free), bool(conditions), never, moving)))
-    return made + [Bullets([[shown(condition), " > 0"] for condition in conditions])] * bool(conditions and not never)
+    made += [Bullets([[shown(condition), " > 0"] for condition in conditions])] * bool(conditions and not never)
+    return [*made, Paragraph(_TAKEN)]
 
 
 def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
@@ -117,7 +135,7 @@ def _verdict(stated: Sequence[Stability], free: bool, conditions: bool, never: b
         return [*what, " grow, whatever the values of the symbols: it is unstable."]
     does = {"decays": "decay", "oscillates": "stay small and oscillate"}.get(*kinds) if len(kinds) == 1 else None
     does = does or "stay small: some decay, others oscillate"
-    return [*what, f" {does}{' if' if conditions else ' for all values of the symbols (those of the model being positive).'}"]
+    return [*what, f" {does}{' if' if conditions else ' for all values of the symbols.'}"]
 
 
 def _numbers(subject: SymbolicState, found: Linearised) -> list[Block]:
