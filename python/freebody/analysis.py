@@ -8,9 +8,9 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import MotionError, Settings
-from freebody.model.answers import numbers
+from freebody.model.answers import fault, numbers
 from freebody.model.errors import ModelFileError, Problem
-from freebody.model.start import evaluate
+from freebody.model.start import evaluate, many_turns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,9 +39,10 @@ class Moving:
         """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
         and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
         given = self.initial_state(changes, initial)
-        p = given.pop("p")
+        p, turns = given.pop("p"), many_turns(self.lowered().start, initial, changes)
         with self.core_errors():
-            return self.compile().assemble(p, t, **given)
+            state, notes = self.compile().assemble(p, t, **given)
+        return state, [*turns, *notes]
 
     def solve(
         self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
@@ -166,13 +167,16 @@ class Moving:
         """The motion from the start to ``until`` (s, or a quantity like ``"200 ms"``) or to an event that ends it.
 
         ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
-        ``impacts``, ``painleve``; ``initial`` replaces the section of that name. ``t_eval`` fixes the output times and never
-        changes the steps. Where an event continues with another model, its run is ``next`` of this one.
+        ``impacts``, ``painleve``; any others are changes as in ``solve``. ``initial`` replaces the section of that name. ``t_eval``
+        fixes the output times and never changes the steps. Where an event continues with another model, its run is ``next`` of this
+        one.
         """
         from freebody.run.model_sequence import Stage, follow
 
-        state, notes = self.start(initial, t)
-        if initial is None and self.lowered().start.equilibrium:
+        words = {field.name for field in fields(Settings)}
+        changes = {name: settings.pop(name) for name in settings.keys() - words}
+        state, notes = self.start(initial, t, **changes)
+        if initial is None and not changes and self.lowered().start.equilibrium:
             self.check_equilibrium(state)
         for file in self.lowered().hand_over.values():
             self.handed(file).compile()  # what is wrong there is told before anything moves
@@ -294,13 +298,12 @@ class Moving:
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
-        known = [field.name for field in fields(Settings) if field.name != "until"]
-        unknown = [name for name in overrules if name not in known]
-        if unknown:
-            raise TypeError(f"simulate() knows no {unknown[0]!r}; it takes until, initial, t_eval, progress, {', '.join(known)}")
         asked = self.run_numbers()
         end = asked.until if until is None else evaluate(until, {})
         if end is None:
             hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
             raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
-        return replace(asked, until=end, **numbers(overrules, {}))
+        settings = replace(asked, until=end, **numbers(overrules, {}))
+        if wrong := fault(settings):
+            raise self.error(("run", wrong[0]), *wrong[1:])
+        return settings

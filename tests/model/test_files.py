@@ -129,7 +129,7 @@ numbers = st.one_of(
     st.integers(-(10**20), 10**20),
     st.floats(allow_nan=False, allow_infinity=False),
     st.sampled_from(["400 mm", "2*l", "30 deg", "m2/3", "'crank drive'.force"]),
-    odd_texts,
+    odd_texts.filter(lambda text: text != "2020-01-01"),  # a date is no number
 )
 refs = st.sampled_from(["ground.O", "rod.start", "crank drive.end", "link[1].end"])
 pairs = st.lists(numbers, min_size=2, max_size=2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import fields, replace
@@ -18,6 +19,8 @@ from .writer import Writer
 _STATISTIC = re.compile(rf"\s*({'|'.join(EXTREMES)})\s+of\s+(.+)", re.DOTALL)
 _OVER = re.compile(r"(.+?)\s+over\s+(.+?)\s*\.\.\s*(.+)", re.DOTALL)
 _WORDS = ("start", "end")
+MAX_ROWS = 1_000_000
+"""Rows of output, and fixed steps, that a run may be asked for."""
 
 Moment = str | float
 """As in ``ReportItem``."""
@@ -35,15 +38,34 @@ def numbers(given: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, 
     return {name: v if v is None or name in words else start.evaluate(v, values) for name, v in given.items()}
 
 
+def fault(settings: Settings) -> tuple[str, str, str] | None:
+    """The setting with which there is no run, what is wrong with it, and what to try."""
+    for name in ("until", "rtol", "step", "max_step", "every"):
+        value = getattr(settings, name)
+        if value is not None and not (math.isfinite(value) and (value > 0 or (name == "until" and value == 0))):
+            return name, f"`{name}` is {value:g}, and must be above 0", "check its sign and its size"
+    if settings.rtol >= 1:
+        return "rtol", f"`rtol` is {settings.rtol:g}; a relative tolerance is below 1", f"by default it is {Settings.rtol:g}"
+    method = cards.methods().get(settings.method)
+    if method and method.fixed_step and settings.step is None:
+        return "method", f"`{settings.method}` needs a fixed step", f"add `step: 1 ms`, or choose `{Settings.method}`"
+    for name, rows in (("every", "rows"), ("step", "steps")):
+        if (spacing := getattr(settings, name)) and (settings.until or 0.0) / spacing > MAX_ROWS:
+            what = f"`{name}: {spacing:g}` makes {settings.until / spacing:.3g} {rows} until {settings.until:g} s; at most {MAX_ROWS} are kept"
+            return name, what, f"choose a larger `{name}`"
+    return None
+
+
 def run(write: Writer) -> dict[str, Any]:
     """What the model says of ``Settings``; some may be expressions of parameters."""
     stated = write.scope.model.run or Run()
     units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
-    if cards.methods()[stated.method].fixed_step and stated.step is None:
-        hint = f"add `step: 1 ms`, or choose `{Settings.method}`"
-        write.scope.complain(("run", "method"), f"`{stated.method}` needs a fixed step", hint)
     given = stated.model_dump(exclude_none=True)
-    return {n: write.number(("run", n), v, units_of[n], f"`{n}`") if n in units_of else v for n, v in given.items()}
+    found = {n: write.number(("run", n), v, units_of[n]) if n in units_of else v for n, v in given.items()}
+    sizes = {n: write.size(v) if n in units_of else v for n, v in given.items()}
+    if None not in sizes.values() and (wrong := fault(Settings(**sizes))):
+        write.scope.complain(("run", wrong[0]), *wrong[1:])
+    return found
 
 
 def report(write: Writer) -> list[ReportItem]:

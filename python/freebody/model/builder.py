@@ -11,7 +11,7 @@ from pydantic import ValidationError
 from freebody.core import CompiledModel, ReportItem, Settings
 
 from . import file, reading, schema
-from .answers import numbers, timed
+from .answers import fault, numbers, timed
 from .errors import ModelFileError, ModelProblem, Path, Problem
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
@@ -334,7 +334,10 @@ class Builder:
 
     def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Settings:
         """The settings of ``run`` as numbers, for these parameters (the model's by default)."""
-        return Settings(**numbers(self.lowered().run, self._values(parameters)))
+        found = Settings(**numbers(self.lowered().run, self._values(parameters)))
+        if wrong := fault(found):
+            raise self.wrong(("run", wrong[0]), *wrong[1:])
+        return found
 
     def report_items(self, parameters: Mapping[str, float] | None = None) -> list[ReportItem]:
         """The quantities to report, for these parameters (the model's by default)."""

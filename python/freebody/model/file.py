@@ -23,11 +23,17 @@ _FLAT = ("parameters", "gravity", "initial", "run")
 def save(model: Model, path: str | FilePath, written: str = "") -> None:
     """Writes the model: as JSON when the name ends so, otherwise as YAML.
 
-    ``written`` is the text that the model came from; its comments, order and spelling stay where the model is unchanged.
+    ``written`` is the text that the model came from; its comments, order and spelling stay where the model is unchanged. What fails
+    midway leaves the old file as it was.
     """
     path = FilePath(path)
     text = json.dumps(model.written(), indent=2, ensure_ascii=False) + "\n" if path.suffix == ".json" else dumps(model, written)
-    path.write_text(text, encoding="utf-8")
+    beside = path.with_name(f".{path.name}.part")
+    try:
+        beside.write_bytes(text.encode())
+        beside.replace(path)
+    finally:
+        beside.unlink(missing_ok=True)
 
 
 def dumps(model: Model, written: str = "") -> str:

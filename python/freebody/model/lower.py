@@ -9,7 +9,9 @@ from functools import cached_property, partial
 from pathlib import Path as FilePath
 from typing import Any
 
-from freebody.core import CompiledModel, ModelError, ReportItem, Spec, cards
+import numpy as np
+
+from freebody.core import CompiledModel, ModelError, MotionError, ReportItem, Spec, State, cards
 from freebody.symbolic.dimensions import TIME
 
 from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, units
@@ -22,6 +24,8 @@ from .writer import Writer
 
 _MARKS = ("points", "lines", "curves")
 _ZEROS = {"right": "0", "up": "pi/2", "left": "pi", "down": "-pi/2"}
+_DRAWN, _AGREED = 5, 1e-6  # states at which a potential is held against its force; relative, far above round-off
+_SIZES = ("length", "rest_length", "radius", "coefficient")
 _PLACES = {"point": Writer.point, "line": Writer.line, "circle": Writer.circle}
 _MEASURED = {"number": Writer.number, "numbers": Writer.numbers, "law": Writer.expression, "gauge": Writer.expression}
 _STEP = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
@@ -57,9 +61,37 @@ class Lowered:
     def compiled(self) -> CompiledModel:
         """The model compiled. Raises ``ModelFileError`` with the place of what it complains about."""
         try:
-            return CompiledModel.of(self.spec)
+            made = CompiledModel.of(self.spec)
         except ModelError as error:
             raise ModelFileError([Problem(self.where(error.path), error.what, error.hint)]) from None
+        wrong = [name for name, (power, rate) in _with_potential(self.spec).items() if not _agrees(made, power, rate)]
+        if wrong:
+            what, hint = (
+                "the potential is not that of the force",
+                "the force along the gauge is −dV/d(gauge): check its sign and factors",
+            )
+            raise ModelFileError([Problem(self.where(f"forces.{name}.potential"), what, hint) for name in wrong])
+        return made
+
+
+def _with_potential(spec: Spec) -> dict[str, tuple[str, str]]:
+    """The power of each force that has a potential, and the rate of that, as expressions."""
+    stated = {force["name"]: force["with"] for force in spec["forces"] if "potential" in force["with"]}
+    return {n: (f"({w['value']})*rate({w['along']})", f"rate({w['potential']})") for n, w in stated.items()}
+
+
+def _agrees(model: CompiledModel, power: str, rate: str) -> bool:
+    """Whether what a force does is taken from its potential, at a few states drawn at random."""
+    drawn, p = np.random.default_rng(0), model.bind()
+    for _ in range(_DRAWN):
+        state = State(p, 0.0, *drawn.uniform(-1.0, 1.0, (2, len(model.metadata["coordinates"]))))
+        try:
+            done, given = model.evaluate([power, rate], state)
+        except MotionError:
+            continue
+        if abs(done + given) > _AGREED * max(abs(done), abs(given)):
+            return False
+    return True
 
 
 def _steps(text: str) -> Path:
@@ -101,12 +133,16 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
 
 
 def _gravity(write: Writer) -> list[Any] | None:
-    value = write.scope.model.gravity
+    value, path = write.scope.model.gravity, ("gravity",)
     if value == "none":
         return None
+    if isinstance(value, list) and all((d := write.dimension(v)) is not None and d.is_number for v in value):
+        what = f"`gravity` is an acceleration (m/s^2); `[{', '.join(map(str, value))}]` is a direction"
+        write.scope.complain(path, what, "multiply it by a size, `9.81 m/s^2*sin(al)`")
+        return None
     if isinstance(value, list):
-        return write.numbers(("gravity",), value, "m/s^2")
-    size = write.number(("gravity",), value, "m/s^2")
+        return write.numbers(path, value, "m/s^2")
+    size = write.number(path, value, "m/s^2")
     return [0.0, -size if isinstance(size, float) else f"-({size})"]
 
 
@@ -193,8 +229,13 @@ def _element(write: Writer, path: Path, element: elements.Element, card: cards.C
     for card_field in card.fields:
         value = elements.given(element, card_field.name)
         if value is not None:
-            unit = None if loose else card_field.unit
-            fields[card_field.name] = _field(write, (*path, card_field.name), card_field.kind, value, unit)
+            here, unit = (*path, card_field.name), None if loose else card_field.unit
+            fields[card_field.name] = _field(write, here, card_field.kind, value, unit)
+            if card_field.name in _SIZES and (write.size(value) or 0.0) < 0:
+                what = f"a {card_field.name.replace('_', ' ')} cannot be negative; `{value}` is {write.size(value):g}"
+                write.scope.complain(here, what, "check its sign")
+    if card.type == "force" and not fields.keys() & {"direction", "x", "y"}:
+        write.scope.complain(path, f"the force `{path[1]}` has no direction", "add `direction: 90 deg`, or give `x` and `y`")
     return {"name": write.prefix + str(path[1]), "type": card.type, "with": fields, "engaged": element.engaged}
 
 

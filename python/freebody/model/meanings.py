@@ -136,7 +136,11 @@ class _Declarations:
         for name, stop in m.stops.items():
             if stop.least is not None and stop.most is not None:
                 self.stops_of(name, "least", "most")
-        found.tables |= {prefix + name for name in m.tables}
+        for name in m.tables:
+            if name in syntax.FUNCTIONS | syntax.CONSTANTS:
+                what = f"`{name}` has a meaning of its own in expressions"
+                self.scope.complain(("tables", name), what, "give the table another name", True)
+            found.tables.add(prefix + name)
         for name, event in m.events.items():
             found.events.add(prefix + name)
             for weld, _, _ in event.welds(name):

@@ -15,7 +15,19 @@ TOKEN = re.compile(rf"(?P<name>{NAME})|(?P<number>{NUMBER})|(?P<degree>°)|(?P<s
 
 _PLAIN = re.compile(NAME.replace("|'[^']*'", ""))
 _INDEX = re.compile(r"(?<=[\w'\]])\[([^\[\]]+)\]")
-_FORBIDDEN = re.compile(r"[.'\"\[\](){},@|]")
+_FORBIDDEN = re.compile(r"[.'\"\[\](){},@|`&#\\\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffd]")
+_SYNONYMS = {
+    **dict.fromkeys(("pin", "pivot", "revolute"), ("hinge",)),
+    **dict.fromkeys(("prismatic", "translational"), ("slider", "slot")),
+    **dict.fromkeys(("fixed", "rigid", "clamped"), ("weld",)),
+    **dict.fromkeys(("bar", "beam", "stick"), ("rod",)),
+    **dict.fromkeys(("wheel", "cylinder", "circle"), ("disk",)),
+    **dict.fromkeys(("box", "block", "plate", "square"), ("rectangle",)),
+    **dict.fromkeys(("point", "ball", "bob"), ("particle",)),
+    **dict.fromkeys(("dashpot", "damping"), ("damper",)),
+    "hoop": ("ring",),
+}
+"""Words of other programs and books, with those of the language."""
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
@@ -46,9 +58,9 @@ def distance(a: str, b: str, enough: int) -> int:
 def suggestion(word: str, known: Iterable[str], what: str = "") -> str:
     """``did you mean `hinge`?``, or the list of the known words when it is short."""
     known = sorted(set(known))
-    near = nearest(word, known)
-    if near is not None:
-        return f"did you mean `{near}`?"
+    meant = [k for k in _SYNONYMS.get(word.lower(), ()) if k in known] or [k for k in [nearest(word, known)] if k]
+    if meant:
+        return f"did you mean {' or '.join(f'`{k}`' for k in meant)}?"
     if not known:
         return f"the model has no {what}" if what else ""
     shown = ", ".join(f"`{k}`" for k in known[:20])
@@ -78,6 +90,8 @@ def fault(name: str) -> str | None:
     if not bare.strip() or bare != bare.strip():
         return "a name needs letters, and no space around them"
     bad = _FORBIDDEN.search(bare)
+    if bad and not bad[0].isprintable():
+        return f"a name cannot hold the character U+{ord(bad[0]):04X}"
     return f"a name cannot hold `{bad[0]}`" if bad else None
 
 

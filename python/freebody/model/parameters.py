@@ -55,7 +55,7 @@ class Parameters:
 
     def number(self, text: Number) -> float:
         """The value of a number of the model. Raises ``ModelProblem``."""
-        return syntax.number(text, self.value)
+        return syntax.number(text, self.value, self.__contains__)
 
     def whole(self, text: str) -> int:
         """The value of a whole number, for repetitions and indices. Raises ``ModelProblem``."""
@@ -67,13 +67,13 @@ class Parameters:
 
     def measured(self, text: Number) -> tuple[float, Dimension | None]:
         """Value and dimension of a number of the model. Raises ``ModelProblem``."""
-        return self.number(text), syntax.dimension(text, self.dimension)
+        return self.number(text), syntax.dimension(text, self.dimension, self.__contains__)
 
     def _order(self) -> list[str]:
         uses: dict[str, list[str]] = {}
         for name, text in self.given.items():
             try:
-                uses[name] = syntax.names_in(text)
+                uses[name] = syntax.names_in(text, self.__contains__)
             except ModelProblem as complaint:
                 self.faults[name], uses[name] = complaint, []
         while True:

@@ -23,6 +23,7 @@ from .parameters import Parameters
 from .schema import Model
 
 MAX_DEPTH = 16
+MAX_PARTS = 1000  # of a whole model, parts of parts included
 ITEMS = ("parameters", "tables", "bodies", "gauges", "joints", "forces", "motions", "contacts", "strings", "stops", "events")
 """Sections of named items."""
 
@@ -36,11 +37,12 @@ class Places(Protocol):
 
 @dataclass
 class Folder:
-    """Where parts are looked for: relative to ``here``, never outside ``root``."""
+    """Where parts are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far."""
 
     here: FilePath
     root: FilePath
     opened: tuple[FilePath, ...] = ()
+    parts: list[FilePath] = field(default_factory=list)
 
     @classmethod
     def of(cls, file: str | FilePath | None) -> Folder:
@@ -64,11 +66,14 @@ class Folder:
             raise ModelProblem(f"model files are parts of one another in a circle: {circle}", "a mechanism cannot hold itself")
         if len(self.opened) >= MAX_DEPTH:
             raise ModelProblem(f"parts are nested more than {MAX_DEPTH} deep")
+        if len(self.parts) >= MAX_PARTS:
+            raise ModelProblem(f"a model has at most {MAX_PARTS} parts, parts of parts included", "use fewer")
+        self.parts.append(path)
         return path
 
     def inside(self, path: FilePath) -> Folder:
         """The folder as seen from a part."""
-        return Folder(path.parent, self.root, (*self.opened, path))
+        return Folder(path.parent, self.root, (*self.opened, path), self.parts)
 
 
 @dataclass

@@ -72,11 +72,30 @@ class Source:
             where = self.where(path[:-1])
             raise ModelFileError([Problem(where, f"the model is too large: {limit}", "aliases (`*name`) count each time")])
         self.values[path] = _mark(node.start_mark)
+        if isinstance(node, (MappingNode, SequenceNode)) and node.flow_style:
+            self._whole(node, path)
         if isinstance(node, MappingNode):
             return self._mapping(node, path)
         if isinstance(node, SequenceNode):
             return [self.read(item, (*path, i)) for i, item in enumerate(node.value)]
-        return _scalar(node.tag.rpartition(":")[2], _paired(node.value))
+        kind, text = node.tag.rpartition(":")[2], _paired(node.value)
+        try:
+            return _scalar(kind, text)
+        except ValueError:
+            self.complain(
+                path, f"`{text}` is no {'whole number' if kind == 'int' else 'number'}", f"leave out the tag `!!{kind}`"
+            )
+            return 0
+
+    def _whole(self, node: MappingNode | SequenceNode, path: Path) -> None:
+        """Raises ``ModelFileError`` where a comma between the parentheses of an expression has ended its text."""
+        inside = [one for item in node.value for one in (item if isinstance(item, tuple) else (item,))]
+        for one in inside[:-1]:
+            if isinstance(one, ScalarNode) and one.style is None and one.value.count("(") > one.value.count(")"):
+                what = f"the text `{one.value}` ends at a comma, which parts items in {{ }} and [ ]"
+                raise ModelFileError(
+                    [Problem(self.at(_mark(one.start_mark), path), what, "put quotes around the whole expression")]
+                )
 
     def _mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
         out: dict[str, Any] = {}
@@ -134,10 +153,12 @@ def caller() -> tuple[str, int]:
 def open_file(path: FilePath) -> Source:
     """Reads a file. Raises ``ModelFileError``, also when it cannot be read."""
     try:
+        if "\0" in str(path) or (path.exists() and not path.is_file()):
+            raise _refused(str(path), "this is no regular file", "give the name of a model file")
         if path.stat().st_size > MAX_BYTES:
             hint = "use repetition, e.g. `link[i = 1 .. N]`"
             raise _refused(str(path), f"the file is larger than {MAX_BYTES // 2**20} MiB", hint)
-        return read_text(path.read_text(encoding="utf-8-sig"), str(path))
+        text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         near = nearest(path.name, (p.name for p in path.parent.glob("*.*")))
         hint = f"did you mean `{near}`?" if near else "check the name and the folder"
@@ -146,10 +167,12 @@ def open_file(path: FilePath) -> Source:
         raise _refused(str(path), f"this is no text in UTF-8 (byte {error.start})", "save it as UTF-8") from None
     except OSError as error:
         raise _refused(str(path), f"it cannot be read: {error.strerror}") from None
+    return read_text(text, str(path))
 
 
 def read_text(text: str, file: str = "model") -> Source:
     """Reads the text of a model. Raises ``ModelFileError`` when it is no YAML mapping."""
+    text = _paired(text)
     if len(text.encode()) > MAX_BYTES:
         raise _refused(file, f"the model is larger than {MAX_BYTES // 2**20} MiB")
     if text.lstrip().startswith("{"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypedDict
@@ -22,7 +23,8 @@ WORDS = ("rates", "at_rest", "guess", "points", "branch")
 
 @dataclass
 class Start:
-    """The section ``initial`` in the core's terms; numbers may be expressions of parameters."""
+    """The section ``initial`` in the core's terms; numbers may be expressions of parameters. ``turns`` is said of angles that may have
+    been meant in degrees."""
 
     fixed: dict[str, Number] = field(default_factory=dict)
     guess: dict[str, Number] = field(default_factory=dict)
@@ -30,6 +32,7 @@ class Start:
     points: dict[str, list[Number]] = field(default_factory=dict)
     branch: dict[str, int] = field(default_factory=dict)
     equilibrium: bool = False
+    turns: list[str] = field(default_factory=list)
     coordinates: dict[str, Dimension | None] = field(default_factory=dict)
     parameters: dict[str, Dimension | None] = field(default_factory=dict)
 
@@ -74,6 +77,7 @@ def _values(writer: Writer, start: Start, path: Path, given: Mapping[str, Any], 
     for name, value in given.items():
         full, here = writer.full(name), (*path, name)
         if full in start.coordinates:
+            start.turns += _many_turns(full, value, start.coordinates[full], order)
             found[full] = writer.number(here, value, _dimension(start, full, order))
         else:
             kind = writer.meanings.values.get(full, ("",))[0]
@@ -119,6 +123,21 @@ def initial_state(start: Start, core: Any, overrides: Mapping[str, Any] | None =
     }
 
 
+def many_turns(start: Start, initial: Mapping[str, Any] | None, changes: Mapping[str, Any]) -> list[str]:
+    """What is worth saying of angles at a start that may have been meant in degrees; the arguments are those of ``initial_state``."""
+    given = {**(initial or {}), **changes}
+    named = given | dict(given.get("guess") or {})
+    found = [note for n, value in named.items() for note in _many_turns(n, value, start.coordinates.get(n), 0)]
+    return found if initial is not None else start.turns + found
+
+
+def _many_turns(name: str, value: Any, dimension: Dimension | None, order: int) -> list[str]:
+    bare = isinstance(value, (int, float)) and dimension is not None and dimension.angle == 1 and order == 0
+    if not bare or abs(value) <= math.tau:
+        return []
+    return [f"{name} = {value:g} rad is {abs(value) / math.tau:.3g} turns; for degrees write `{value:g} deg`"]
+
+
 def parameter_values(core: Any, p: NDArray[Any]) -> dict[str, float]:
     """The parameters of a compiled mechanism by name."""
     names = [parameter["name"] for parameter in core.metadata["parameters"]]
@@ -145,7 +164,7 @@ def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[
             raise ModelProblem(f"there is no parameter `{parameter}`", suggestion(parameter, values))
         return values[parameter]
 
-    return syntax.number(number, value)
+    return syntax.number(number, value, values.__contains__)
 
 
 def _dimension(start: Start, name: str, order: int) -> Dimension | None:

@@ -38,21 +38,27 @@ class Expression:
         return self.text.encode()[start:end].decode(errors="replace")
 
 
-@lru_cache(maxsize=4096)
-def parse(text: str) -> Expression:
-    """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``). Raises ``ModelProblem``."""
-    rewritten = units.rewrite(text)
+def parse(text: str, known: Callable[[str], bool] | None = None, in_full: Callable[[str], str] = str) -> Expression:
+    """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``), with its names ``in_full``; ``known`` tells
+    which words are names. Raises ``ModelProblem``."""
+    rewritten = units.rewrite(text, known or (lambda _: False))
+    in_si = in_full(rewritten.text)
     try:
-        tree = _node(core.parse(rewritten.text))
+        tree = _tree(in_si)
     except UnicodeEncodeError:
         raise ModelProblem("the expression holds a character that is none", "type it anew") from None
     except ExpressionError as error:
-        place, what = rewritten.text[error.start : error.end].strip(), error.what
+        place, what = in_si[error.start : error.end].strip(), error.what
         raise ModelProblem(
             f"`{text}` is no expression: {what}" + (f" (at `{place}`)" if place and f"`{place}`" not in what else ""), error.hint
         ) from None
     places = (node.span for node in walk(tree) if isinstance(node, Num))
-    return Expression(rewritten.text, tree, dict(zip(places, rewritten.numbers, strict=True)))
+    return Expression(in_si, tree, dict(zip(places, rewritten.numbers, strict=True)))
+
+
+@lru_cache(maxsize=4096)
+def _tree(text: str) -> Node:
+    return _node(core.parse(text))
 
 
 def _node(data: Mapping[str, Any]) -> Node:
@@ -156,8 +162,9 @@ class Measure(Rules):
 
     def no_number(self, node: Node, its: Dimension, within: Fn | Pow) -> ModelProblem:
         what = f"the argument of `{within.name}`" if isinstance(within, Fn) else "an exponent"
-        wrong = f"`{self.expression.show(node)}` is {its.words()}"
-        return ModelProblem(f"{what} must be an angle or a plain number; {wrong}", "check the units of the parameters")
+        shown = self.expression.show(node)
+        hint = f"divide by a size of its kind, `{shown}/(1 {its.unit().removeprefix('1')})`, or check the units of the parameters"
+        return ModelProblem(f"{what} must be an angle or a plain number; `{shown}` is {its.words()}", hint)
 
 
 def _whole_number(tree: Node) -> bool:
@@ -203,28 +210,31 @@ def evaluate(tree: Node, value: Callable[[str], float]) -> float:
 # -- numbers of a model: bare, a quantity like ``400 mm``, or an expression of parameters -----------
 
 
-def number(text: Any, value: Callable[[str], float]) -> float:
-    """The value of a number of the model in SI; ``value`` knows those of names. Raises ``ModelProblem``."""
+def number(text: Any, value: Callable[[str], float], known: Callable[[str], bool] | None = None) -> float:
+    """The value of a number of the model in SI; ``value`` knows those of names. Raises ``ModelProblem``, also where it is not finite."""
     if not isinstance(text, str):
+        if not math.isfinite(text):
+            raise ModelProblem(f"`{text}` is no finite number", "give it a value")
         return float(text)
     if (found := units.quantity(text)) is not None:
         return found.value
     try:
-        return float(evaluate(parse(text).tree, value))
+        return float(evaluate(parse(text, known).tree, value))
     except (ArithmeticError, ValueError) as error:
         hint = "check for a division by 0 or a root of a negative number"
         raise ModelProblem(f"`{text}` has no value: {error}", hint) from None
 
 
-def dimension(text: Any, lookup: Lookup) -> Known:
+def dimension(text: Any, lookup: Lookup, known: Callable[[str], bool] | None = None) -> Known:
     """The dimension of a number of the model (None: fits anywhere). Raises ``ModelProblem``."""
     if not isinstance(text, str):
         return None
     if (found := units.quantity(text)) is not None:
         return found.dimension
-    return Measure(parse(text), lookup).of(parse(text).tree)
+    expression = parse(text, known)
+    return Measure(expression, lookup).of(expression.tree)
 
 
-def names_in(text: Any) -> list[str]:
+def names_in(text: Any, known: Callable[[str], bool] | None = None) -> list[str]:
     """The names that a number of the model depends on. Raises ``ModelProblem``."""
-    return names(parse(text).tree) if isinstance(text, str) and units.quantity(text) is None else []
+    return names(parse(text, known).tree) if isinstance(text, str) and units.quantity(text) is None else []

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
@@ -80,7 +81,14 @@ _NO_UNITS = {"c", "pi", "tau", "e", "G", "speed_of_light", "count", "percent", "
 _NUMBER = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*")
 _WORD = r"[^\W\d²³][^\W²³]*|°"
 _PIECE = re.compile(rf"{_WORD}|(?:\^|\*\*)\s*-?\s*\d{{1,2}}(?!\d)|\S")
-_MEASURED = re.compile(rf"{NAME}|(?P<number>{NUMBER})(?P<unit>\s*(?:(?!(?:and|or|not)\b){NAME}|°))?")
+_NUMBERED = re.compile(rf"{NAME}|(?P<number>{NUMBER})")
+_FACTOR = re.compile(
+    rf"\s*(?P<sign>[*/·]?)\s*(?P<word>{_WORD})(?![^\W²³])(?P<power>[²³]|\s*(?:\^|\*\*)\s*-?\s*\d{{1,2}}(?![\w.]))?(?!\s*[(\[.'])"
+)
+_INVERSE = re.compile(r"\s+1\s*(?=/)")
+_WITH_TIME = re.compile(r"[*/·\s]t(?!\w)")
+_TIMES = {"s", "ms", "min"}
+"""Over one of which a number is a rate: ``10/s``."""
 _EXPONENT = str.maketrans("²³", "23", "^* ")
 
 
@@ -158,7 +166,7 @@ def quantity(text: str) -> Quantity | None:
     """
     found = _NUMBER.match(text)
     written = text[found.end() :].strip() if found else ""
-    if not found or not (written[:1].isalpha() or written[:1] == "°"):
+    if not found or not (written[:1].isalpha() or written[:1] == "°") or _WITH_TIME.search(written):
         return None
     try:
         size, dimension = unit(written)
@@ -176,26 +184,58 @@ class Rewritten(NamedTuple):
     numbers: list[Dimension | None]
 
 
-def rewrite(text: str) -> Rewritten:
-    """The expression with each number directly followed by a unit (``30 deg``) in SI. Raises ``ModelProblem``."""
-    numbers: list[Dimension | None] = []
+def rewrite(text: str, known: Callable[[str], bool] = lambda _: False) -> Rewritten:
+    """The expression with each number and the unit that follows it (``30 deg``, ``2 m/s``, ``10 1/s``) in SI.
 
-    def in_si(found: re.Match[str]) -> str:
-        number, name = found["number"], (found["unit"] or "").strip()
+    Where a word of the unit is ``known`` as a name of the model, too, the text says nothing certain. Raises ``ModelProblem``."""
+    out: list[str] = []
+    numbers: list[Dimension | None] = []
+    at = 0
+    while found := _NUMBERED.search(text, at):
+        number, before = found["number"], text[: found.start()].rstrip()[-1:]
+        out.append(text[at : found.start()])
+        at = found.end()
         if number is None:
-            return found[0]
-        size, dimension = word(name) or (None, None) if name else (Fraction(1), None)
-        numbers.append(dimension)
-        if name and (before := text[: found.start()].rstrip()[-1:]) in ("/", "^"):
-            hint = f"write `{before}({number} {name})` with the unit inside, or name the number under `parameters`"
-            raise ModelProblem(f"`{before}{number} {name}` can be read in two ways", hint)
-        if size is None:
+            out.append(found[0])
+            continue
+        read, end = _unit_after(number, text, at, known, before in ("/", "^"))
+        if read and before in ("/", "^"):
+            shown = text[found.start() : end]
+            hint = f"write `{before}({shown})` with the unit inside, or name the number under `parameters`"
+            raise ModelProblem(f"`{before}{shown}` can be read in two ways", hint)
+        numbers.append(read and read.dimension)
+        out.append(repr(_rounded(number, read.size)) if read else number)
+        at = end
+    return Rewritten("".join(out) + text[at:], numbers)
+
+
+def _unit_after(number: str, text: str, start: int, known: Callable[[str], bool], divides: bool) -> tuple[Unit | None, int]:
+    """The unit that follows a number in an expression, and where it ends."""
+    total: Unit | None = None
+    inverse = _INVERSE.match(text, start)
+    at = inverse.end() if inverse else start
+    while found := _FACTOR.match(text, at):
+        sign, name = found["sign"], found["word"]
+        if name in ("and", "or", "not") or (sign and name == "t"):  # t is the time, and 2 t are two tonnes
+            break
+        if total is None and not sign and word(name) is None:
             near = nearest(name, _COMMON)
             hint = f"for a product write `{number}*{name}`" + (f"; or did you mean the unit `{near}`?" if near else "")
             raise ModelProblem(f"after the number {number} stands `{name}`, which is no unit", hint)
-        return repr(_rounded(number, size)) if name else number
-
-    return Rewritten(_MEASURED.sub(in_si, text), numbers)
+        rate = sign == "/" and name in _TIMES and not divides and not known(name)  # 10/s
+        if not (rate or inverse or not sign if total is None else sign) or (unit := word(name)) is None:
+            break
+        if known(name) and (total or inverse):
+            shown = text[start : found.end()].strip()
+            other = f"{number}/{name}" if total is None else f"({number}{text[start:at]}){text[at : found.end()].strip()}"
+            hint = (
+                f"for the name write `{other}`, or call it otherwise; a unit alone stands in a parameter, `v: {number} {shown}`"
+            )
+            raise ModelProblem(f"in `{number} {shown}`, `{name}` is a unit and a name of the model", hint)
+        power = int(found["power"].translate(_EXPONENT)) if found["power"] else 1
+        total = (total or Unit(Fraction(1), NUMBER_ONLY)).times(unit, -power if sign == "/" else power)
+        at = found.end()
+    return (total, at) if total else (None, start)
 
 
 def convert(text: str) -> tuple[float, Dimension]:

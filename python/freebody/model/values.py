@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from numbers import Integral, Real
 from typing import Annotated, Any, TypeVar
@@ -78,7 +79,12 @@ def refuse(what: str, hint: str = "") -> PydanticCustomError:
     return PydanticCustomError("freebody", "{what}", {"what": what, "hint": hint})
 
 
+_DATE = re.compile(r"\s*\d{4}-\d\d-\d\d\b.*")
+
+
 def _number(value: Any) -> float | int | str:
+    if isinstance(value, str) and _DATE.fullmatch(value):
+        raise refuse(f"`{value}` is a date, no number", "for a difference of numbers leave spaces around the `-`")
     if isinstance(value, str) and value.strip():
         return str(value)
     if isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value):

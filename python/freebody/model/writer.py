@@ -102,7 +102,7 @@ class Writer:
             return repr(float(text)), None
         if (quantity := units.quantity(text)) is not None:
             return repr(quantity.value), quantity.dimension
-        expression = syntax.parse(self._in_full(text))
+        expression = syntax.parse(text, lambda name: name == local or self.full(name) in self.meanings.values, self._in_full)
         self._check_arguments(expression.tree)
 
         def lookup(name: str) -> Dimension | None:
@@ -117,7 +117,7 @@ class Writer:
             return float(value), None
         if (quantity := units.quantity(value)) is not None:
             return quantity.value, quantity.dimension
-        expression = syntax.parse(self._in_full(value))
+        expression = syntax.parse(value, self.scope.parameters.__contains__, self._in_full)
         for name in syntax.names(expression.tree):
             kind = self.meanings.values.get(name, ("constant" if name == "pi" else "",))[0]
             if name == "t" or kind not in ("parameter", "constant", ""):
