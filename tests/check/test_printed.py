@@ -50,7 +50,17 @@ motions: {drive: {of: theta, is: w*t}}
 forces: {spring: {type: spring, between: [rod.start, collar.centre], stiffness: k, rest_length: l0}}
 initial: {r: 0.4 m, rates: {r: 0}}
 """
-TEXTS = {"words": WORDS, "collar": COLLAR}
+STRING = """
+freebody: 1
+name: a string as long as its start makes it, numbers of ten digits, and a time that is no tonne
+bodies: {bob: {shape: particle, mass: 0.642}}
+joints: {place: {type: free, of: [ground.O, bob.centre], coordinates: [x, y]}}
+ground: {points: {A: [0.66, -0.046]}}
+strings: {thread: {ends: [ground.A, bob.centre]}}
+forces: {wind: {type: force, at: bob.centre, x: "0.103 + 1.746*cos(x*1)", y: "0.24*cos(y*1) + 0.565*cos(2*t)"}}
+initial: {x: 0.564, y: -0.843}
+"""
+TEXTS = {"words": WORDS, "collar": COLLAR, "string": STRING}
 
 
 @pytest.fixture(scope="module", params=family([*NAMED, *TEXTS]))

@@ -107,7 +107,9 @@ def judge(path: Path) -> Iterator[Judged]:
         said = {name: value if isinstance(value, list) else [value] for name, value in statement.set_.items()}
         counts = {len(each) for each in said.values()} - {1} or {1}  # a list tries each number
         if len(counts) > 1 or 0 in counts:
-            raise ModelProblem(f"{path}: `{statement.id}`: the lists of `set` have different lengths", "give each as many numbers")
+            raise ModelProblem(
+                f"{path}: `{statement.id}`: the lists of `set` have different lengths", "give each as many numbers"
+            )
         settings = [{name: each[i % len(each)] for name, each in said.items()} for i in range(*counts)]
         found = [_one(path, given, statement, values, checkers) for values in settings]
         verdict = next((v for v in found if not v.ok), found[0])

@@ -18,7 +18,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Column, Matrix, Sym, walk
 
-from .language.dimensions import misfit
+from .language.dimensions import check_dimensions, misfit
 from .language.parser import parse, parse_expression
 from .language.spelling import spell as written
 from .language.statements import Program
@@ -134,9 +134,10 @@ class Symbols:
             return program
         try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
             other = parse(text, names, self.still, units=True)
+            check_dimensions(other, self.dimensions)
         except StatementError:
             return program
-        return program if other == program or misfit(other, self.dimensions) else other
+        return other
 
     def _clashing(self, program: Program) -> set[str]:
         """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""

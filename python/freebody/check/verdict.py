@@ -20,7 +20,7 @@ from .families import ALL, NoMotion
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .nearest import nearest
-from .residual import FAILS, HOLDS, Residual, Sides, jacobian, residual, sizes, unreached
+from .residual import FAILS, HOLDS, Residual, Sides, jacobian, residual, rounding, sizes, unreached
 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
@@ -162,7 +162,8 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
         few = np.mean(again >= HOLDS) <= _FEW and again.max() < _BLURRED
         worst = float(np.median(again) if few else again.max())
-    if worst < HOLDS:
+    as_printed = HOLDS <= worst <= FAILS and np.all(np.abs(found.sides.residual) <= rounding(equation, case.values()))
+    if worst < HOLDS or as_printed:  # figures of many digits are as good as these
         return _true(case, equation, text, found)
     if worst <= FAILS:
         what = f"the two sides differ by {worst:.1e} of their terms: more than round-off, less than a mistake"
