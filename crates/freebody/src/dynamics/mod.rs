@@ -233,8 +233,24 @@ impl<'m> Workspace<'m> {
     /// # Errors
     /// `singular_mass`, `inconsistent_constraints`, named after the bodies and joints concerned.
     pub fn solve(&mut self) -> Result<(), DynamicsError> {
-        let cheapest = if self.many_loops { Route::Constraints } else { Route::Minimal };
-        self.solve_by(self.preferred.unwrap_or(cheapest))
+        self.solve_by(self.cheapest())
+    }
+
+    /// Solves the present state for its accelerations and the powers of drives. The flank on which gears bear changes
+    /// none of them unless something rubs or is pressed, so the reactions found may be those of the other flank.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn solve_motion(&mut self) -> Result<(), DynamicsError> {
+        if self.m.is_hybrid() {
+            return self.solve();
+        }
+        self.placed.bearing = None;
+        self.solve_once(self.cheapest())
+    }
+
+    fn cheapest(&self) -> Route {
+        self.preferred.unwrap_or(if self.many_loops { Route::Constraints } else { Route::Minimal })
     }
 
     /// Solves the present state by a given route.

@@ -247,7 +247,7 @@ impl<'m> HybridSystem<'m> {
             self.workspace.move_to(t, &q, &u);
         }
         self.check_taut_segments()?;
-        self.workspace.solve()
+        self.workspace.solve_motion()
     }
 
     /// Values of laws at a state.

@@ -87,6 +87,23 @@ fn a_solution_knows_nothing_of_those_before() {
     });
 }
 
+/// The flank on which teeth bear is another reaction, never another motion.
+#[test]
+fn the_motion_alone_is_that_of_the_whole_solution() {
+    every_state(recipe, 3, |bench, workspace, _, label, _| {
+        let found = |workspace: &Workspace| {
+            let mut accelerations = vec![0.0; bench.q.len()];
+            workspace.accelerations(&mut accelerations);
+            [accelerations, workspace.drive_powers()].concat()
+        };
+        workspace.solve_motion().unwrap_or_else(|e| panic!("{label}: {e:?}"));
+        let alone = found(workspace);
+        workspace.solve().unwrap_or_else(|e| panic!("{label}: {e:?}"));
+        let off = apart(&alone, &found(workspace), 1.0);
+        assert!(off < AGREE, "{label}: {off:e}");
+    });
+}
+
 #[test]
 fn every_joint_holds_at_the_pose_thrown() {
     for seed in 0..MECHANISMS {
