@@ -5,8 +5,9 @@ use crate::joints::{Gear, Kind};
 use crate::kinematics::{relative, MotionView};
 use crate::mechanism::Joint;
 use crate::mode::Mode;
+use crate::plane::Twist;
 
-/// Change of a distance, relative to what the wheels' turning could make of it, that is round-off.
+/// Change of a distance, relative to what moves its ends, that is round-off.
 const HELD: f64 = 1e-9;
 
 impl Workspace<'_> {
@@ -25,22 +26,26 @@ impl Workspace<'_> {
             }
             let model = self.n.values[joint.numbers[Gear::FLANK]];
             let flank = if self.at().mode.bears_on_other_flank(j) { -model } else { model };
-            if flank * lambda < 0.0 && self.keeps_centre_distance(joint) {
+            if flank * lambda < 0.0 && self.keeps_centre_distance(joint, lambda.abs()) {
                 other.get_or_insert_with(|| self.at().mode.clone()).turn_flank(j);
             }
         }
         other
     }
 
-    /// Whether the axles of a gear pair keep their distance in the last solution, in rate and in acceleration.
-    fn keeps_centre_distance(&self, joint: &Joint) -> bool {
+    /// Whether the axles of a gear pair keep their distance in the last solution, in rate and in acceleration, beside how
+    /// they move, and beside what the force of the teeth would do to the whole mass: so round-off of rest is rest.
+    fn keeps_centre_distance(&self, joint: &Joint, tooth_force: f64) -> bool {
         let going = MotionView { at: self.at(), bodies: Some(&self.solved.bodies), accelerations: None };
-        let [a, b] = self.m.ends(joint);
         let at = relative(joint, self.m, &going).1.at();
-        let apart = at.dot(at);
-        let spin = self.k.twist[a].w.abs() + self.k.twist[b].w.abs();
-        let spin_up = self.solved.bodies[a].w.abs() + self.solved.bodies[b].w.abs() + spin * spin;
-        apart.d1.abs() <= HELD * apart.d0 * spin.max(f64::MIN_POSITIVE)
-            && apart.d2.abs() <= HELD * apart.d0 * spin_up.max(f64::MIN_POSITIVE)
+        let square = at.dot(at);
+        let apart = square.d0.sqrt();
+        let both =
+            |of: &[Twist]| self.m.ends(joint).iter().map(|&i| of[i].v.norm() + of[i].w.abs() * apart).sum::<f64>();
+        let speed = both(&self.k.twist);
+        let acceleration =
+            both(&self.solved.bodies) + speed * speed / apart + tooth_force / self.n.mass.iter().sum::<f64>();
+        square.d1.abs() <= HELD * apart * (speed + (acceleration * apart).sqrt())
+            && square.d2.abs() <= HELD * apart * acceleration
     }
 }

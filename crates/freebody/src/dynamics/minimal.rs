@@ -159,8 +159,12 @@ impl Workspace<'_> {
         let scales = row_scales(&self.dense.g, &columns);
         // What is asked is a difference of squares of rates, and is met by what loads and constraints accelerate.
         let rate = self.placed.u.iter().zip(&columns).map(|(u, c)| (u / c).abs()).fold(0.0, f64::max);
-        let fall = |(load, mass): (&Wrench, &f64)| if *mass > 0.0 { load.f.norm() / (mass * self.length) } else { 0.0 };
-        let least = self.loads.iter().zip(&self.n.mass).map(fall).fold(rate * rate, f64::max);
+        let over = |load: f64, inertia: f64| if inertia > 0.0 { load / inertia } else { 0.0 };
+        let fall = |(body, load): (usize, &Wrench)| {
+            let inertia = Inertia::of(self.at(), body, self.arms[body]);
+            over(load.f.norm(), inertia.mass * self.length).max(over(load.m.abs(), inertia.turn))
+        };
+        let least = self.loads.iter().enumerate().map(fall).fold(rate * rate, f64::max);
         let meets = |i: usize| self.dense.g.row(i).iter().zip(found).map(|(g, a)| (g * a).abs());
         let most = |i: usize| scales[i] * meets(i).fold(asked[i].abs(), f64::max);
         let most = (0..asked.len()).map(most).fold(least, f64::max);

@@ -133,6 +133,33 @@ fn gears_and_belts_keep_their_ratio() {
     }
 }
 
+/// In balance and at rest nothing tells whether the axles keep their distance but round-off, and still no teeth pull: on
+/// a frame that a motion holds, two wheels are loaded against each other.
+#[test]
+fn teeth_push_apart_at_rest_too() {
+    let mut rng = Rng::new(7);
+    for case in 0..40 {
+        let (r1, r2, at, torque) = (rng.within(0.1, 0.5), rng.within(0.1, 0.5), rng.about(3.0), rng.about(5.0));
+        let mut model = Model::new().gravity(0.0, -G).body("frame", 3.0, 0.7, [0.2, 0.1]).point("frame.O", [0.0, 0.0]);
+        model = model.joint("hub", "hinge", &[("of", points(&["ground.O", "frame.O"]))], &["theta"]);
+        for (wheel, place, load) in [("first", 0.37, torque), ("second", 0.37 + r1 + r2, torque * r2 / r1)] {
+            let (axle, centre) = (format!("frame.{wheel}"), format!("{wheel}.C"));
+            model = model.body(wheel, 1.3, 0.2, [0.0, 0.0]).point(&axle, [place, 0.0]).point(&centre, [0.0, 0.0]);
+            model = model.joint(&format!("axle {wheel}"), "hinge", &[("of", points(&[&axle, &centre]))], &[wheel]);
+            model =
+                model.force(wheel, "torque", &[("on", text(wheel)), ("from", text("frame")), ("value", value(load))]);
+        }
+        let radii = freebody::spec::Value::List(vec![value(r1), value(r2)]);
+        let fields = [("of", points(&["first.C", "second.C"])), ("radii", radii), ("pressure_angle", value(0.35))];
+        let compiled =
+            model.joint("mesh", "gear", &fields, &[]).motion("hold", "theta", &at.to_string(), "position", None);
+        let compiled = compiled.compile();
+        let now = instant(&compiled, &[at, 0.3, -0.3 * r1 / r2], &[0.0; 3]);
+        let force = turned(now.joints[joint_named(&compiled.mechanism, "mesh")].force, -at);
+        near(&format!("case {case}"), force.x / force.norm(), 0.35_f64.sin(), 1e-12);
+    }
+}
+
 /// An arm carries a planet that rolls on (or in) a fixed wheel: it turns (1 ± R/r) as fast as the arm.
 #[test]
 fn an_epicyclic_planet_turns_by_the_ratio() {
