@@ -3,6 +3,7 @@
 import json
 import math
 from functools import cache
+from itertools import product
 
 import numpy as np
 import pytest
@@ -223,3 +224,30 @@ def test_of_several_equal_extremes_any_time_will_do():
     far, near = (accuracy.extreme(band, 0, (0.5, value), (there, value + small))[0] for there in (1.5, 0.5 + 1e-6))
     assert far.digits is None and figure(far) == "0.5"
     assert near.digits == 5 and figure(near) == "0.50000"
+
+
+SENSED = ("tame 0", "tame 3", "tame 7", "sensitive 1", "sensitive 5")
+
+
+@cache
+def sensitivities():
+    """How much the motions (nt, 4) change for each relative change of the start so far, by differences in extended precision."""
+    near, small = [], LONG(1e-13)
+    for name, part, i in product(SENSED, (2, 3), (0, 1)):
+        start = [each.astype(LONG) for each in DRAWS[name]]
+        start[part][i] *= 1 + small
+        near.append(start)
+    moved = np.moveaxis(exact(near, TIMES, 0.02), -1, 0).reshape(len(SENSED), 4, len(TIMES), 4)
+    apart = (np.abs(each - solutions()[name]).sum(0) / small for name, each in zip(SENSED, moved, strict=True))
+    return {name: np.maximum.accumulate(each.astype(float)) for name, each in zip(SENSED, apart, strict=True)}
+
+
+@pytest.mark.parametrize("method", ["dop853", "tsit5", "radau"])
+@pytest.mark.parametrize("name", SENSED)
+def test_errors_are_as_small_as_is_asked_times_the_sensitivity_of_the_motion(name, method):
+    for digits in range(3 if "tame" in name else 4, 14):
+        done = rods(*DRAWS[name]).simulate(10, rtol=10.0**-digits, method=method)
+        exactly = solutions()[name]
+        error = np.abs(np.hstack(done.motion.sample(TIMES)) - exactly).astype(float)
+        owed = 10.0**-digits * (sensitivities()[name] + np.abs(exactly).max(0).astype(float))
+        assert (error <= 30 * owed).all(), digits
