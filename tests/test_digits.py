@@ -251,3 +251,12 @@ def test_errors_are_as_small_as_is_asked_times_the_sensitivity_of_the_motion(nam
         error = np.abs(np.hstack(done.motion.sample(TIMES)) - exactly).astype(float)
         owed = 10.0**-digits * (sensitivities()[name] + np.abs(exactly).max(0).astype(float))
         assert (error <= 30 * owed).all(), digits
+
+
+def test_a_run_that_was_interrupted_is_followed_no_further():
+    def ends(t: float) -> bool:
+        return t < 1e4
+
+    done = rods(*DRAWS["tame 0"]).simulate(1e6, rtol=1e-6, progress=ends)
+    assert not done.outcome.ok and done.end.t < 1e6
+    assert done.accuracy.other.end.t == done.end.t

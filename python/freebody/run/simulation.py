@@ -261,6 +261,8 @@ class Run:
         if self.recorded:
             raise LookupError("a run from a file does not know which digits hold; run.again() simulates it anew and does")
         settings = other_settings(self.settings)
+        if not self.outcome.ok and self.end.t > self.start.t:
+            settings = replace(settings, until=self.end.t)
         if not (self.previous and self.resume):
             return Accuracy(self, simulate(self.source, other_start(self.start), settings))
         before = self.previous.accuracy
