@@ -28,6 +28,7 @@ def save(model: Model, path: str | FilePath, written: str = "") -> None:
     """
     path = FilePath(path)
     text = json.dumps(model.written(), indent=2, ensure_ascii=False) + "\n" if path.suffix == ".json" else dumps(model, written)
+    path = path.resolve()  # what a link leads to is replaced, not the link
     beside = path.with_name(f".{path.name}.part")
     try:
         beside.write_bytes(text.encode())
