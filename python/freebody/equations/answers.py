@@ -14,6 +14,7 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, 
 from freebody.document.document import Document
 from freebody.equations.balances.system import NotUnknown
 from freebody.equations.dependent_coordinates import held_still
+from freebody.equations.derivation.preamble import unloaded
 from freebody.equations.derivation.sentences import joined, lettered
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.solve import TooLarge, Unconfirmed, limit, solve
@@ -187,6 +188,7 @@ def _answers(
 
 def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
     made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
+    made += unloaded(subject)
     if chosen.measured:
         made.append(
             Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI.")

@@ -22,6 +22,9 @@ _SEED, _OTHERS = 5, 3
 _NEAR = 0.15
 """Part by which parameters of other states differ from those of a state, or what they are where they are 0 there."""
 
+_ASIDE = 1e-3
+"""Change of a coordinate, m or rad, by which a spring of length 0 gets a direction; each coordinate takes another, so that they differ."""
+
 
 @dataclass(frozen=True)
 class Direction:
@@ -295,5 +298,20 @@ class SymbolicState:
         joint = next((name for name in self.lines if direction == name or direction.endswith(f" of {name}")), None)
         return direction.removesuffix(joint) + self.lines[joint] if joint else direction
 
+    @cached_property
+    def idle(self) -> list[str]:
+        """Contacts, strings and stops that are closed at the state and carry nothing there, so that no load of theirs is known."""
+        acting = {load.name for load in self.free.loads}
+        limits = {} if self.given else self.source.instant(self.state).limits
+        return [name for name, each in limits.items() if not (each.is_open or each.state == "off" or name in acting)]
+
+    @cached_property
+    def _beside(self) -> State:
+        """The state; or one a little aside where a spring has length 0, and so no direction by which its force could be told."""
+        springs = (load for load in self.free.loads if load.card.name == "spring")
+        if not any(all(part.force == (0, 0) for part in load.on) for load in springs):
+            return self.state
+        return self.state.at(self.state.q + _ASIDE * (1 + np.arange(len(self.state.q)) % 7 / 3))
+
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        return self.source.letters(self.state, questions, self.at_rest, self.numbers)
+        return self.source.letters(self._beside, questions, self.at_rest, self.numbers)

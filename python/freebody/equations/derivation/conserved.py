@@ -103,6 +103,7 @@ def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -
 def _conserved_momenta(subject: SymbolicState, in_letters: bool) -> list[Block]:
     """Each with its reason; ``in_letters``: and what it is in the coordinates."""
     made: list[Block] = []
+    while_idle = f"As long as {clause(subject.idle, 'carries', 'carry')} no load, the" if subject.idle else "The"
     for each in momenta(subject):
         found, of = each.found, ""
         if not 1 < len(found.bodies) == len(subject.free.bodies):
@@ -111,7 +112,7 @@ def _conserved_momenta(subject: SymbolicState, in_letters: bool) -> list[Block]:
         if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
             where = "its mass centre"
         what = f"angular momentum{of} about" if found.turns else f"momentum{of} along"
-        made.append(Paragraph(f"The {what} {where} is conserved: {_reason(subject, found, where)}."))
+        made.append(Paragraph(f"{while_idle} {what} {where} is conserved: {_reason(subject, found, where)}."))
         if in_letters:
             made.append(Equation(_letter(subject, found), each.momentum))
     return made or [Paragraph(_NONE)]

@@ -39,9 +39,19 @@ def configuration(subject: SymbolicState) -> list[Block]:
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
     if cases := [force["name"] for force in subject.source.metadata["forces"] if force["cases"] and force["name"] in acting]:
         made.append(Paragraph(f"The law of {joined(cases)} has cases: the equations hold for the case at this state."))
+    made += unloaded(subject)
     if opening := [event["name"] for event in subject.source.spec.get("events", []) if event.get("opening")]:
         made.append(Paragraph(f"At the start of a motion {joined(opening)} happens; the equations are those before."))
     return made
+
+
+def unloaded(subject: SymbolicState) -> list[Block]:
+    """What is closed and carries nothing at the state, so that it is missed in the equations."""
+    if not subject.idle:
+        return []
+    said = clause(subject.idle, "is closed but carries", "are closed but carry")
+    here, they = ("it is", "it carries") if len(subject.idle) == 1 else ("they are", "they carry")
+    return [Paragraph(f"At this state {said} no load, so that {here} in no equation here; give a state at which {they} one.")]
 
 
 def _doc(doc: str) -> str:
