@@ -43,6 +43,11 @@ const DESCENTS: usize = 300;
 const UNMET: f64 = 1e-8;
 /// Part of a radian, or of the characteristic length, within which two configurations are the same.
 const SAME_PLACE: f64 = 1e-6;
+/// Square of the part of a row below which damping changes no digit that counts: full steps again.
+const UNDAMPED: f64 = 1e-6;
+/// First damping where a full step does not help, in squares of rows of size 1, and that beyond which no step does.
+const DAMPED: f64 = 1e-4;
+const HOPELESS: f64 = 1e9;
 /// Attempts from other starts.
 const ATTEMPTS: usize = 64;
 
@@ -124,13 +129,13 @@ fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)],
         let next = rows(workspace, held);
         if norm(workspace, &next) < size {
             (*q, present) = (trial, next);
-            damping = if damping < 1e-6 { 0.0 } else { 0.2 * damping };
+            damping = if damping < UNDAMPED { 0.0 } else { 0.2 * damping };
         } else {
             workspace.move_to(t, q, &still);
-            if gap <= OPEN || damping > 1e9 {
+            if gap <= OPEN || damping > HOPELESS {
                 break;
             }
-            damping = (5.0 * damping).max(1e-4);
+            damping = (5.0 * damping).max(DAMPED);
         }
     }
     worst(workspace, &present)
@@ -265,7 +270,7 @@ fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest,
             None => gaps.push((name, path, gap.abs())),
         }
     }
-    gaps.retain(|(_, _, gap)| *gap > 1e-9 * workspace.length);
+    gaps.retain(|(_, _, gap)| *gap > OPEN * workspace.length);
     let open = gaps.iter().map(|(name, _, gap)| (name.clone(), *gap)).collect();
     let widest = gaps.into_iter().filter(|g| g.1.is_some()).max_by(|a, b| a.2.total_cmp(&b.2));
     DynamicsError::CannotAssemble(open, widest.and_then(|(_, path, _)| path))

@@ -10,7 +10,7 @@ use crate::mechanism::Mechanism;
 use serde_json::{json, Value};
 use std::collections::BTreeMap;
 
-/// A coordinate is as guessed if it differs by less, m or rad.
+/// A coordinate is as guessed if it differs by less, m or rad: it is printed with nine decimals.
 const AS_GUESSED: f64 = 1e-9;
 
 type Named = BTreeMap<String, f64>;

@@ -110,10 +110,13 @@ fn meaning(m: &Mechanism, n: &BoundValues, joint: &Joint, c: &crate::mechanism::
     format!("{what} of `{second}` from {from} at `{}`{sense}", joint.name)
 }
 
+/// Degrees within which a direction is the one that has a name: it is written with nine decimals.
+const SAME_DIRECTION: f64 = 1e-9;
+
 /// A fixed direction, by its angle to the x axis in degrees.
 fn direction(degrees: f64) -> String {
     let named = [(-90.0, "straight down"), (90.0, "straight up"), (180.0, "the fixed −x axis")];
-    let is = |angle: f64| (degrees - angle).abs() < 1e-9;
+    let is = |angle: f64| (degrees - angle).abs() < SAME_DIRECTION;
     named
         .iter()
         .find(|(angle, _)| is(*angle))

@@ -28,7 +28,7 @@ pub(super) enum Force {
     ActuatorDirection,
 }
 
-/// Share of a row in a dependence, whose size is 1, below which it is round-off.
+/// Share of a row in a dependence, or of a body in a motion, whose size is 1, below which it is round-off.
 const PART: f64 = 1e-6;
 /// Largest contradiction of the rows, over the largest of their terms, that is put down to round-off.
 pub(super) const CONTRADICTION: f64 = 1e-7;
@@ -138,7 +138,7 @@ impl Workspace<'_> {
         self.k.propagate_motion(self.m, direction, false, &mut bodies);
         let size = |t: &Twist| t.v.norm() / self.length + t.w.abs();
         let most = bodies.iter().map(size).fold(0.0, f64::max);
-        let moving: Vec<usize> = (1..bodies.len()).filter(|&i| size(&bodies[i]) > 1e-6 * most).collect();
+        let moving: Vec<usize> = (1..bodies.len()).filter(|&i| size(&bodies[i]) > PART * most).collect();
         let words: Vec<String> = moving
             .iter()
             .map(|&i| {

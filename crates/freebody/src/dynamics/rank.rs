@@ -16,6 +16,9 @@ use crate::solve::{Matrix, Orthogonal};
 /// Relative size below which a self-stress does not touch a component.
 const UNTOUCHED: f64 = 1e-9;
 
+/// How far a configuration nearby is, in radians and characteristic lengths: a singular one is well behind, no loop opens.
+const NEARBY: f64 = 1e-2;
+
 /// Coordinates up to which ranks are decided anew at every state.
 const FEW_COORDINATES: usize = 60;
 
@@ -156,7 +159,7 @@ impl Workspace<'_> {
         let zero = vec![0.0; u.len()];
         let mut most = here;
         for k in 0..motions.cols() {
-            let along: Vec<f64> = (0..q.len()).map(|i| 1e-2 * motions[(i, k)]).collect();
+            let along: Vec<f64> = (0..q.len()).map(|i| NEARBY * motions[(i, k)]).collect();
             let mut step = zero.clone();
             self.move_to(t, &q, &u);
             self.to_user(&along, &mut step);

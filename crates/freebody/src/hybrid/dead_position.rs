@@ -11,6 +11,9 @@ use crate::mechanism::{Drive, Level, Mechanism};
 const NEAR: f64 = 1e-2;
 /// Length of a segment of a taut string, over the characteristic length, below which it may be drawn in.
 const SHORT: f64 = 1e-3;
+/// Part of the time in which the mechanism moves its own length, over which a short segment is watched: short even beside
+/// a turn of the segment.
+const GLANCE: f64 = 1e-11;
 /// Times that are left after which loops that pass a singular configuration are well on its other side.
 const BEYOND: f64 = 4.0;
 
@@ -77,8 +80,7 @@ impl HybridSystem<'_> {
     fn shortening_string(&mut self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
         let (short, n) = (SHORT * self.workspace.length, self.workspace.m.freedom());
         let l = self.taut_segments.iter().position(|segments| segments.iter().any(|s| s.norm() < short))?;
-        // Short even beside a turn of the segment.
-        let dt = 1e-11 * self.workspace.length / self.speed;
+        let dt = GLANCE * self.workspace.length / self.speed;
         let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
         self.place(t + dt, &later);
         let lengths = self.taut_segments[l].iter().zip(self.taut_segments(l)).map(|(a, b)| [a.norm(), b.norm()]);

@@ -7,6 +7,8 @@ use crate::dynamics::{ContactTolerances, DynamicsError};
 use crate::mode::{ContactMode, Mode};
 use crate::motion::{EventRecord, Kind, System};
 
+/// Part of the time in which the mechanism moves its own length that is short beside any of its motion.
+const SHORT: f64 = 1e-6;
 /// Kinetic energy, over the mechanism's own, that it takes no round-off to gain.
 const ENERGY_NOISE: f64 = 1e-9;
 /// Impacts that one instant may hold, and those after which ever larger speeds count as none.
@@ -334,7 +336,7 @@ impl HybridSystem<'_> {
 
     /// A time that is short beside any of the motion, s.
     fn lookahead(&self) -> f64 {
-        1e-6 * self.workspace.length / self.speed
+        SHORT * self.workspace.length / self.speed
     }
 
     /// The state a little later, by h, in a mode.

@@ -18,6 +18,10 @@ const WATCHED: f64 = 0.5;
 
 /// Size of a guard, for its round-off, while coordinates are small: places are sums of some lengths.
 const ROUNDOFF: f64 = 4.0;
+/// Part of the way to there over which the fall of the independence is a difference.
+const GLANCE: f64 = 1e-3;
+/// Gap that a stage keeps, by round-off, and a factor 27 for the independence that falls to a third within a step.
+const STAGE_NOISE: f64 = 100.0 * f64::EPSILON;
 
 /// A phase of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]
@@ -220,7 +224,7 @@ impl<'m> HybridSystem<'m> {
     pub(super) fn independence_ahead(&mut self, t: f64, y: &[f64]) -> (f64, [f64; 2]) {
         let n = self.workspace.m.freedom();
         let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
-        let dt = if fastest > 0.0 { 1e-3 * NEAR_SINGULAR / fastest } else { 0.0 };
+        let dt = if fastest > 0.0 { GLANCE * NEAR_SINGULAR / fastest } else { 0.0 };
         let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
         let mut independence = |t: f64, y: &[f64]| {
             self.place(t, y);
@@ -329,7 +333,7 @@ impl System for HybridSystem<'_> {
     /// third.
     fn noise(&self) -> f64 {
         if self.near_singular {
-            100.0 * f64::EPSILON / (self.independence * self.independence * self.independence)
+            STAGE_NOISE / (self.independence * self.independence * self.independence)
         } else {
             0.0
         }

@@ -8,6 +8,9 @@ use super::outcome::{EventRecord, Outcome};
 use super::run::{ending, Runner};
 use super::system::{After, Role, System};
 
+/// Part of a step over which the tangent tells where a function is heading.
+const GLANCE: f64 = 1e-3;
+
 impl Runner<'_> {
     /// The zeros on a segment that count, in order.
     pub(super) fn search(&mut self, segment: &Segment) -> Result<Vec<Mark>, Outcome> {
@@ -31,7 +34,7 @@ impl Runner<'_> {
         if self.detector.is_idle() {
             return Ok(());
         }
-        let (values, h) = (self.switch_values(0.0)?, 1e-3 * self.steps.h);
+        let (values, h) = (self.switch_values(0.0)?, GLANCE * self.steps.h);
         let later = self.switch_values(h)?;
         let (mut hits, system) = (Vec::new(), &mut *self.system.system);
         for (index, side) in self.detector.crossing_here(&values, &later) {
@@ -85,7 +88,7 @@ impl Runner<'_> {
 
     /// Sign of the change of switching function `i` from its present `value`; 0 when it rests.
     fn heading(&mut self, i: usize, value: f64) -> Result<i8, Outcome> {
-        let rise = self.switch_values(1e-3 * self.steps.h)?[i] - value;
+        let rise = self.switch_values(GLANCE * self.steps.h)?[i] - value;
         Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
     }
 

@@ -6,6 +6,8 @@ use super::norm::Norm;
 use super::system::DynamicsError;
 
 /// Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3 (table 1.1), with the
+/// Change of the stages, over the largest rate, that may be round-off of a rate: some hundred roundings.
+const ROUND_OFF: f64 = 1e-13;
 /// fixed-point iteration to round-off of VIII.6 and the compensated summation of VIII.5.
 pub(super) const METHOD: Method = Method {
     name: "gauss6",
@@ -79,7 +81,7 @@ impl Gauss6 {
         for _ in 0..STAGE_ITERATIONS {
             let change = self.sweep(system, t, h)?;
             // At round-off the change is small and no longer shrinks.
-            if change == 0.0 || change < 1e-13 && change >= last {
+            if change == 0.0 || change < ROUND_OFF && change >= last {
                 return Ok(());
             }
             last = change;

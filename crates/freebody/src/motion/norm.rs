@@ -31,7 +31,7 @@ impl Norm {
     /// Tolerated error of each component for a step between two points.
     pub fn weights(&self, from: &Point, to: &Point, out: &mut [f64]) {
         let h = to.t - from.t;
-        let floor = (1e-6 * self.rtol).max(1e-15).max(self.noise.min(self.rtol));
+        let floor = (FLOOR * self.rtol).max(ROUND_OFF).max(self.noise.min(self.rtol));
         for (i, weight) in out.iter_mut().enumerate() {
             let size = from.y[i].abs().max(to.y[i].abs());
             let change = (h * from.dy[i]).abs().max((h * to.dy[i]).abs());
@@ -57,6 +57,10 @@ pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
     (0.5 * (sum / values.len().max(1) as f64 + top)).sqrt()
 }
 
+/// Part of the tolerance, of the physical size, that is tolerated of a component that is zero but for round-off,
+const FLOOR: f64 = 1e-6;
+/// and at least this part of it: a few roundings of a rate.
+const ROUND_OFF: f64 = 1e-15;
 /// Parts of the system's own time for a first step where nothing tells its length, and where nothing moves.
 pub(super) const UNTOLD: f64 = 1e-6;
 /// Size or rate, over the physical sizes and time in units of the tolerance, below which it does not tell a first step.

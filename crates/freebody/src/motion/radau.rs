@@ -33,6 +33,8 @@ const REAL: f64 = 3.637_834_252_744_496;
 const E: [f64; 3] = [-(13.0 + 7.0 * SQRT6) / 3.0, (-13.0 + 7.0 * SQRT6) / 3.0, -1.0 / 3.0];
 /// Newton converging faster than this keeps its Jacobian.
 const FAST: f64 = 1e-3;
+/// Part of its physical size that a component has at least, for the step of a difference.
+const LEAST_SIZE: f64 = 1e-3;
 const NEWTON_ITERATIONS: usize = 10;
 
 struct Radau {
@@ -72,7 +74,7 @@ impl Radau {
         let n = self.n;
         let (mut values, mut y, mut dy) = (vec![0.0; n * n], at.y.clone(), vec![0.0; n]);
         for j in 0..n {
-            y[j] += f64::EPSILON.sqrt() * at.y[j].abs().max(1e-3 * norm.scale[j]);
+            y[j] += f64::EPSILON.sqrt() * at.y[j].abs().max(LEAST_SIZE * norm.scale[j]);
             system.rate(at.t, &y, &mut dy)?;
             for i in 0..n {
                 values[i * n + j] = (dy[i] - at.dy[i]) / (y[j] - at.y[j]);

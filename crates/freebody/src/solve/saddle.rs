@@ -3,6 +3,8 @@
 use super::{axpy, dot, max_abs, Lu, Matrix, Orthogonal, Rank};
 use std::fmt;
 
+/// Momentum of a motion, over the largest inertia, that is none: round-off of the motion itself leaves more than of a pivot.
+const NO_MOMENTUM: f64 = 1e-9;
 /// An inertia below this fraction of the largest entry of M (scaled) is zero.
 const ZERO_INERTIA: f64 = 1e-14;
 
@@ -163,8 +165,7 @@ impl Saddle {
         z.iter_mut().for_each(|v| *v /= size);
         let momentum = max_abs(&self.mass.mul_vec(&z));
         let direction = z.iter().zip(&self.col_scale).map(|(z, c)| z * c).collect();
-        // Round-off in z itself leaves a momentum far above the floor of a pivot.
-        if momentum <= 1e-9 * max_abs(self.mass.data()) {
+        if momentum <= NO_MOMENTUM * max_abs(self.mass.data()) {
             SaddleError::ZeroInertia { direction }
         } else {
             SaddleError::InsufficientActuation { direction }
