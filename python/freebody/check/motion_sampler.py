@@ -262,7 +262,8 @@ class MotionSampler:
         late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
         if family.at_rest:
             state = replace(state, u=np.zeros_like(state.u))
-        as_long = any(string["length"] is None for string in self.spec["strings"])  # as the start's place makes it
+        # A straight string without a length is as long as the start's place makes it, which its equations say in figures.
+        as_long = any(string["length"] is None and not string["over"] for string in self.spec["strings"])
         if not (family.at_start or family.vanishing or state.u.any() or self._lies or as_long):
             state = self._placed(rng, state)
         if rng.random() < 0.7 and not (family.at_rest or family.at_start or self._lies):
