@@ -1,6 +1,6 @@
 //! Assembly: coordinates and rates that close all loops and keep what was asked for.
 
-use crate::dynamics::{DynamicsError, Row, Source, Workspace, CLOSED, OPEN};
+use crate::dynamics::{DynamicsError, Row, Workspace, CLOSED, OPEN};
 use crate::gauges::ModelExpr;
 use crate::kinematics::{jet, MotionView};
 use crate::scalar::real;
@@ -39,8 +39,6 @@ pub struct Assembled {
 
 /// Iterations of one attempt.
 const DESCENTS: usize = 300;
-/// Part of the fastest rate below which what is left of a rate asked for is round-off.
-const UNMET: f64 = 1e-8;
 /// Part of a radian, or of the characteristic length, within which two configurations are the same.
 const SAME_PLACE: f64 = 1e-6;
 /// Square of the part of a row below which damping changes no digit that counts: full steps again.
@@ -235,24 +233,8 @@ fn velocities(
         workspace.project_velocities_with(t, q, &mut u, &request.held_rates)?;
     }
     workspace.move_to(t, q, &u);
-    workspace.update_rows();
-    let units = workspace.units();
-    let rates = |u: &[f64]| u.iter().zip(&units).map(|(u, unit)| (u / unit).abs()).fold(0.0, f64::max);
-    let fastest = rates(&u).max(rates(&request.start_rates));
-    let described = |source: Source| (source.name(workspace.m).to_string(), Some(source.path(workspace.m)));
-    let drive =
-        workspace.rows().iter().filter_map(|r| r.rate.map(|x| (described(r.source), x, x / workspace.row_unit(r))));
-    let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };
-    let held = request.held_rates.iter().map(|(name, law, rate)| {
-        let left = jet(&going, law).d1 - rate;
-        ((format!("rate of {name}"), None), left, left / workspace.row_unit(&workspace.target_row(law, 0.0, *rate)))
-    });
-    match drive.chain(held).max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) {
-        Some(((name, path), left, over)) if over.abs() > UNMET * fastest => {
-            Err(DynamicsError::InconsistentRates(name, left, path))
-        }
-        _ => Ok(u),
-    }
+    workspace.check_rates(&request.held_rates, &request.start_rates)?;
+    Ok(u)
 }
 
 fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest, q: &[f64]) -> DynamicsError {

@@ -60,7 +60,7 @@ def known_peaks(run: Run) -> list[Peak]:
     loads = {"contact": "hypot({0}.N, {0}.T)", "string": "{0}.tension", "stop": "{0}.N"}
     texts = [f"{quote(name)}.{part}" for part in "FM" for name, reaction in run.reactions.items() if reaction.carries]
     others = [loads[limit["type"]].format(quote(limit["name"])) for limit in run.metadata["limits"]]
-    others += [f"{quote(lock['name'])}.force" for lock in run.metadata["locks"]]
+    others += [f"{quote(held['name'])}.force" for held in [*run.metadata["locks"], *run.metadata["motions"]]]
     band = accuracy.band(lambda run, t: np.abs(run.motion.evaluate([*texts, *others], t)))
     joints, known = len(texts) // 2, []
     pairs = list(zip(peak_reactions(run), peak_reactions(accuracy.other), strict=True))

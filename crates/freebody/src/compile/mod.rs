@@ -135,7 +135,7 @@ impl Builder<'_> {
             }
             for (table, argument) in law.lookups() {
                 let knots = m.tables[table].knots();
-                discontinuities.extend(knots.map(|x| Discontinuity::Knot(argument.clone(), x)));
+                discontinuities.extend(knots.map(|x| Discontinuity::Knot(table, argument.clone(), x)));
             }
         }
         for (j, joint) in m.joints.iter().enumerate() {

@@ -4,6 +4,7 @@ use super::contact_modes::force_on_first;
 use super::minimal::Force;
 use super::{ClosedContacts, ContactTolerances, DynamicsError, JointLoad, Row, Workspace};
 use crate::contact::complementarity::{self, ImpactProblem, Problem};
+use crate::gauges::ModelExpr;
 use crate::mechanism::Friction;
 use crate::plane::{Twist, Vec2, Wrench};
 
@@ -117,24 +118,31 @@ impl Workspace<'_> {
         Ok(ImpactSolution { change, normal, tangent, on_first, joints, drives, drive_works, note: None })
     }
 
-    /// Work of each drive in a jump of the rates at (t, q), from `u` to those placed, that the closing rows alone bring
-    /// about.
+    /// Work of each drive in a jump of the rates at (t, q), from `u` to those placed, that the closing rows bring about, and
+    /// `given` gauges that get rates at once.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
-    pub fn drive_works_since(&mut self, u: &[f64]) -> Result<Vec<f64>, DynamicsError> {
+    pub fn drive_works_since(
+        &mut self,
+        u: &[f64],
+        given: &[(String, ModelExpr, f64)],
+    ) -> Result<Vec<f64>, DynamicsError> {
         let (t, q, after) = (self.placed.t, self.placed.q.clone(), self.placed.u.clone());
         self.move_to(t, &q, u);
         let before = self.k.twist.clone();
         self.move_to(t, &q, &after);
         self.update_rows();
+        let closing = self.rows.len();
+        let targets: Vec<Row> = given.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
+        self.rows.extend(targets);
         super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
         self.factor(Force::Gradient)?;
         let jump = |body: usize| self.k.twist[body] - before[body];
         let rate = |row: &Row| row.motion.iter().map(|(body, w)| w.power(jump(*body))).sum();
         let jumps: Vec<f64> = self.rows.iter().map(rate).collect();
         let lambda = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &jumps).lambda;
-        Ok(self.drive_powers_of(&lambda, |body| self.k.twist[body]))
+        Ok(self.drive_powers_of(&lambda[..closing], |body| self.k.twist[body]))
     }
 
     /// Jumps of the velocities of all bodies by those of the joints of the tree.

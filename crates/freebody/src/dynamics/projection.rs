@@ -18,6 +18,8 @@ pub(crate) const OPEN: f64 = 1e-9;
 const UNMOVED: f64 = 1e-9;
 /// Correction, over the gap that it closes, beyond which the rows all but depend on each other.
 const FAR: f64 = 1e4;
+/// Part of the fastest rate below which what is left of a rate asked for is round-off.
+const UNMET: f64 = 1e-8;
 /// Square of the independence of rows below which a gap is left rather than closed from afar.
 const DAMPING: f64 = 1e-8;
 
@@ -166,6 +168,37 @@ impl Workspace<'_> {
         let step = self.rates_of(&step?);
         u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
         Ok(())
+    }
+
+    /// Refuses present rates that do not keep the loops closed, or gauges at given rates: what asks for them excludes each
+    /// other. `before`: rates from which these were found.
+    ///
+    /// # Errors
+    /// `inconsistent_velocities`.
+    pub(crate) fn check_rates(
+        &mut self,
+        given: &[(String, ModelExpr, f64)],
+        before: &[f64],
+    ) -> Result<(), DynamicsError> {
+        self.update_rows();
+        let units = self.units();
+        let rates = |u: &[f64]| u.iter().zip(&units).map(|(u, unit)| (u / unit).abs()).fold(0.0, f64::max);
+        let fastest = rates(&self.placed.u).max(rates(before));
+        let closing = self.rows.iter().filter_map(|row| {
+            let place = (row.source.name(self.m).to_string(), Some(row.source.path(self.m)));
+            row.rate.map(|left| (place, left, left / self.row_unit(row)))
+        });
+        let held = given.iter().map(|(name, gauge, rate)| {
+            let row = self.target_row(gauge, 0.0, *rate);
+            let left = row.rate.unwrap_or(0.0);
+            ((format!("rate of {name}"), None), left, left / self.row_unit(&row))
+        });
+        match closing.chain(held).max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) {
+            Some(((name, path), left, over)) if over.abs() > UNMET * fastest => {
+                Err(DynamicsError::InconsistentRates(name, left, path))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// A motion of the tree in the user's rates.

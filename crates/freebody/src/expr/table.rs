@@ -73,6 +73,11 @@ impl Table {
         }
     }
 
+    /// The first and the last argument: beyond them the end value holds.
+    pub fn span(&self) -> [f64; 2] {
+        [self.x[0], self.x[self.x.len() - 1]]
+    }
+
     /// The increasing arguments at which the slope may jump: every point of a linear table, the two
     /// ends of a smooth one.
     pub fn knots(&self) -> impl Iterator<Item = f64> + '_ {

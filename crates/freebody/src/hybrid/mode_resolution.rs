@@ -291,7 +291,7 @@ impl HybridSystem<'_> {
         if self.driven.is_empty() || y[n..2 * n] == before {
             return Ok(0.0);
         }
-        let works = self.workspace.drive_works_since(&before)?;
+        let works = self.workspace.drive_works_since(&before, &[])?;
         Ok(self.add_drive_works(y, &works))
     }
 

@@ -3,8 +3,9 @@
 use super::mode_changes::{Impulses, ModeChange};
 use super::HybridSystem;
 use crate::dynamics::DynamicsError;
+use crate::gauges::ModelExpr;
 use crate::mechanism::{EventAction, Part};
-use crate::mode::ContactMode;
+use crate::mode::{ContactMode, Mode};
 
 /// Part of the kinetic energy below which what an engagement loses is round-off: what met was at one speed.
 const NOTHING_LOST: f64 = 1e-14;
@@ -58,9 +59,9 @@ impl HybridSystem<'_> {
         changed
     }
 
-    /// Gives gauges their new rates, with the least change of momentum; answers whether any was asked for.
+    /// Gives gauges their new rates, with the least change of momentum; answers whether any was asked for. Motions keep
+    /// theirs, and do the work that it takes.
     fn reset(&mut self, t: f64, y: &mut [f64], actions: &[EventAction]) -> Result<bool, DynamicsError> {
-        let n = self.workspace.m.freedom();
         let mut contact = vec![];
         for action in actions {
             if let EventAction::Reset { gauge, of, rate } = action {
@@ -71,16 +72,52 @@ impl HybridSystem<'_> {
             return Ok(false);
         }
         let before = y.to_vec();
+        // What stands on a floor may leave it.
+        let lost = match self.reset_in(&self.mode.clone(), t, y, &contact) {
+            Err(_) if self.mode.contacts.iter().any(|contact| contact.mode.carries()) => {
+                self.reset_in(&self.with_unloaded_contacts(), t, y, &contact)?
+            }
+            lost => lost?,
+        };
         self.place(t, y);
-        let energy = self.workspace.kinetic_energy();
-        let (q, rest) = y.split_at_mut(n);
-        self.workspace.project_velocities_with(t, q, &mut rest[..n], &contact)?;
-        self.place(t, y);
-        let lost = energy - self.workspace.kinetic_energy();
         let states = Some([before, y.to_vec()]);
         let of = contact.into_iter().map(|(gauge, ..)| gauge).collect();
         self.record_jump(ModeChange { t, kind: "reset", of, lost, states, impulses: None, note: None });
         Ok(true)
+    }
+
+    /// Gives gauges their new rates in a mode; returns the energy that it takes, J.
+    fn reset_in(
+        &mut self,
+        mode: &Mode,
+        t: f64,
+        y: &mut [f64],
+        given: &[(String, ModelExpr, f64)],
+    ) -> Result<f64, DynamicsError> {
+        let (n, before) = (self.workspace.m.freedom(), y.to_vec());
+        self.place_in(mode, t, y);
+        let energy = self.workspace.kinetic_energy();
+        let (q, rest) = y.split_at_mut(n);
+        self.workspace.project_velocities_with(t, q, &mut rest[..n], given)?;
+        self.place_in(mode, t, y);
+        if let Err(error) = self.workspace.check_rates(given, &before[n..2 * n]) {
+            y.copy_from_slice(&before);
+            return Err(error);
+        }
+        let after = self.workspace.kinetic_energy();
+        if self.driven.is_empty() {
+            return Ok(energy - after);
+        }
+        let works = self.workspace.drive_works_since(&before[n..2 * n], given)?;
+        Ok(energy + self.add_drive_works(y, &works) - after)
+    }
+
+    /// The present mode with no load on what is closed.
+    fn with_unloaded_contacts(&self) -> Mode {
+        let mut mode = self.mode.clone();
+        let carrying = mode.contacts.iter_mut().filter(|contact| contact.mode.carries());
+        carrying.for_each(|contact| contact.mode = ContactMode::ClosedUnloaded);
+        mode
     }
 
     /// Lets what was engaged take hold: a plastic impact of the joints.
@@ -90,13 +127,16 @@ impl HybridSystem<'_> {
         let energy = self.workspace.kinetic_energy();
         // Unilateral constraints join in afterwards; the whole is the same impact, for what they do leaves the joints
         // closed.
-        let mut mode = self.mode.clone();
-        let carrying = mode.contacts.iter_mut().filter(|contact| contact.mode.carries());
-        carrying.for_each(|contact| contact.mode = ContactMode::ClosedUnloaded);
+        let mode = self.with_unloaded_contacts();
         self.workspace.enter(&mode);
         let impact = self.workspace.engagement_impact()?;
         let before = y.to_vec();
         y[n..2 * n].iter_mut().zip(&impact.change).for_each(|(u, d)| *u += d);
+        self.place_in(&mode, t, y);
+        if let Err(error) = self.workspace.check_rates(&[], &before[n..2 * n]) {
+            y.copy_from_slice(&before);
+            return Err(error);
+        }
         self.place(t, y);
         let lost = energy + self.add_drive_works(y, &impact.drive_works) - self.workspace.kinetic_energy();
         if lost.abs() <= NOTHING_LOST * energy {

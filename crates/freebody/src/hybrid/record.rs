@@ -48,7 +48,11 @@ impl Trajectory {
                 m.events[event].name
             )
         };
-        told + &self.unrecorded.iter().map(dense).collect::<String>()
+        let left = |(table, t): (usize, f64)| {
+            format!("; the table `{}` was left, from t = {t:.6} s on its end value holds", m.table_names[table])
+        };
+        let tables = self.tables_left(m).unwrap_or_default().into_iter().map(left);
+        told + &self.unrecorded.iter().map(dense).chain(tables).collect::<String>()
     }
 }
 

@@ -176,7 +176,7 @@ impl<'m> HybridSystem<'m> {
         let at = self.workspace.at();
         match discontinuity {
             Discontinuity::Switch(switch, law) => law.switch(*switch, &State(at)),
-            Discontinuity::Knot(argument, x) => argument.eval::<f64, _>(&State(at)) - x,
+            Discontinuity::Knot(_, argument, x) => argument.eval::<f64, _>(&State(at)) - x,
             Discontinuity::Bend(joint, switch) => curve_switch(at.m, at.n, *joint, at.coordinate(*joint, 0), *switch),
         }
     }

@@ -5,7 +5,7 @@ use super::system::Phase;
 use super::{HybridSystem, Settings};
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Discontinuity, Mechanism};
 use crate::mode::Mode;
 use crate::motion::{EventRecord, Outcome, Run};
 
@@ -222,6 +222,29 @@ impl Trajectory {
             Ok(())
         })?;
         Ok(rows)
+    }
+
+    /// Tables of laws that were left, each with when, s: where the step began within which its argument is beyond its points.
+    ///
+    /// # Errors
+    /// As [`Trajectory::sample`].
+    pub fn tables_left(&self, m: &Mechanism) -> Result<Vec<(usize, f64)>, DynamicsError> {
+        let lookups = m.discontinuities.iter().filter_map(|discontinuity| match discontinuity {
+            Discontinuity::Knot(table, argument, x) if *x == m.tables[*table].span()[0] => Some((*table, argument)),
+            _ => None,
+        });
+        let (tables, arguments): (Vec<usize>, Vec<&ModelExpr>) = lookups.unzip();
+        if tables.is_empty() {
+            return Ok(vec![]);
+        }
+        let middles: Vec<f64> = self.steps.windows(2).map(|step| 0.5 * (step[0] + step[1])).collect();
+        let (rows, mut left) = (self.evaluate(m, &arguments, &middles)?, vec![]);
+        for (k, &table) in tables.iter().enumerate() {
+            let [first, last] = m.tables[table].span();
+            let beyond = rows.iter().position(|row| row[k] < first || row[k] > last);
+            left.extend(beyond.map(|step| (table, self.steps[step])));
+        }
+        Ok(left)
     }
 
     /// Works since the start of all forces without a potential, then of all drives.

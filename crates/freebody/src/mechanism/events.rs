@@ -9,8 +9,8 @@ use crate::gauges::{ModelExpr, ModelVariable};
 pub enum Discontinuity {
     /// A switch of a law, by its identifier; its arm is frozen between the discontinuities.
     Switch(usize, ModelExpr),
-    /// The argument of a table of straight features at one of its points.
-    Knot(ModelExpr, f64),
+    /// A table, and its argument at one of its points.
+    Knot(usize, ModelExpr, f64),
     /// A switch in the description of the curve of a joint.
     Bend(usize, usize),
 }
