@@ -65,7 +65,7 @@ def mechanism(model: str) -> fb.Mechanism:
 @cache
 def start(model: str):
     """The state at its start, and the notes on how it was assembled."""
-    return mechanism(model).start()
+    return mechanism(model).moment()
 
 
 @cache

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from freebody.solve.instant import Instant
     from freebody.views.diagram import Diagram
 
-_MOMENT = 1e-6  # s
-
 
 class Moving:
     """The part of ``Mechanism`` that computes."""
@@ -44,23 +42,42 @@ class Moving:
             state, notes = self.compile().assemble(p, t, **given)
         return state, [*turns, *notes]
 
+    def moment(
+        self: Builder,
+        at: float | str | None = None,
+        *,
+        before: str | None = None,
+        after: str | None = None,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        **changes: Any,
+    ) -> tuple[State, list[str]]:
+        """A state of the motion from ``start``, and what is worth saying about that: at a time ``at`` (s, or ``"200 ms"``), after
+        what happens then; just ``before`` or ``after`` the first event or mode change of a name (``"start"``: what happens there);
+        by default at the start, after the events there. Raises ``ValueError`` for what the motion does not reach."""
+        from freebody.run.moments import state_of
+
+        state, notes = self.start(initial, t, **changes)
+        with self.core_errors():
+            return state_of(self, state, at, before, after), notes
+
     def solve(
         self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
     ) -> Instant:
-        """Accelerations and every reaction at one instant, by default the start.
+        """Accelerations and every reaction at one instant, by default the start, after the events there.
 
-        ``changes`` are coordinates or parameters (``phi2="90 deg"``), or the words of ``initial`` (``rates={"phi1": 2}``).
-        ``route`` is ``minimal``, ``newton_euler`` or ``constraints``.
+        ``changes`` are coordinates or parameters (``phi2="90 deg"``), or the words of ``initial`` (``rates={"phi1": 2}``); ``at``,
+        ``before`` and ``after`` are those of ``moment``. ``route`` is ``minimal``, ``newton_euler`` or ``constraints``.
         """
         from freebody.solve.instant import Instant
 
-        state, notes = self.start(initial, t, **changes)
+        state, notes = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():
             return Instant(replace(self.compile(), notes=tuple(notes)), state, route)
 
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
         """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
-        state, _ = self.start(initial, t, **changes)
+        state, _ = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():
             return self.compile().free_bodies(state)
 
@@ -105,9 +122,11 @@ class Moving:
         from freebody.solve.symbolic_state import SymbolicState
 
         chosen = dict(fixed or {})
-        state, notes = self.start(initial, t, **changes, **chosen)
+        state, notes = self.moment(initial=initial, t=t, **changes, **chosen)
         with self.core_errors():
             subject = SymbolicState(self.source(notes), state, at_rest)
+            if state.t > t and (moved := chosen.keys() & set(subject.names)):
+                raise ValueError(f"{min(moved)} is fixed at the start, and moves until {state.t:g} s; leave it out")
             return derive(subject.with_numbers(list(chosen)), form, want)
 
     def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
@@ -126,7 +145,7 @@ class Moving:
         ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.codegen``."""
         from freebody.codegen.program import program
 
-        state, _ = self.start(initial, t, **changes)
+        state, _ = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():
             return program(self.source(), state, language)
 
@@ -136,23 +155,18 @@ class Moving:
         """The free bodies at a state and at others near by, and the named points."""
         from freebody.solve.perturbed_states import nearby
 
-        state, _ = self.start(initial, t, **changes)
+        state, _ = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():
             return nearby(self.source(), state), self.compile().points(state.p)
 
     def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
-        """A moment of motion from the state of ``solve``: at its start the events there have happened (``changes``, ``instant``);
-        None where the model has no such event."""
-        from freebody.run.simulation import simulate
+        """A moment of motion from ``start``: at its start the events there have happened (``changes``, ``instant``); None where the
+        model has no such event."""
+        from freebody.run.moments import opening
 
-        if not any(event.get("opening") for event in self.lowered().spec["events"]):
-            return None
         state, notes = self.start(initial, t, **changes)
         with self.core_errors():
-            run = simulate(self.source(notes), state, self.run_plan(t + _MOMENT, {"step": _MOMENT}))
-        if run.outcome.t == t:
-            raise ValueError(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
-        return run
+            return opening(self, state, notes)
 
     def simulate(
         self: Builder,
@@ -234,18 +248,18 @@ class Moving:
         """Free-body diagrams: symbolic, with letters in their positive sense, or ``to_scale``, with what acts.
 
         ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
-        by itself. Drawn is the start with ``changes`` (as in ``solve``), or a time ``at`` of the motion (s, or ``"200 ms"``;
-        0 is after the events at the start).
+        by itself. Drawn is the moment that ``at``, ``before`` and ``after`` name, by default the start, with ``changes``, as in
+        ``solve``.
         ``effective`` draws m a and I α beside. ``column`` is the width of the text in which it will stand, mm: the drawings are
         made for it, letters keep their size. Raises ``ValueError`` for a body that is none, for a time that the motion does not
         reach and for a column that is too narrow.
         """
         from freebody.views.diagram import diagram, groups, points
 
-        now = self.solve(initial=initial, **changes) if at is None else self._instant_at(at)
+        state, _ = self.moment(at, initial=initial, **changes)
         with self.core_errors():
-            free = now.free_bodies()
-        return diagram(self.source(), now.state, free, groups(of, free), to_scale, effective, points(column))
+            free = self.compile().free_bodies(state)
+        return diagram(self.source(), state, free, groups(of, free), to_scale, effective, points(column))
 
     def blow(self: Builder, number: int = 1, *, of: str | None = None, at: float | str | None = None) -> Impact:
         """The impact of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
@@ -278,18 +292,6 @@ class Moving:
 
         found = self.blow(number, at=at)
         return impulse_diagram(found, groups(of, found.impulses), to_scale, effective, points(column))
-
-    def _instant_at(self: Builder, at: float | str) -> Instant:
-        """The motion at a time, after what happens then; at its start after the events there."""
-        t = evaluate(at, {})
-        if t < 0:
-            raise ValueError(f"the motion begins at 0 s: there is nothing at {t:g} s")
-        run = self.simulate(t) if t > 0 else self.opening()
-        if run is None:
-            return self.solve()
-        if run.outcome.t < t:
-            raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
-        return run.instant(max(t, 0.0))
 
     def source(self: Builder, notes: Sequence[str] = ()) -> CompiledModel:
         """The compiled mechanism with all that views want to know of it."""

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from freebody import cli
+from freebody.cli.models import pairs
 from freebody.cli.user_errors import UserError, explained
 from freebody.core import ModelError, MotionError
 
@@ -175,11 +175,11 @@ def test_a_wrong_model_is_told_with_a_hint(command, path):
 @pytest.mark.parametrize("text", ["theta", "=3", "theta=", ""])
 def test_a_change_needs_a_name_and_a_value(text):
     with pytest.raises(UserError):
-        cli.pairs([text])
+        pairs([text])
 
 
 def test_a_value_may_hold_an_equals_sign():
-    assert cli.pairs([" k = if(a == 1, 2, 3) "]) == {"k": "if(a == 1, 2, 3)"}
+    assert pairs([" k = if(a == 1, 2, 3) "]) == {"k": "if(a == 1, 2, 3)"}
 
 
 def test_a_missing_file_is_said_in_a_line(command):

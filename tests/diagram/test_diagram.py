@@ -203,6 +203,6 @@ def test_what_was_released_acts_no_more():
     m.link(bodies[0].centre, bodies[1].centre, name="bar", length=1)
     m.event("cut", at="start", then={"release": "bar"})
     m.initial(xb=1)
-    before, after = m.diagram("a").cuts[0], m.diagram("a", at=0).cuts[0]
+    before, after = m.diagram("a", before="start").cuts[0], m.diagram("a").cuts[0]
     assert [mark.action.name for mark in before.forces] == ["bar"]
     assert after.forces == []

@@ -98,12 +98,15 @@ impl Mechanism {
         rates: Named,
         points: BTreeMap<String, [f64; 2]>,
         branch: BTreeMap<String, i64>,
+        past: Option<PyRef<'py, History>>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyAny>)> {
         let asked = Initial { fixed, guess, rates, points, branch };
         let wish = self.0.names().wish(&asked).map_err(errors::model)?;
         let m = self.0.mechanism();
         m.check_state(p.as_slice()?, t, &wish.start, &wish.start_rates).map_err(errors::motion)?;
-        let found = assemble(&mut Workspace::new(&m, p.as_slice()?), t, &wish).map_err(errors::motion)?;
+        let mode = past.as_ref().map(|past| &past.mode);
+        let mut workspace = Workspace::in_mode(&m, p.as_slice()?, mode).map_err(errors::motion)?;
+        let found = assemble(&mut workspace, t, &wish).map_err(errors::motion)?;
         let notes = plain(py, &found.notes(&m, &asked))?;
         Ok((PyArray1::from_vec(py, found.q), PyArray1::from_vec(py, found.u), notes))
     }

@@ -314,7 +314,7 @@ class MotionSampler:
 
     def _gaps(self, state: State, q: Array) -> Array:
         """How far every limit is from closing, less than 0 where it is violated, NaN where it has no gap."""
-        return np.array([limit.gap for limit in self._untouched.instant(state.at(q)).limits.values()])
+        return np.array([limit.gap for limit in self._untouched.instant(replace(state.at(q), history=None)).limits.values()])
 
     def _gap_slopes(self, state: State) -> Array:
         """Gradients of the gaps of all limits, a row each."""

@@ -39,7 +39,7 @@ def renamed(mechanism: Builder) -> list[Renamed]:
 
 def _derived(mechanism: Builder) -> SymbolicState | None:
     try:
-        return SymbolicState(mechanism.source(), mechanism.start()[0])
+        return SymbolicState(mechanism.source(), mechanism.moment()[0])
     except (MotionError, ModelProblem):
         return None
 

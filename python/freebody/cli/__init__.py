@@ -10,8 +10,8 @@ import typer
 from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
-from freebody.cli.models import moment, obtained, opened, pairs, print_json, simulated, written
-from freebody.cli.options import AsJson, Changes, Command, Model, Until
+from freebody.cli.models import moment, obtained, opened, print_json, simulated, written
+from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.systems import systems
 from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
 
@@ -64,20 +64,23 @@ def run(
 @app.command(cls=Command)
 def solve(
     model: Model,
-    at: Annotated[list[str] | None, typer.Option(metavar="NAME=VALUE", help="A coordinate, like 'theta=30 deg'.")] = None,
+    at: At = None,
+    before: Before = None,
+    after: After = None,
     changes: Changes = None,
     route: Annotated[Route, typer.Option(help="How to solve; all compares the three.")] = "minimal",
     axes: Annotated[Axes, typer.Option(help="Reactions along fixed axes or along and across each joint.")] = "fixed",
     balance: Annotated[bool, typer.Option("--balance", help="The residual of each body's momentum balance.")] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Accelerations and all reactions at one instant, by default the start."""
+    """Accelerations and all reactions at one instant, by default the start, before and after the events there."""
     from freebody.cli import show
 
-    mechanism, state = opened(model, changes), pairs(at)
+    mechanism, asked = opened(model, changes), moment(at, before, after)
+    opening = None if {"at", "before", "after"} & asked.keys() else mechanism.opening(**asked)
     routes = [each for each in get_args(Route) if each != "all"] if route == "all" else [route]
-    solved = [mechanism.solve(route=name, **state) for name in routes]
-    show.instants(solved, mechanism.opening(**state), axes == "joint", balance, as_json)
+    solved = [mechanism.solve(route=name, **asked | ({"before": "start"} if opening else {})) for name in routes]
+    show.instants(solved, opening, axes == "joint", balance, as_json)
 
 
 @app.command(cls=Command)
@@ -109,9 +112,9 @@ def diagram(
     of: Annotated[
         list[str] | None, typer.Option(metavar="BODIES", help="A body, a group like crank+rod, or all; repeatable.")
     ] = None,
-    at: Annotated[
-        list[str] | None, typer.Option(metavar="TIME|NAME=VALUE", help="A time of the motion, or a coordinate.")
-    ] = None,
+    at: At = None,
+    before: Before = None,
+    after: After = None,
     changes: Changes = None,
     to_scale: Annotated[bool, typer.Option("--to-scale", help="What acts at the instant, with a scale of forces.")] = False,
     effective: Annotated[bool, typer.Option("--effective/--no-effective", help="Draw m a and I alpha beside.")] = True,
@@ -123,13 +126,13 @@ def diagram(
     as_json: AsJson = False,
 ) -> None:
     """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of an impact."""
-    (time, state), mechanism = moment(at), opened(model, changes)
+    asked, mechanism = moment(at, before, after), opened(model, changes)
     if impact is None:
-        drawn = mechanism.diagram(of, time, to_scale=to_scale, effective=effective, column=column, **state)
-    elif state:
-        raise UserError("--impact is of the run, so --at takes a time", "change the start in the model")
+        drawn = mechanism.diagram(of, to_scale=to_scale, effective=effective, column=column, **asked)
+    elif asked.keys() - {"at"}:
+        raise UserError("--impact is of the run, so it goes with --at TIME alone", "change the start in the model")
     else:
-        drawn = mechanism.impulse_diagram(of, impact, at=time, to_scale=to_scale, effective=effective, column=column)
+        drawn = mechanism.impulse_diagram(of, impact, at=asked.get("at"), to_scale=to_scale, effective=effective, column=column)
     if as_json:
         print_json(drawn.data)
     if output or not as_json:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened, pairs, written
-from freebody.cli.options import Model, offering
+from freebody.cli.models import moment, opened, pairs, written
+from freebody.cli.options import After, Before, Model, offering
 from freebody.cli.user_errors import UserError
 from freebody.codegen.languages import LANGUAGES
 from freebody.document.rendering import FORMATS
@@ -53,6 +53,9 @@ def equations(
         ),
     ] = None,
     at_rest: Annotated[bool, typer.Option("--at-rest", help="All rates are 0.")] = False,
+    at: Annotated[str | None, typer.Option(metavar="TIME", help="As at a time of the motion.")] = None,
+    before: Before = None,
+    after: After = None,
     fixed: Annotated[
         list[str] | None,
         typer.Option(
@@ -72,12 +75,13 @@ def equations(
     wanted = [name.strip() for each in want or () for name in each.split(",")]
     if form != SOLVED and len(wanted) > 1:
         raise UserError("several unknowns are wanted", "ask for one, or take --form solved")
-    mechanism, substituted = opened(model), pairs(fixed)
+    mechanism, substituted, when = opened(model), pairs(fixed), moment([at] if at else None, before, after)
     try:
         if form == SOLVED:
-            found = mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=substituted, limits=pairs(limits)).document
+            answers = mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=substituted, limits=pairs(limits), **when)
+            found: Equations | Document = answers.document
         else:
-            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted)
+            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when)
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
@@ -96,7 +100,9 @@ def equations(
         typer.echo(found.printed(kind).rstrip("\n"))
 
 
-def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str]) -> Equations | Document:
+def derived(
+    mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str], when: dict[str, str]
+) -> Equations | Document:
     """The equations in a form, or the document of a topic."""
     from freebody.equations.derivation.derive import FORMS
     from freebody.equations.topics import TOPICS, described, topic
@@ -106,7 +112,7 @@ def derived(mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fi
             raise UserError(
                 f"--for and --at-rest are not for --form {form}", f"by --set it takes {described(form)[1] or 'no options'}"
             )
-        return topic(mechanism, form, **fixed)
+        return topic(mechanism, form, mechanism.moment(**when)[0], **fixed)
     if form not in FORMS:
         raise UserError(f"there is no form {form!r}", f"there are {', '.join((*FORMS, SOLVED, *TOPICS))}")
-    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed)
+    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed, **when)

@@ -65,12 +65,15 @@ def pairs(texts: list[str] | None) -> dict[str, str]:
     return {name.strip(): value.strip() for name, _, value in split}
 
 
-def moment(at: list[str] | None) -> tuple[str | None, dict[str, str]]:
-    """``["theta=30 deg"]`` → no time, coordinates; ``["200 ms"]`` → a time."""
+def moment(at: list[str] | None, before: str | None = None, after: str | None = None) -> dict[str, str]:
+    """What ``Mechanism.moment`` takes: ``["theta=30 deg"]`` are coordinates, ``["200 ms"]`` is a time."""
     times = [text for text in at or [] if "=" not in text]
     if times and len(at or []) > 1:
         raise UserError("--at takes one time, or coordinates", "write it like --at '200 ms', or --at 'theta=30 deg'")
-    return (times[0], {}) if times else (None, pairs(at))
+    if sum(map(bool, (times, before, after))) > 1:
+        raise UserError("--at TIME, --before and --after are one moment", "give one of them")
+    named = {"at": times[0] if times else None, "before": before, "after": after}
+    return {name: text for name, text in named.items() if text} | ({} if times else pairs(at))
 
 
 def print_json(data: Any) -> None:

@@ -15,6 +15,11 @@ from typer.core import TyperCommand
 Model = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")]
 Changes = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")]
+At = Annotated[
+    list[str] | None, typer.Option(metavar="TIME|NAME=VALUE", help="A time of the motion, or a coordinate of the start.")
+]
+Before = Annotated[str | None, typer.Option(metavar="EVENT", help="Just before an event or mode change; start: what happens there.")]
+After = Annotated[str | None, typer.Option(metavar="EVENT", help="Just after an event or mode change; start is the default.")]
 Until = Annotated[str | None, typer.Option(metavar="TIME", help="End of the run, like 5 or '200 ms'.")]
 
 

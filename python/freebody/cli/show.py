@@ -162,6 +162,8 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
     put(*_assembled(first.core))
     if opening:
         put(Text("just before the events at the start\n", "bold"))
+    elif first.state.moment:
+        put(Text(f"{first.state.moment}\n", "bold"))
     put(*_tables(first, joint_axes))
     if balance:
         put(first.tables()[-1], f"Largest relative residual: {first.residual:.1e}")

@@ -104,12 +104,14 @@ class CompiledModel:
         rates: Mapping[str, float] | None = None,
         points: Mapping[str, Sequence[float]] | None = None,
         branch: Mapping[str, int] | None = None,
+        history: _core.History | None = None,
     ) -> tuple[State, list[str]]:
         """A state with all loops closed, that keeps what is ``fixed``, ``rates`` and places of ``points`` (m), near ``guess``, with
-        expressions positive or negative as ``branch`` says; and what is worth saying about it."""
+        expressions positive or negative as ``branch`` says; and what is worth saying about it. With the ``history`` of a motion what
+        it has brought in place, and what touches, stays so."""
         asked = (fixed or {}, guess or {}, rates or {}, points or {}, branch or {})
-        q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked))
-        return State(p, t, q, u), [*notes["adjusted"], *notes["branch"]]
+        q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked), history)
+        return State(p, t, q, u, history), [*notes["adjusted"], *notes["branch"]]
 
     def instant(self, state: State, route: str = "minimal") -> Solution:
         """Accelerations and all reactions by ``minimal``, ``newton_euler`` or ``constraints``."""

@@ -88,8 +88,10 @@ def solve_in_letters(
     limits: Mapping[str, Any] | None = None,
     initial: Mapping[str, Any] | None = None,
     patience: float = PATIENCE,
+    **moment: Any,
 ) -> Answers:
-    """Accelerations and reactions symbolically, near the start of the model.
+    """Accelerations and reactions symbolically, near the start of the model or another ``moment`` (``at``, ``before``, ``after``; see
+    ``Mechanism.moment``).
 
     ``wanted``: coordinates (their accelerations), components of reactions (``pivot.Fx``), motions; all accelerations by default.
     ``at_rest``: all rates are 0, as just after release. ``set``: coordinates and parameters as quantities, ``"45 deg"``, or
@@ -97,9 +99,9 @@ def solve_in_letters(
     What switches (contacts, arms of laws) is as it is at that start. Every answer is held against numbers at the start and at
     states near by. Raises ``TooLarge``, ``Unconfirmed``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
     chosen = given(mechanism, set or {}, limits or {})
-    state = chosen.start(mechanism, at_rest, initial)
+    state = chosen.start(mechanism, at_rest, initial, **moment)
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
-        raise ValueError("a motion prescribes rates that are not 0, so it is not at rest; leave at_rest out")
+        raise ValueError("it is not at rest: a motion prescribes rates that are not 0, or it has begun to move; leave at_rest out")
     subject = SymbolicState(mechanism.source(), state, at_rest)
     _require_limits(subject, chosen, limits or {})
     names = list(wanted) if wanted else subject.names
@@ -187,7 +189,7 @@ def _answers(
 
 
 def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
-    made: list[Block] = [Heading(f"{subject.source.name}: symbolic answers", 1)]
+    made: list[Block] = [Heading(subject.titled("symbolic answers"), 1)]
     made += unloaded(subject)
     if chosen.measured:
         made.append(

@@ -73,15 +73,15 @@ class Substitutions:
         """With what cannot move, and what follows."""
         return replaced(self, trees={**self.trees, **held.trees}, still=held.still, follow=held.follow)
 
-    def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None) -> State:
-        """The start of the model with these values. Raises ``ModelFileError``, ``MotionError``."""
+    def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None, **moment: Any) -> State:
+        """The start of the model with these values, or another moment of the motion from there. Raises ``ModelFileError``, ``MotionError``."""
         first, _ = mechanism.start(initial)
         changes = self._numbers(parameter_values(mechanism.source(), first.p))
         if at_rest:
             changes["at_rest"] = True
             if initial is None and mechanism.lowered().start.rates:
                 changes["rates"] = {}
-        return mechanism.start(initial, **changes)[0]
+        return mechanism.moment(initial=initial, **changes, **moment)[0]
 
     def near(self, subject: SymbolicState, rng: np.random.Generator) -> State | None:
         """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
@@ -93,7 +93,7 @@ class Substitutions:
         parts = rng.uniform(-1, 1, len(names))
         rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
-            found, _ = source.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed})
+            found, _ = source.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed}, history=state.history)
             return replaced(found, u=np.array(rates)) if rates and source.metadata["freedom"]["count"] == len(names) else found
         except MotionError:
             return None
@@ -111,7 +111,7 @@ class Substitutions:
         set_to = self._consistent(values)
         p = source.bind({name: set_to.get(name, value) for name, value in values.items()})
         try:
-            place, _ = source.assemble(p, state.t, guess=dict(zip(subject.names, state.q.tolist(), strict=True)))
+            place, _ = source.assemble(p, state.t, guess=dict(zip(subject.names, state.q.tolist(), strict=True)), history=state.history)
         except MotionError:
             return state
         found = replaced(place, u=state.u)

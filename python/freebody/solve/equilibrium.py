@@ -32,7 +32,7 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
 
     def closed(q: Array) -> Array:
         if not by_contacts:
-            return source.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)))[0].q
+            return source.assemble(state.p, state.t, guess=dict(zip(names, q.tolist(), strict=True)), history=state.history)[0].q
         if (found := closing.place(q)) is None:
             raise np.linalg.LinAlgError("what touches does not close there")
         return found

@@ -135,7 +135,7 @@ class Closing:
         out = OUT * self.size
         try:
             for _ in range(CORRECTIONS):
-                q = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)))[0].q
+                q = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)), history=s.history)[0].q
                 gaps = self._gaps(q)
                 if gaps is None:
                     q, out = q + out * outward, 2 * out
@@ -150,11 +150,11 @@ class Closing:
     def moving(self, q: Array, rates: Array, t: float) -> State:
         """A place and a time, with the rates nearest to some that keep closed what is closed: what that is depends on the rates.
         Raises ``MotionError``."""
-        found = State(self.state.p, t, q, np.zeros_like(rates))
+        found = replace(self.state, t=t, q=q, u=np.zeros_like(rates))
         for _ in range(PASSES):
             held = self.rows(self.core.free_bodies(found))
             rates = rates - np.linalg.pinv(held, rcond=DEPENDENT) @ (held @ rates)
-            found = State(self.state.p, t, q, rates)
+            found = replace(found, u=rates)
         return found
 
     def rows(self, free: FreeBodies) -> Array:
@@ -173,6 +173,8 @@ class Closing:
             if error.kind is OutcomeKind.PENETRATION:
                 return None
             raise
+        if any(limit.is_open and limit.gap < 0 for limit in stated):
+            return None
         return np.array([stated[i].gap for i in self.closed]) * self.normal
 
 

@@ -175,6 +175,10 @@ class SymbolicState:
         known = zip(self.names + parameters, [*self.state.q.tolist(), *self.state.p.tolist()], strict=True)
         return replace(self, numbers={name: x for name, x in known if name in names})
 
+    def titled(self, title: str) -> str:
+        """A title with the model's name and the moment of the state."""
+        return ", ".join(filter(None, (f"{self.source.name}: {title}", self.state.moment)))
+
     def ask(self, questions: Sequence[Question]) -> list[Any]:
         """The answers of the core, as data. Raises ``MotionError``."""
         return self._ask(questions).answers

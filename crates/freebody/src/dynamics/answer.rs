@@ -39,13 +39,30 @@ impl<'m> super::Workspace<'m> {
         mode: Option<&Mode>,
     ) -> Result<Self, super::DynamicsError> {
         m.check_state(p, t, q, u)?;
-        if mode.is_some_and(|mode| !mode.fits(m)) {
-            return Err(super::DynamicsError::ForeignHistory);
-        }
-        let mut workspace = Self::new(m, p);
+        let mut workspace = Self::in_mode(m, p, mode)?;
         workspace.move_to(t, q, u);
-        let mode = mode.map_or_else(|| workspace.initial_mode(), |mode| Ok(mode.clone()))?;
-        workspace.enter(&mode);
+        if mode.is_none() {
+            let mode = workspace.initial_mode()?;
+            workspace.enter(&mode);
+        }
+        Ok(workspace)
+    }
+
+    /// The mechanism in a mode, not yet placed.
+    ///
+    /// # Errors
+    /// A mode that is none of the mechanism.
+    pub fn in_mode(
+        m: &'m crate::mechanism::Mechanism,
+        p: &[f64],
+        mode: Option<&Mode>,
+    ) -> Result<Self, super::DynamicsError> {
+        let mut workspace = Self::new(m, p);
+        match mode {
+            Some(mode) if !mode.fits(m) => return Err(super::DynamicsError::ForeignHistory),
+            Some(mode) => workspace.enter(mode),
+            None => {}
+        }
         Ok(workspace)
     }
 }

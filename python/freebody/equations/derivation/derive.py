@@ -105,7 +105,7 @@ def derive(subject: SymbolicState, form: str = "minimal", want: str | None = Non
         body = [*preamble.kinematics(subject)] * own + body
         body += [Equation(load, tree, "" if i else law) for i, (load, tree) in enumerate(subject.laws)]
         body += [*_matrix_form(form, content, subject), *conserved.section(subject, in_letters=own)]
-    first = [Heading(f"{subject.source.name}: equations, {title}", 1), *(preamble.configuration(subject) if own else [])]
+    first = [Heading(subject.titled(f"equations, {title}"), 1), *(preamble.configuration(subject) if own else [])]
     blocks = (*first, *preamble.letters(letters, used(body)), *body)
     return Equations(
         tuple(lettered(readable(block, _ELSEWHERE), letters) for block in blocks), letters, form=form, content=content

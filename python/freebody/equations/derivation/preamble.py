@@ -40,8 +40,6 @@ def configuration(subject: SymbolicState) -> list[Block]:
     if cases := [force["name"] for force in subject.source.metadata["forces"] if force["cases"] and force["name"] in acting]:
         made.append(Paragraph(f"The law of {joined(cases)} has cases: the equations hold for the case at this state."))
     made += unloaded(subject)
-    if opening := [event["name"] for event in subject.source.spec.get("events", []) if event.get("opening")]:
-        made.append(Paragraph(f"At the start of a motion {joined(opening)} happens; the equations are those before."))
     return made
 
 

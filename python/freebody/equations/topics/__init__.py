@@ -46,4 +46,4 @@ def topic(mechanism: Builder, name: str, state: State | None = None, **options: 
     known = [each.name for each in parameters if each.kind is Parameter.KEYWORD_ONLY]
     if (unknown := [*options.keys() - known]) and all(each.kind is not Parameter.VAR_KEYWORD for each in parameters):
         raise ValueError(f"{name} has no option {unknown[0]!r}; its options: {', '.join(known) or 'none'}")
-    return TOPICS[name](Asked(mechanism, mechanism.start()[0] if state is None else state), **options)
+    return TOPICS[name](Asked(mechanism, mechanism.moment()[0] if state is None else state), **options)

@@ -46,7 +46,7 @@ class Asked:
 def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[Letter] = ()) -> Document:
     """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
     letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
-    first = Heading(f"{subject.source.name}: {title}", 1)
+    first = Heading(subject.titled(title), 1)
     short = [readable(block, _ELSEWHERE) for block in blocks]
     made = (first, *preamble.configuration(subject), *preamble.letters(letters, used(short)), *short)
     return Document(tuple(lettered(block, letters) for block in made), letters)

@@ -1,0 +1,65 @@
+"""Moments of a motion: its start, a time, just before or after what happens."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.core import State
+from freebody.model.start import evaluate
+from freebody.run.simulation import Run, simulate
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+START = "start"
+"""What the events at the start are called together."""
+_MOMENT = 1e-6
+"""Length of a motion in which nothing but the events at its start happens, s."""
+
+
+def opening(mechanism: Builder, start: State, notes: Sequence[str] = ()) -> Run | None:
+    """A moment of the motion from a state, at whose start the events there have happened; None where the model has no such event.
+    Raises ``ValueError`` where they let nothing move on."""
+    if not any(event.get("opening") for event in mechanism.lowered().spec["events"]):
+        return None
+    run = simulate(mechanism.source(notes), start, mechanism.run_plan(start.t + _MOMENT, {"step": _MOMENT}))
+    if run.outcome.t == start.t:
+        raise ValueError(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
+    return run
+
+
+def state_of(mechanism: Builder, start: State, at: float | str | None, before: str | None, after: str | None) -> State:
+    """The state of the motion from ``start`` at a time, after what happens then, or just before or after the first event or mode
+    change of a name; without any the start, after the events there. Raises ``ValueError`` for what the motion does not reach."""
+    if sum(each is not None for each in (at, before, after)) > 1:
+        raise ValueError("at, before and after are one moment: give one of them")
+    t, named = start.t if at is None else evaluate(at, {}), before or after
+    if t < start.t:
+        raise ValueError(f"the motion begins at {start.t:g} s: there is nothing at {t:g} s")
+    happen = [event["name"] for event in mechanism.lowered().spec["events"] if event.get("opening")]
+    if happen and (before == START or before in happen):
+        return replace(start, moment=f"before {' and '.join(happen)}")
+    if t == start.t and (named in (None, START) or named in happen):
+        run = opening(mechanism, start)
+        return replace(run.motion.state(t), moment=f"after {' and '.join(happen)}") if run else start
+    run = simulate(mechanism.source(), start, mechanism.run_plan(None if named else t, {}))
+    if named:
+        t = time_of(run, named)
+    elif run.outcome.t < t:
+        raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
+    stated = f"{'before' if before else 'after'} {named}, t = {t:g} s" if named else f"t = {t:g} s"
+    found = run.motion.state(float(np.nextafter(t, -np.inf)) if before and t > start.t else t)
+    return replace(found, moment=stated)
+
+
+def time_of(run: Run, name: str) -> float:
+    """When an event, or a mode change of a part, of this name comes first, s. Raises ``ValueError`` where it does not come."""
+    happened = [(event.t, event.name) for event in run.events] + [(change.t, part) for change in run.changes for part in change.of]
+    if times := [t for t, what in happened if what == name]:
+        return min(times)
+    known = ", ".join(dict.fromkeys(what for _, what in sorted(happened))) or "nothing does"
+    raise ValueError(f"{name!r} does not happen until {run.outcome.t:g} s; what happens: {known}")
