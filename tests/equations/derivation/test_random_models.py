@@ -20,8 +20,8 @@ from freebody.symbolic.evaluate import evaluate
 AGREE = 1e-10
 """Of the largest term: as closely as the core's own routes agree."""
 every_model = every(map(str, range(300)), "seed")
-REFUSED = {"inconsistent_velocities", "painleve_indeterminate", "painleve_inconsistent"}
-"""What a start may be refused for, and be right: a motion that loops exclude, contacts that jam."""
+REFUSED = {"inconsistent_velocities", "inconsistent_constraints", "painleve_indeterminate", "painleve_inconsistent"}
+"""What a start may be refused for, and be right: a motion that loops exclude, a lock of what is driven, contacts that jam."""
 
 
 @cache
@@ -29,11 +29,11 @@ def visited(seed: str) -> list[SymbolicState] | str:
     """The states of a random model; or why there is none."""
     mechanism = drawn(int(seed))
     try:
-        mechanism.solve()
+        state = mechanism.solve().state
     except fb.MotionError as error:
         assert error.kind in REFUSED, error
         return error.kind.value
-    first = SymbolicState(mechanism.source(), mechanism.start()[0])
+    first = SymbolicState(mechanism.source(), state)
     return [first, *(SymbolicState(first.source, state) for state in others(first.source, first.state)[::RATES])]
 
 
