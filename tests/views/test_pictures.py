@@ -67,7 +67,7 @@ def test_units_are_written_as_people_do():
 
 
 def test_names_that_look_like_mathematics_are_drawn():
-    run = run_double_pendulum(until=0.1, upper="50% $a_b^c\\d")
+    run = run_double_pendulum(until=0.1, upper="50% $a_b^c")
     plots.series(run).figure.canvas.draw()
     drawing(run.source, run.start).figure.canvas.draw()
     free = run.instant(0.0).free_bodies()
