@@ -52,11 +52,9 @@ def state_of(mechanism: Builder, start: State, at: float | str | None, before: s
     elif run.outcome.t < t:
         raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
     stated = f"{'before' if before else 'after'} {named}, t = {t:g} s" if named else f"t = {t:g} s"
-    if before:
-        found = run.motion.state(float(np.nextafter(t, -np.inf))) if t > start.t else start
-    else:
-        found = run.motion.state(t)
-    return replace(found, moment=stated)
+    if before and t == start.t:
+        return replace(start, moment=stated)
+    return replace(run.motion.state(float(np.nextafter(t, -np.inf)) if before else t), moment=stated)
 
 
 def time_of(run: Run, name: str) -> float:
