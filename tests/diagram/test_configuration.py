@@ -158,7 +158,7 @@ def test_arrows_point_where_their_coordinates_grow(model, side):
     nothing_in_the_way = source.spec | {part: [] for part in ("contacts", "strings", "stops", "events", "forces")}
     size, source = sketch_of_state(source, state).size, replace(CompiledModel.of(nothing_in_the_way), model=source.model)
     least = np.array([0.5 if c["dimension"] == "rad" else 8 * size for c in source.metadata["coordinates"]])
-    state = replace(state, q=side * least * (1 + np.arange(len(least)) % 4 / 3), u=np.zeros(len(least)))
+    state = replace(state, history=None, q=side * least * (1 + np.arange(len(least)) % 4 / 3), u=np.zeros(len(least)))
     sketch, step = sketch_of_state(source, state), 1e-4
     for i, measure in enumerate(dimension_lines(sketch)):
         beyond = sketch_of_state(source, replace(state, q=state.q + step * least * np.eye(len(state.q))[i]))

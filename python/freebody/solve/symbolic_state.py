@@ -312,10 +312,11 @@ class SymbolicState:
     @cached_property
     def _beside(self) -> State:
         """The state; or one a little aside where a spring has length 0, and so no direction by which its force could be told."""
-        springs = (load for load in self.free.loads if load.card.name == "spring")
-        if not any(all(part.force == (0, 0) for part in load.on) for load in springs):
+        stretched = [force["name"] for force in self.source.spec.get("forces", []) if "between" in force.get("with", {})]
+        springs = (load for load in self.free.loads if load.name in stretched)
+        if not any(len({part.point for part in load.on}) == 1 for load in springs):
             return self.state
-        return self.state.at(self.state.q + _ASIDE * (1 + np.arange(len(self.state.q)) % 7 / 3))
+        return replace(self.state, q=self.state.q + _ASIDE * (1 + np.arange(len(self.state.q)) % 7 / 3))
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
         return self.source.letters(self._beside, questions, self.at_rest, self.numbers)

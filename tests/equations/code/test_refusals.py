@@ -41,7 +41,7 @@ def test_what_switches_or_is_not_determined(path, told):
     ("before", "after", "told"),
     [
         ("coordinate: s}", "coordinate: s, friction: 0.2}", r"joints\.track has friction, which sticks or slides"),
-        ("x: F,", 'x: "F*max(0, sin(t*1 rad/s))",', r"forces\.push: '.*' switches between formulas \(max\); a smooth law"),
+        ("x: F,", 'x: "max(0, F - k*s)",', r"forces\.push: '.*' switches between formulas \(max\); a smooth law"),
         ("x: F,", 'x: "if(s > 0.2 m, F, 0 N)",', r"forces\.push: '.*' switches between formulas"),
         (
             "x: F,",

@@ -44,7 +44,7 @@ def swing(g):
 @ask("Just before the cut")
 def before(case):
     for name, (file, parameters) in CASES.items():
-        now, g = case.instant(file, parameters), gravity(parameters)
+        now, g = case.instant(file, parameters, before="start"), gravity(parameters)
         value = [now[text] for text in ("AB.tension", "BC.tension", "rail.Fy")]
         carried = M if file == "model.yaml" else MC
         yield Answer(f"tensions of AB and BC, force of the rail{name}", value, "N", [0, MB * g, carried * g], STATICS, 1e-13)

@@ -50,7 +50,7 @@ def flung(case, mR):
 def tension(case):
     """The collar goes around on a circle: T = m_C a ω₁², whatever the rod's mass. Afterwards there is none."""
     for mR in LEAVES:
-        now = case.instant("model.yaml", {"mR": mR})
+        now = case.instant("model.yaml", {"mR": mR}, before="start")
         yield Answer(f"m_R = {mR:g}", now["string.tension"], "N", MC * A * W**2, "closed form: m_C a ω₁²", 1e-12)
         after = flung(case, mR)[0].evaluate("string.tension", 0.0)
         yield Answer(f"just after the cut, m_R = {mR:g}", after, "N", 0.0, "the string is gone", 0.0, 1.0)
