@@ -9,8 +9,9 @@ use crate::scalar::real;
 /// stands in for the size where the component passes through zero, so a decaying quantity keeps
 /// its relative digits. The floor, max(1e-6·rtol, 1e-15)·scale, keeps a component that is zero but
 /// for round-off from governing the step; where the system amplifies round-off it is raised to that
-/// noise, at most to rtol·scale. The norm is the root mean square of the rms and
-/// the maximum of the weighted errors: the worst component always counts for at least 0.7.
+/// noise, at most to rtol·scale. What the end of the step adds to the size counts up to a limit, lest a
+/// wild step be judged beside itself. The norm is the root mean square of the rms and the maximum of the
+/// weighted errors: the worst component always counts for at least 0.7.
 pub(super) struct Norm {
     pub rtol: f64,
     /// Physical size of each component.
@@ -33,9 +34,10 @@ impl Norm {
         let h = to.t - from.t;
         let floor = (FLOOR * self.rtol).max(ROUND_OFF).max(self.noise.min(self.rtol));
         for (i, weight) in out.iter_mut().enumerate() {
-            let size = from.y[i].abs().max(to.y[i].abs());
-            let change = (h * from.dy[i]).abs().max((h * to.dy[i]).abs());
-            *weight = self.rtol * size.max(change) + floor * self.scale[i];
+            let known = from.y[i].abs().max((h * from.dy[i]).abs());
+            let reached = to.y[i].abs().max((h * to.dy[i]).abs());
+            let size = known.max(reached.min(GROWTH * known.max(self.scale[i])));
+            *weight = self.rtol * size + floor * self.scale[i];
         }
     }
 
@@ -61,6 +63,8 @@ pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
 const FLOOR: f64 = 1e-6;
 /// and at least this part of it: a few roundings of a rate.
 const ROUND_OFF: f64 = 1e-15;
+/// How many times the size known at its start, or the physical one, the end of a step may count as.
+const GROWTH: f64 = 10.0;
 /// Parts of the system's own time for a first step where nothing tells its length, and where nothing moves.
 pub(super) const UNTOLD: f64 = 1e-6;
 /// Size or rate, over the physical sizes and time in units of the tolerance, below which it does not tell a first step.
