@@ -234,7 +234,7 @@ impl DynamicsError {
                     Paradox::Indeterminate => "painleve_indeterminate",
                     Paradox::Unsolved => "contact_unsolved",
                 };
-                (name, format!("{told}; lower the friction, or let a spring stand for the contact"), Some(at))
+                (name, told.clone(), Some(at))
             }
             Self::UndecidedPress(names, at) => (
                 "painleve_indeterminate",
@@ -246,7 +246,7 @@ impl DynamicsError {
                 format!("to bring {names} to rest on each other would create the energy {energy:.6e} J"),
                 None,
             ),
-            Self::NoImpulses(names, what, why) => ("no_impact", format!("no impulses at {names} {what}: {why}"), None),
+            Self::NoImpulses(names, what, why) => ("no_impact", format!("impulses at {names} that {what}: {why}"), None),
             Self::DrivenTogether(names) => (
                 "no_impact",
                 format!("prescribed motions drive together what meets at {names}, and nothing between them can yield; end the motion before, or let a spring stand for the contact"),

@@ -329,17 +329,15 @@ impl Workspace<'_> {
         verdict: &Verdict,
     ) -> DynamicsError {
         let names = self.names_of(&contacts.constraints);
+        let has_friction = friction.iter().any(|law| *law != FrictionLaw::Frictionless);
+        let (laws, end, advice) = match has_friction {
+            true => ("Coulomb's law and the balance equations", "the contact jams", "lower the friction"),
+            false => ("the balance equations", "what is prescribed presses it together", "end a motion before"),
+        };
         let mut text = match verdict {
-            Verdict::Indeterminate(answers) => {
-                format!(
-                    "at {names} {} different motions satisfy Coulomb's law and the balance equations",
-                    answers.len()
-                )
-            }
-            Verdict::Unknown => format!("at {names} no motion was found that satisfies Coulomb's law"),
-            _ => {
-                format!("at {names} no motion satisfies both Coulomb's law and the balance equations: the contact jams")
-            }
+            Verdict::Indeterminate(answers) => format!("at {names} {} different motions satisfy {laws}", answers.len()),
+            Verdict::Unknown => format!("at {names} no motion was found that satisfies {laws}"),
+            _ => format!("at {names} no motion satisfies {laws}: {end}"),
         };
         let sliding = (0..contacts.len()).find_map(|i| match friction[i] {
             FrictionLaw::Sliding { sense, kinetic } => Some((i, sense, kinetic)),
@@ -352,6 +350,7 @@ impl Workspace<'_> {
                 text += &format!(", and the paradox begins at a friction of {critical:.6}");
             }
         }
+        text += &format!("; {advice}, or let a spring stand for the contact");
         let paradox = match verdict {
             Verdict::Indeterminate(_) => Paradox::Indeterminate,
             Verdict::Unknown => Paradox::Unsolved,

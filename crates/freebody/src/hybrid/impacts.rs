@@ -61,6 +61,7 @@ impl HybridSystem<'_> {
         contacts: &ClosedContacts,
         rest_speed: f64,
     ) -> Result<(Vec<usize>, f64), DynamicsError> {
+        self.refuse_driven_together(contacts)?;
         let restitution: Vec<f64> = contacts.constraints.iter().map(|&l| self.workspace.restitution(l)).collect();
         let names = self.workspace.names_of(&contacts.constraints);
         let rule = self.rule;
@@ -77,7 +78,7 @@ impl HybridSystem<'_> {
                 }
             }
         }
-        let (impact, lost) = impacting.map_err(|error| self.driven_together(contacts).unwrap_or(error))?;
+        let (impact, lost) = impacting?;
         let (part, hit) = (contacts.takes_part(rest_speed), hit(&impact));
         let impacting = (0..part.len()).filter(|&i| part[i] && hit[i]);
         let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
@@ -118,13 +119,16 @@ impl HybridSystem<'_> {
         Err(DynamicsError::ImpulsesCreateEnergy(t, -lost))
     }
 
-    /// What approaches though hardly any impulse could stop it.
-    fn driven_together(&self, contacts: &ClosedContacts) -> Option<DynamicsError> {
-        let energy = self.workspace.kinetic_energy();
+    /// Refuses what approaches though hardly any impulse could stop it: its response to one is round-off.
+    fn refuse_driven_together(&self, contacts: &ClosedContacts) -> Result<(), DynamicsError> {
+        let energy = self.workspace.kinetic_energy() + self.strength * self.workspace.length;
         let rates = contacts.constraints.iter().enumerate().map(|(i, &l)| (i, l, contacts.rates[i]));
         let rigid = rates.filter(|&(i, _, v)| v < 0.0 && contacts.response(i) * RIGID * energy < v * v);
         let rigid: Vec<usize> = rigid.map(|(_, l, _)| l).collect();
-        (!rigid.is_empty()).then(|| DynamicsError::DrivenTogether(self.workspace.names_of(&rigid)))
+        match rigid.is_empty() {
+            true => Ok(()),
+            false => Err(DynamicsError::DrivenTogether(self.workspace.names_of(&rigid))),
+        }
     }
 
     /// The speed that yielding left over, m/s; 0 where it is too large to count as none.

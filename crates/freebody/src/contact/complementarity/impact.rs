@@ -72,9 +72,9 @@ pub enum NoImpact {
 impl fmt::Display for NoImpact {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            NoImpact::Impossible => write!(f, "no impulses satisfy the impact law"),
-            NoImpact::Ambiguous(all) => write!(f, "{} different outcomes satisfy the impact law", all.len()),
-            NoImpact::Unknown => write!(f, "no impulses were found that satisfy the impact law"),
+            NoImpact::Impossible => write!(f, "there are none"),
+            NoImpact::Ambiguous(all) => write!(f, "{} different outcomes", all.len()),
+            NoImpact::Unknown => write!(f, "none were found"),
             NoImpact::Endless => write!(f, "{HITS} hits, one after the other, do not come to rest"),
         }
     }
