@@ -128,7 +128,7 @@ class CompiledModel:
         at_rest: bool = False,
         numbers: Mapping[str, float] | None = None,
     ) -> SymbolicAnswers:
-        """What is asked of a state symbolically; crates/freebody/src/letters/question.rs lists the questions. Letters among
+        """What is asked of a state symbolically; crates/freebody/src/symbolic/query.rs lists the questions. Letters among
         ``numbers`` are these numbers."""
         setting = {"at_rest": at_rest, "numbers": dict(numbers or {})}
         return SymbolicAnswers.read(self.mechanism.letters(state.arrays, setting, list(questions)))

@@ -21,10 +21,15 @@ _MOMENT = 1e-6
 """Length of a motion in which nothing but the events at its start happens, s."""
 
 
+def _at_start(mechanism: Builder) -> list[str]:
+    """The events at the start of a motion, by name."""
+    return [event["name"] for event in mechanism.lowered().spec["events"] if event.get("opening")]
+
+
 def opening(mechanism: Builder, start: State, notes: Sequence[str] = ()) -> Run | None:
     """A moment of the motion from a state, at whose start the events there have happened; None where the model has no such event.
     Raises ``ValueError`` where they let nothing move on."""
-    if not any(event.get("opening") for event in mechanism.lowered().spec["events"]):
+    if not _at_start(mechanism):
         return None
     run = simulate(mechanism.source(notes), start, mechanism.run_plan(start.t + _MOMENT, {"step": _MOMENT}))
     if run.outcome.t == start.t:
@@ -40,7 +45,7 @@ def state_of(mechanism: Builder, start: State, at: float | str | None, before: s
     t, named = start.t if at is None else evaluate(at, {}), before or after
     if t < start.t:
         raise ValueError(f"the motion begins at {start.t:g} s: there is nothing at {t:g} s")
-    happen = [event["name"] for event in mechanism.lowered().spec["events"] if event.get("opening")]
+    happen = _at_start(mechanism)
     if happen and (before == START or before in happen):
         return replace(start, moment=f"before {' and '.join(happen)}")
     if t == start.t and (named in (None, START) or named in happen):

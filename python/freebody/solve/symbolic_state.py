@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
-from freebody.solve.perturbed_states import nearby
+from freebody.solve.perturbed_states import extent, nearby
 from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.linear import Linear
@@ -23,7 +23,8 @@ _NEAR = 0.15
 """Part by which parameters of other states differ from those of a state, or what they are where they are 0 there."""
 
 _ASIDE = 1e-3
-"""Change of a coordinate, m or rad, by which a spring of length 0 gets a direction; each coordinate takes another, so that they differ."""
+"""Change of a coordinate, rad or as a part of the size of the mechanism, by which a spring of length 0 gets a direction; each coordinate
+takes another, so that they differ."""
 
 
 @dataclass(frozen=True)
@@ -316,7 +317,8 @@ class SymbolicState:
         springs = (load for load in self.free.loads if load.name in stretched)
         if not any(len({part.point for part in load.on}) == 1 for load in springs):
             return self.state
-        return replace(self.state, q=self.state.q + _ASIDE * (1 + np.arange(len(self.state.q)) % 7 / 3))
+        units = np.array([1.0 if c["dimension"] == "rad" else extent(self.free) for c in self.coordinates])
+        return replace(self.state, q=self.state.q + _ASIDE * units * (1 + np.arange(len(units)) % 7 / 3))
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
         return self.source.letters(self._beside, questions, self.at_rest, self.numbers)

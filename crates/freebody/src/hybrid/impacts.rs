@@ -17,7 +17,7 @@ const RISE: f64 = 1e-11;
 const REGULARIZATION: [f64; 4] = [1e-12, 1e-10, 1e-8, 1e-6];
 /// Speed, over the mechanism's own, up to which what yielding, or a long row of impacts, leaves over counts as none.
 pub(super) const LEFT_OVER: f64 = 1e-6;
-/// Energy that it would take to stop an approach, over the kinetic one, from which on nothing yields.
+/// Energy that it would take to stop an approach, over that of the mechanism, from which on nothing yields.
 const RIGID: f64 = 1e12;
 /// Part of the largest impulse below which one is round-off.
 const NO_IMPULSE: f64 = 1e-12;
