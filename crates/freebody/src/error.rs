@@ -276,7 +276,7 @@ impl DynamicsError {
             Self::OutOfRange(t, first, last) => {
                 ("out_of_range", format!("t = {t} s is outside the run, {first} s to {last} s"), None)
             }
-            Self::NoBlow(change) => ("no_blow", format!("change {change} of the run is no blow"), None),
+            Self::NoBlow(change) => ("no_blow", format!("change {change} of the run is no impact"), None),
             Self::UnknownMethod(name, known) => {
                 ("unknown_method", format!("no integrator is called `{name}`; there is {}", known.join(", ")), None)
             }

@@ -110,5 +110,5 @@ def disagreement(problem: Problem, values: Mapping[str, float]) -> float:
     full = problem.systems[0].values(problem.unknowns)
     reach = np.linalg.norm(problem.systems[0].columns, axis=2).max(axis=1)
     largest = np.nanmax(np.abs(full) * reach)
-    told = [(values[u.name], f, largest / r) for u, f, r in zip(problem.unknowns, full, reach, strict=True) if u.name in values]
-    return max((abs(value - f) / (max(abs(f), SMALL * most) or 1.0) for value, f, most in told), default=0.0)
+    known = [(values[u.name], f, largest / r) for u, f, r in zip(problem.unknowns, full, reach, strict=True) if u.name in values]
+    return max((abs(value - f) / (max(abs(f), SMALL * most) or 1.0) for value, f, most in known), default=0.0)

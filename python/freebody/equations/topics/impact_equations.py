@@ -130,7 +130,7 @@ class Impact:
         found = (_root(row.value) for row in self.subject.rows if row.value is not None)
         return dict(pair for pair in found if pair is not None)
 
-    def told(self, tree: Tree) -> Tree:
+    def with_roots(self, tree: Tree) -> Tree:
         """An expression with the ``roots`` as what they are at the impact."""
 
         def put(part: Tree) -> Tree | None:
@@ -162,7 +162,7 @@ class Impact:
         for row in (row for row in self.subject.rows if row.rate is not None):
             closes = row.value is not None and not self.vanishes(row.rate)  # a gap
             back = self.coefficients.get(row.name, ZERO) if closes else ZERO
-            made.append(Condition(row.name, self.told(row.rate), back))
+            made.append(Condition(row.name, self.with_roots(row.rate), back))
         return made
 
     def conserved(self) -> list[tuple[str, Balance]]:
@@ -177,7 +177,7 @@ class Impact:
         parts = [c.tree for balance in balances for c in balance.contributions if not c.internal and grow[c.load]]
         if any(abs(float(evaluate(part, values, self.subject.tables))) >= _NOTHING for part in parts):
             return []
-        return [(e.title, b.with_trees(self.told)) for e, b in zip(found, balances, strict=True)]
+        return [(e.title, b.with_trees(self.with_roots)) for e, b in zip(found, balances, strict=True)]
 
     @cached_property
     def zeros(self) -> dict[Sym, Tree]:
@@ -201,11 +201,11 @@ class Impact:
 
     def of_coordinates(self) -> list[Stated]:
         """The balances of the coordinates."""
-        return [replace(each, balance=each.balance.with_trees(self.told)) for each in stated(self.subject)]
+        return [replace(each, balance=each.balance.with_trees(self.with_roots)) for each in stated(self.subject)]
 
     def of_bodies(self) -> list[Stated]:
         """The three balances of every body, two of a particle."""
-        return [replace(each, balance=each.balance.with_trees(self.told)) for each in of_bodies(self.subject)]
+        return [replace(each, balance=each.balance.with_trees(self.with_roots)) for each in of_bodies(self.subject)]
 
     @cached_property
     def letters(self) -> Letters:
