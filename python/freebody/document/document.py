@@ -12,6 +12,7 @@ from freebody.document.rendering import FORMATS
 from freebody.document.rendering.html import page
 from freebody.document.rendering.text import Text
 from freebody.symbolic.letters import Letters
+from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Tree
 
 
@@ -59,10 +60,6 @@ class Document:
         """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
 
         With ``time`` coordinates are functions of t, else letters, rates and accelerations are symbols."""
-        import sympy
-
-        from freebody.symbolic.to_sympy import to_sympy
-
         def matrix(rows: Sequence[Sequence[Tree]]) -> Any:
             return sympy.Matrix([[to_sympy(entry, self.letters, time=time) for entry in row] for row in rows])
 

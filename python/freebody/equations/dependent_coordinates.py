@@ -15,7 +15,7 @@ from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import PATIENCE, presented
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, operations, replace, symbols
 
 MOST_OPERATIONS = 120
@@ -48,8 +48,6 @@ def solved(given: Sequence[Tree], free: Collection[str], dots: int, values: Mapp
 
 def _one(value: Any, free: Collection[str], dots: int, values: Mapping[Sym, float]) -> tuple[Sym, Tree] | None:
     """The letter with the plainest factor that depends on no place and no rate, and what it is."""
-    import sympy
-
     moving = {sympy.Symbol(name + "'" * n) for name in free for n in (0, 1)}
     asked = sorted(value.free_symbols & {sympy.Symbol(name + "'" * dots) for name in free}, key=str)
     factors = {x: value.diff(x) for x in asked}
@@ -63,8 +61,6 @@ def _one(value: Any, free: Collection[str], dots: int, values: Mapping[Sym, floa
 
 def _shortly(tree: Tree) -> Tree:
     """Without tangents, which are in no balance and would not cancel there."""
-    import sympy
-
     short = to_sympy(presented(tree, patience=PATIENCE / 5))
     return from_sympy(short.replace(sympy.tan, lambda angle: sympy.sin(angle) / sympy.cos(angle)))
 

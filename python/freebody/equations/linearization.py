@@ -14,7 +14,7 @@ from freebody.symbolic.decimals import exact, exact_angle, is_measured, measured
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import ONE, PI, ZERO, Sym, Tree, is_zero, negative, operations, read, symbols
 
 Matrix = list[list[Tree]]
@@ -127,8 +127,6 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
 
 def _slope(row: Row, letter: Sym, put: Mapping[str, Tree]) -> Tree:
     """How what a row asks changes by a letter, at rest."""
-    import sympy
-
     expression = to_sympy(with_exact_numbers(row.acceleration))
     slope = expression.diff(sympy.Symbol(letter.name + "'" * letter.dots))
     still = {x: 0 for x in slope.free_symbols if x.name.endswith("'")}
@@ -167,8 +165,6 @@ def independent(rows: Array, last_first: bool = False) -> list[int]:
 
 
 def _put(tree: Tree, place: Mapping[str, Tree]) -> Tree:
-    import sympy
-
     values = {sympy.Symbol(name): to_sympy(value) for name, value in place.items()}
     found = sympy.expand(to_sympy(with_exact_numbers(tree)).subs(values, simultaneous=True))
     return measured(found) if is_measured(found) else from_sympy(sympy.factor_terms(found))
@@ -180,8 +176,6 @@ def _part(matrix: Matrix, rows: Sequence[int], columns: Sequence[int]) -> Matrix
 
 def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: SymbolicState) -> Matrix:
     """Leftᵀ matrix right, each entry shortly. Raises ``TooLarge``."""
-    import sympy
-
     a, m, b = (sympy.Matrix([[to_sympy(entry) for entry in row] for row in part]) for part in (left, matrix, right))
     product = a.T * m * b
     if all(entry.count_ops() <= MOST_OPERATIONS for entry in product):

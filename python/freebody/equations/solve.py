@@ -10,7 +10,7 @@ from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import is_measured, ratio, rational
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.presentation import PATIENCE, presented
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
 
 MOST_UNKNOWNS = 6
@@ -41,8 +41,6 @@ def solve(
 
     ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
     values of the letters is ``Singular``. The solution is held against the system at random values."""
-    import sympy
-
     if any(len(row) != len(right) for row in (matrix, *matrix)):
         raise ValueError("A x = b needs as many equations as unknowns")
 
@@ -74,8 +72,6 @@ def linear_system(equations: Sequence[tuple[Tree, Tree]], unknowns: Sequence[Sym
 
 def coefficients(tree: Tree, unknowns: Sequence[Sym]) -> tuple[list[Tree], Tree]:
     """The factors of the unknowns in a linear expression, and what is left without them."""
-    import sympy
-
     letters = [to_sympy(unknown) for unknown in unknowns]
     expanded = sympy.expand(to_sympy(tree))
     factors = [expanded.diff(letter) for letter in letters]
@@ -90,8 +86,6 @@ def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | 
     """The limit as a letter goes to a value (from above) or to infinity, the other letters being positive.
 
     An infinite limit is the number ``inf``."""
-    import sympy
-
     names = {symbol.name for symbol in symbols(tree) if not symbol.dots}
     expression = to_sympy(tree, positive=names, real=True)
     target = sympy.oo if to == float("inf") else -sympy.oo if to == -float("inf") else sympy.nsimplify(to)
@@ -105,24 +99,19 @@ def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | 
 
 def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None = None) -> Tree:
     """The expression at given values of letters, in the shortest form found: θ = π/4, m₂ = m₁."""
-    import sympy
-
     chosen = {sympy.Symbol(name): to_sympy(value) for name, value in values.items()}
     return presented(to_sympy(tree).subs(chosen, simultaneous=True), letters, patience=PATIENCE)
 
 
 def _solved(a: Any, b: Any) -> list[Any]:
     """By exact elimination over the rational functions of the letters, sines and cosines."""
-    from sympy.polys.matrices import DomainMatrix
-    from sympy.polys.matrices.exceptions import DMNonInvertibleMatrixError
-
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
         raise TooLarge("the equations are too long for a symbolic answer; set some symbols to numbers")
     shared, (a, b) = _plain(a, b)
-    joined = DomainMatrix.from_Matrix(a.row_join(b)).to_field()
+    joined = sympy.polys.matrices.DomainMatrix.from_Matrix(a.row_join(b)).to_field()
     try:
         solution = joined[:, :-1].lu_solve(joined[:, -1:])
-    except DMNonInvertibleMatrixError:
+    except sympy.polys.matrices.exceptions.DMNonInvertibleMatrixError:
         raise Singular(_UNDETERMINED) from None
     back = {new: old for old, new in shared.items()}
     return [entry.subs(back) for entry in solution.to_Matrix()]
@@ -130,10 +119,8 @@ def _solved(a: Any, b: Any) -> list[Any]:
 
 def _solved_measured(a: Any, b: Any) -> list[Tree]:
     """The same with measured numbers: determinants, whose common factors are not looked for, as round-off hides them."""
-    from sympy.polys.matrices import DomainMatrix
-
     shared, (a, b) = _plain(a.applyfunc(rational), b.applyfunc(rational))
-    joined = DomainMatrix.from_Matrix(a.row_join(b)).to_dense()
+    joined = sympy.polys.matrices.DomainMatrix.from_Matrix(a.row_join(b)).to_dense()
     n, back = a.rows, {new: old for old, new in shared.items()}
 
     def determinant(columns: list[int]) -> Any:
@@ -147,8 +134,6 @@ def _solved_measured(a: Any, b: Any) -> list[Tree]:
 
 def _plain(*matrices: Any) -> tuple[dict, list[Any]]:
     """Functions and roots replaced by letters of their own, so that the entries are rational."""
-    import sympy
-
     atoms = {atom for matrix in matrices for atom in matrix.atoms(sympy.Function, sympy.Pow)}
     found = {atom for atom in atoms if not (atom.is_Pow and atom.exp.is_Integer)}
     outer = sorted(found, key=lambda f: (-f.count_ops(), str(f)))

@@ -11,7 +11,7 @@ from freebody.equations.solve import TooLarge
 from freebody.symbolic.decimals import is_measured
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.presentation import PATIENCE, presented
-from freebody.symbolic.to_sympy import to_sympy
+from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
 
 MOST_OPERATIONS = 80
@@ -52,8 +52,6 @@ def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[
     """The factors of a polynomial, each by its coefficients, the first being 1, and how often it is there; roots of 0 first.
 
     With measured numbers only the roots of 0 are taken out."""
-    import sympy
-
     zeros = next(i for i, factor in enumerate(reversed(polynomial)) if not is_zero(factor))
     rest = list(polynomial[: len(polynomial) - zeros])
     made = [([ONE, ZERO], zeros)] if zeros else []
@@ -74,8 +72,6 @@ def eigenvalues(
     """The symbolic eigenvalues, all letters being real and those named ``positive`` positive.
 
     At most 4 rows, and of cubic and quartic polynomials only those that factor or have only even powers; else ``TooLarge``."""
-    import sympy
-
     polynomial = _polynomial(matrix, positive)
     if sum(factor.count_ops() for factor in polynomial.all_coeffs()) > MOST_OPERATIONS:
         raise TooLarge("the characteristic polynomial is too long for its roots symbolically; set some symbols to numbers")
@@ -126,8 +122,6 @@ def _conditions(a: Sequence[Any], even: bool) -> list[Any]:
 
 def _reduced(condition: Any) -> Any:
     """The condition without factors that are positive; None if it holds."""
-    import sympy
-
     factored = sympy.factor(sympy.cancel(sympy.together(condition)))
     rest = sympy.S.One
     for factor in (f for part in sympy.fraction(factored) for f in sympy.Mul.make_args(sympy.factor(part))):
@@ -139,8 +133,6 @@ def _reduced(condition: Any) -> Any:
 
 
 def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> Any:
-    import sympy
-
     if len(matrix) > MOST_ROWS:
         raise TooLarge(f"symbolic eigenvalues are for at most {MOST_ROWS} rows, not {len(matrix)}; put numbers")
     entries = sympy.Matrix([[to_sympy(entry, positive=positive, real=True) for entry in row] for row in matrix])
@@ -149,8 +141,6 @@ def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> 
 
 
 def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
-    import sympy
-
     real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
         real, imaginary = _apart(root)
@@ -160,8 +150,6 @@ def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
 
 def _apart(root: Any) -> tuple[Any, Any]:
     """Real and imaginary part of a root of which SymPy cannot tell them: (0, ± b) if its square is −b², else as it is."""
-    import sympy
-
     square = sympy.simplify(sympy.expand(-(root**2)))
     if not square.is_positive:
         return root, sympy.S.Zero

@@ -21,6 +21,7 @@ from freebody.symbolic.decimals import exact, shown, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.letters import is_heavy
 from freebody.symbolic.printers.text import text
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import PI, ZERO, Sym, Tree, mul, number, replace, symbols
 
 if TYPE_CHECKING:
@@ -51,8 +52,6 @@ class Substitutions:
 
     def put(self, tree: Tree) -> Tree:
         """An expression with the letters replaced, and plain numbers exact."""
-        from freebody.symbolic.to_sympy import from_sympy, to_sympy
-
         new = {Sym(name): value for name, value in self.trees.items()}
         new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
         new |= self.follow

@@ -20,7 +20,7 @@ from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.linear import Linear, linear_in
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.symbols import Name
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, mul, negative, operations, over, replace, symbols
 
 Put = Callable[[Tree], Tree]
@@ -121,8 +121,6 @@ def _tell(found: Ratios, subject: SymbolicState, block: Sequence[Linear], of: Se
 
 def _plain(tree: Tree) -> Tree:
     """With sines of numbers and roots of numbers as numbers, which loops of gears are full of, exactly where they are plain."""
-    import sympy
-
     expression = to_sympy(tree)
     constants = [f for f in expression.atoms(sympy.Function, sympy.Pow) if not f.free_symbols and not f.is_rational]
     return measured(expression.xreplace({f: f.evalf(17) for f in constants})) if constants else tree

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.symbolic.algebra import factored, quotient
-from freebody.symbolic.to_sympy import from_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy
 from freebody.symbolic.tree import PI, ZERO, Num, Sym, Tree, add, mul, number, rebuilt
 
 _RATIONAL = 1e-12
@@ -23,15 +23,11 @@ _MOST = 1000
 
 def is_measured(expression: Any) -> bool:
     """Whether a SymPy expression has numbers that are not exact."""
-    import sympy
-
     return bool(expression.atoms(sympy.Float))
 
 
 def measured(expression: Any) -> Tree:
     """One sum over another, the largest number below being 1."""
-    import sympy
-
     return ratio(*sympy.fraction(sympy.cancel(rational(expression))))
 
 
@@ -46,14 +42,10 @@ def ratio(above: Any, below: Any) -> Tree:
 
 def rational(expression: Any) -> Any:
     """A SymPy expression in which numbers are the fractions that they are as floats, so that algebra is exact."""
-    import sympy
-
     return sympy.nsimplify(sympy.N(expression, 17), rational=True)
 
 
 def _terms(expression: Any) -> list[tuple[float, Any]]:
-    import sympy
-
     parts = [term.as_coeff_Mul() for term in sympy.Add.make_args(sympy.expand(expression))]
     found = [(float(c), rest) for c, rest in parts if c != 0]
     largest = max((abs(c) for c, _ in found), default=0.0)

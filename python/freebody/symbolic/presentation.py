@@ -26,7 +26,7 @@ from freebody.symbolic.algebra import equal, factored, pythagorean
 from freebody.symbolic.decimals import is_measured, measured
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.printers.text import text
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Add, Fn, Mul, Node, Num, Sym, Tree, add, mul, symbols, walk
 
 PATIENCE = 5.0
@@ -82,8 +82,6 @@ def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
 
 def _by_loads(expression: Any, letters: Letters, patience: float) -> Tree:
     """A sum by masses and loads."""
-    import sympy
-
     light = letters.geometric()
     heavy = {sympy.Symbol(name) for name in letters.of_kind("parameter", "constant") if name not in light}
     parts: dict[Any, Any] = {}
@@ -118,8 +116,6 @@ def length(tree: Tree, letters: Letters | None = None) -> tuple[int, int]:
 
 
 def _forms(expression: Any, letters: Letters | None) -> Iterator[Any]:
-    import sympy
-
     together = sympy.factor(sympy.cancel(sympy.together(expression)))
     yield together
     ways = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in sympy.fraction(together)]
@@ -138,8 +134,6 @@ def _forms(expression: Any, letters: Letters | None) -> Iterator[Any]:
 
 def _ways(part: Any) -> list[Callable[[Any], Any]]:
     """As it is; and for every angle that is in a square, all even powers of its cosine, or of its sine, replaced."""
-    import sympy
-
     squares = {p.base for p in sympy.expand(part).atoms(sympy.Pow) if isinstance(p.base, sympy.sin | sympy.cos)}
     angles = sorted({function.args[0] for function in squares}, key=str)
     if not angles:
@@ -150,8 +144,6 @@ def _ways(part: Any) -> list[Callable[[Any], Any]]:
 
 
 def _without_squares(part: Any, rules: list[tuple[Any, Any]]) -> Any:
-    import sympy
-
     for gone, kept in rules:
         spread = sympy.expand(part)
         if not spread.is_polynomial(gone):  # it stands under a root
@@ -163,8 +155,6 @@ def _without_squares(part: Any, rules: list[tuple[Any, Any]]) -> Any:
 
 def _collected(part: Any) -> list[Any]:
     """As factors; and by what moves: m₁ g sin θ + m₂ g sin θ is (m₁ + m₂) g sin θ."""
-    import sympy
-
     moving = [*part.atoms(sympy.sin, sympy.cos), *(letter for letter in part.free_symbols if letter.name.endswith("'"))]
     spread = sympy.expand(part)
     order = sorted(moving, key=str)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree
 
 _HALVES = 2
@@ -16,8 +16,6 @@ _HALVES = 2
 
 def distances(closed: Iterable[Tree]) -> dict[Any, Any]:
     """Of expressions that vanish, those of a root and something else, l − √(x² + y²): l by x² + y² multiplied out, both of SymPy."""
-    import sympy
-
     found = {}
     for value in closed:
         expression = sympy.expand(to_sympy(value))
@@ -31,8 +29,6 @@ def distances(closed: Iterable[Tree]) -> dict[Any, Any]:
 def with_plain_roots(tree: Tree, known: Mapping[Any, Any], values: Mapping[Sym, float]) -> Tree:
     """An expression with ``known`` distances for powers of their squares, and squares taken out of roots in the sign that they
     have at some values."""
-    import sympy
-
     expression = to_sympy(tree)
     powers = [node for node in expression.atoms(sympy.Pow) if (_HALVES * node.exp).is_Integer and node.base.is_Add]
     plain = {p: length ** (_HALVES * p.exp) for p in powers if (length := known.get(sympy.expand(p.base))) is not None}
@@ -43,16 +39,12 @@ def with_plain_roots(tree: Tree, known: Mapping[Any, Any], values: Mapping[Sym, 
 
 
 def _root(base: Any, values: Mapping[Sym, float]) -> Any:
-    import sympy
-
     above, below = sympy.fraction(sympy.factor(sympy.trigsimp(sympy.together(base))))
     return _of_factors(above, values) / _of_factors(below, values)
 
 
 def _of_factors(part: Any, values: Mapping[Sym, float]) -> Any:
     """The root of a product, without those of squares."""
-    import sympy
-
     outside, inside = sympy.S.One, sympy.S.One
     for factor in sympy.Mul.make_args(part):
         base, times = factor.as_base_exp()

@@ -5,17 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import Any
 
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree
 
-if TYPE_CHECKING:
-    import sympy
-
 _TO = {"abs": "Abs", "ln": "log"}
 _FROM = {to: name for name, to in _TO.items()}
 _SAME = ("sin", "cos", "tan", "exp", "atan2", "sign")
+
+
+class _Later:
+    def __getattr__(self, name: str) -> Any:
+        setattr(self, name, getattr(import_module("sympy"), name))
+        return getattr(self, name)
+
+
+sympy: Any = _Later()
+"""SymPy, which is loaded where something of it is first asked for: that takes longer than all else."""
 
 
 def to_sympy(
@@ -26,8 +34,6 @@ def to_sympy(
     With ``time`` a coordinate is ``Function("theta")(t)`` and its rate a ``Derivative``, as ``dynamicsymbols`` makes them;
     which letters are coordinates the ``letters`` say. Without, ``theta'`` and ``theta''`` are symbols of their own.
     ``positive`` names letters that are assumed to be positive; ``real`` assumes all letters to be real."""
-    import sympy
-
     t, kinds, assumed = sympy.Symbol("t"), letters or Letters(), {"real": True} if real else {}
 
     def symbol(letter: Sym) -> Any:
@@ -63,8 +69,6 @@ def to_sympy(
 
 def from_sympy(expression: sympy.Expr) -> Tree:
     """The tree of a SymPy expression, written with symbols or with functions of time."""
-    import sympy
-
     match expression:
         case sympy.Rational():
             return Num(Fraction(expression.p, expression.q))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,10 +20,8 @@ from freebody.equations.derivation.single_unknown import wanted
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, symbols
-
-if TYPE_CHECKING:
-    import sympy
 
 _TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
 FORMS = tuple(_TITLES)
@@ -75,10 +73,6 @@ class Equations(Document):
 
     def sympy(self) -> tuple[sympy.Matrix, sympy.Matrix, sympy.Matrix]:
         """A, x and b of A x = b as matrices of SymPy, coordinates as functions of time."""
-        import sympy
-
-        from freebody.symbolic.to_sympy import to_sympy
-
         def matrix(rows: Sequence[Sequence[Tree]]) -> sympy.Matrix:
             return sympy.Matrix([[to_sympy(entry, self.letters, time=True) for entry in row] for row in rows])
 

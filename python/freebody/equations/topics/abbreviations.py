@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from freebody.symbolic.algebra import equal
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import ONE, Add, Fn, Sym, Tree, mul, negative, operations, rebuilt, replace, symbols
 
 _ENTRY, _ANGLE = "h", "psi"
@@ -62,8 +62,6 @@ class Names:
         return Fn(part.name, (known or self._new(_ANGLE, angle),))
 
     def _plain(self, part: Tree) -> Tree | None:
-        import sympy
-
         if not isinstance(part, Fn) or not isinstance(part.args[0], Add) or not symbols(part) & self.made.keys():
             return None
         angle = sympy.expand(to_sympy(replace(part.args[0], self.made)))

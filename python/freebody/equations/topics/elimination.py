@@ -15,7 +15,7 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.symbols import unicode_name
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
 
 
@@ -82,8 +82,6 @@ def _put(subject: SymbolicState, tree: Tree, first: Mapping[Sym, Tree], second: 
 
 def _bare(subject: SymbolicState, tree: Tree) -> Tree:
     """What vanishes if the tree does, without factors of parameters and what stands below; accelerations with one factor each."""
-    import sympy
-
     if is_zero(tree):
         return tree
     fixed = set(subject.letters.of_kind("parameter", "constant"))

@@ -18,7 +18,7 @@ from freebody.symbolic.algebra import divided, without_circles
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.presentation import length, presented
-from freebody.symbolic.to_sympy import from_sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import (
     ONE,
     ZERO,
@@ -265,8 +265,6 @@ class _System:
 
     def _stated(self, staged: Tree, full: Tree) -> Tree:
         """``full`` in its shortest form where that can be read, else ``staged``, which says it by other letters."""
-        import sympy
-
         short, whole = self._finished(staged), self.names.spelt(full)
         if operations(whole) > MOST_OPERATIONS:
             return short
@@ -291,7 +289,6 @@ class _System:
 
 def _fourier(tree: Tree) -> Tree:
     """A fraction with products of sines and cosines as sums, in which the angles between parts stand by themselves."""
-    import sympy
     from sympy.simplify.fu import TR8
 
     above, below = (TR8(sympy.expand(part)) for part in sympy.fraction(sympy.together(to_sympy(tree))))
