@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias
@@ -104,9 +104,10 @@ class Table:
 
 @dataclass(frozen=True)
 class Bullets:
-    """A list of sentences."""
+    """A list of sentences; ``data`` are the numbers in them for scripts, printed in JSON only."""
 
     items: Sequence[Words]
+    data: Sequence[Mapping[str, float]] = ()
 
 
 class Picture(Protocol):

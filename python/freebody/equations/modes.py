@@ -17,8 +17,20 @@ _SMALL = 1e-7
 """Singular value, relative to the largest, below which a direction is free; a part of a mode, below which a coordinate rests."""
 _EQUAL = 1e-4
 """Relative difference of eigenvalues, below which they are equal: a double one that shares its direction splits as √ε."""
+_ROUND_OFF = 1e-13
+"""Of eigenvalues, relative to the largest: where n of them are equal but share a direction they split by its nth root."""
+_MOST_EQUAL = 4
+"""Equal eigenvalues that are recognised as such, so that no root of round-off reaches the distance of different ones."""
 _ASIDE = 0.2
 _SEED = 13
+
+
+@dataclass(frozen=True)
+class Root:
+    """An eigenvalue in numbers, 1/s, ``count`` times."""
+
+    value: complex
+    count: int
 
 
 @dataclass(frozen=True)
@@ -66,6 +78,22 @@ def first_order(m: Array, c: Array, k: Array) -> Array:
     """A of ż = A z with z = (x, ẋ). Raises ``LinAlgError``."""
     n = len(m)
     return np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]])
+
+
+def roots(a: Array) -> tuple[Root, ...]:
+    """The eigenvalues of a matrix, equal ones once; parts that are round-off are 0. Ordered by real and imaginary part."""
+    left = [complex(value) for value in np.linalg.eigvals(a)]
+    scale, found = max(map(abs, left), default=0.0), list[Root]()
+    while left:
+        near = sorted(left, key=lambda value: abs(value - left[0]))
+        for count in range(min(_MOST_EQUAL, len(near)), 0, -1):
+            mean = sum(near[:count]) / count
+            if count == 1 or max(abs(value - mean) for value in near[:count]) <= scale * _ROUND_OFF ** (1 / count):
+                break
+        left = near[count:]
+        real, imaginary = (part if abs(part) > 10 * _ROUND_OFF * scale else 0.0 for part in (mean.real, mean.imag))
+        found.append(Root(complex(real, imaginary), count))
+    return tuple(sorted(found, key=lambda root: (root.value.real, root.value.imag)))
 
 
 def null_space(matrix: Array) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from models import SYSTEMS
@@ -86,6 +88,19 @@ def test_equal_pendulums(name: str) -> None:
     assert growth > 5 if forces == PULL else growth < 1.1
 
 
+@pytest.mark.parametrize(("forces", "count"), [("", 2), (PULL, 2), (BEARING, 1)])
+def test_eigenvalues_are_numbers_with_their_multiplicity(forces: str, count: int) -> None:
+    """± i √(g/l) of two equal pendulums, twice also where they share a direction; of a damped one −c/(2 m l²) ± …"""
+    found = topic(fb.Mechanism.loads(PENDULUMS.replace("FORCES", forces)), "linear")
+    upward = [(root.value, root.count) for root in found.eigenvalues if root.value.imag > 0]
+    free = 1j * np.sqrt(9.81 / 0.5)
+    bearing = [] if count == 2 else [(-0.4 / (2 * 2 * 0.5**2) + 1j * np.sqrt(9.81 / 0.5 - 0.4**2), 1)]
+    for (value, times), (true, expected) in zip(upward, [*bearing, (free, count)], strict=True):
+        assert abs(value - true) < 1e-9 and times == expected
+    printed = json.loads(found.json())["blocks"][-1]["data"]
+    assert [(each["real"] + 1j * each["imaginary"], each["count"]) for each in printed if each["imaginary"] > 0] == upward
+
+
 def test_upside_down_it_falls() -> None:
     """Upright the polynomial is s² (s² − (M + m) g/(M l))."""
     stated = " ".join(topic(fb.Mechanism.loads(CART), "linear", theta="180 deg").text().split())
@@ -119,7 +134,12 @@ initial: {s: 0, theta: 0, at_rest: true}
 @pytest.mark.parametrize(("p", "d"), [(30, 7), (30, -7), (5, 7), (-5, -7)])
 def test_gains_are_conditions_whatever_they_are_in_the_model(p: float, d: float) -> None:
     """s̈ = p θ + d θ̇ holds the broom up, λ² + κ d λ + κ (p − g) = 0 with κ = 3/2l, where p > g and d > 0."""
-    hand = HAND.replace("p: 30", f"p: {p}").replace("d: 7", f"d: {d}").replace(" + x*s + v*rate(s)", "").replace(" x: 1, v: 1.5,", "")
+    hand = (
+        HAND.replace("p: 30", f"p: {p}")
+        .replace("d: 7", f"d: {d}")
+        .replace(" + x*s + v*rate(s)", "")
+        .replace(" x: 1, v: 1.5,", "")
+    )
     stated = said(hand)
     assert "decay if - d > 0 - p − g > 0 Masses, inertias, lengths, stiffnesses and gravity are taken as positive." in stated
 

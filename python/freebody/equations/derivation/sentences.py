@@ -52,7 +52,7 @@ def lettered(block: Block, letters: Letters) -> Block:
         case Heading(words) | Paragraph(words) if symbols:
             return replace(block, words=put(words))
         case Bullets(items) if symbols:
-            return Bullets([put(item) for item in items])
+            return replace(block, items=[put(item) for item in items])
         case Equation() if symbols:
             return replace(block, name=put(block.name), note=put(block.note))
     return block
@@ -64,9 +64,8 @@ def readable(block: Block, elsewhere: str) -> Block:
         case Bullets(items):
             sizes = [_signs(pieces(item)) for item in items]
             shown = zip(items, sizes, strict=True)
-            return Bullets(
-                [words if size <= LONGEST else [*_texts(words), f"an expression of {size} signs"] for words, size in shown]
-            )
+            kept = [words if size <= LONGEST else [*_texts(words), f"an expression of {size} signs"] for words, size in shown]
+            return replace(block, items=kept)
         case Equation(_, Matrices((Matrix(rows),))):
             size = max(map(_signs, rows), default=0)
         case Equation(left, right):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,9 @@ from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
+from freebody.equations.modes import Root
 from freebody.equations.solve import TooLarge
+from freebody.equations.stability import Stability
 from freebody.equations.substitutions import Substitutions, given
 from freebody.equations.topics.common import Asked, NotHere, document
 from freebody.equations.topics.stability_text import character
@@ -36,7 +38,19 @@ _STANDS = 1e-9
 """Rate, rad/s or m/s, below which what is prescribed stands still."""
 
 
-def linear(asked: Asked, **at: Any) -> Document:
+@dataclass(frozen=True)
+class LinearEquations(Document):
+    """The document, with the ``equations`` of the perturbations that are left free at ``rest``, of which the others ``follow``; their
+    ``eigenvalues`` in numbers, 1/s; and the ``stability`` of what is not free to stay, where it is told symbolically."""
+
+    rest: State = field(kw_only=True)
+    equations: Linearised = field(kw_only=True)
+    follow: Mapping[str, Sequence[Tree]] = field(kw_only=True)
+    eigenvalues: tuple[Root, ...] = field(kw_only=True)
+    stability: Stability | None = field(kw_only=True)
+
+
+def linear(asked: Asked, **at: Any) -> LinearEquations:
     """M ẍ + C ẋ + K x = 0 of small perturbations from an equilibrium, those that loops and contacts leave free, with the
     characteristic polynomial, eigenvalues, frequencies, and when it is stable.
 
@@ -54,11 +68,15 @@ def linear(asked: Asked, **at: Any) -> Document:
         chosen = replace(chosen, trees={name: tree for name, tree in chosen.trees.items() if name not in places})
     subject = SymbolicState(mechanism.source(), rest, at_rest=True)
     _require_regular(subject)
-    made, found = _perturbations(subject, chosen)
+    made, found, follow = _perturbations(subject, chosen)
+    said, stability, eigenvalues = character(subject, found, _letters_of(subject))
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
     more = [Letter("s", "indeterminate", "1/s", "eigenvalue"), *_letters_of(subject).values()]
-    return document(subject, title, where + made + character(subject, found, _letters_of(subject)), more)
+    whole = document(subject, title, where + made + said, more)
+    return LinearEquations(
+        whole.blocks, whole.letters, rest=rest, equations=found, follow=follow, eigenvalues=eigenvalues, stability=stability
+    )
 
 
 def _rest(source: CompiledModel, state: State, touching: State) -> State:
@@ -88,14 +106,15 @@ def _require_regular(subject: SymbolicState) -> None:
         )
 
 
-def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[Block], Linearised]:
-    """The linear equations, and those of what is left free, symbolically; where these are too long lengths and angles in numbers."""
+def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[Block], Linearised, Mapping[str, Sequence[Tree]]]:
+    """The linear equations, and those of what is left free, symbolically; where these are too long lengths and angles in numbers.
+    With the latter, and how the others follow."""
     place = place_of(subject)
     put = {name: tree for name, tree in place.items() if is_natural(tree)} | chosen.settled()
     whole = linearised(subject, put)
     made = _equations(subject, whole)
     if not subject.rows:
-        return made, whole
+        return made, whole, {}
     numbers: list[str] = []
     try:
         left = held(subject, whole, put)
@@ -103,7 +122,7 @@ def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[
         numbers = [name for name in subject.letters.geometric() if name not in chosen.trees]
         subject, put = subject.with_numbers([n for n in numbers if n not in place]), place | dict(chosen.trees)
         left = held(subject, linearised(subject, put), put)
-    return made + _left_free(subject, left, numbers), left.equations
+    return made + _left_free(subject, left, numbers), left.equations, left.follow
 
 
 def _letters_of(subject: SymbolicState) -> dict[str, Letter]:

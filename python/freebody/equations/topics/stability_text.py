@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.equations.linearization import Linearised, numbers
-from freebody.equations.modes import Modes, first_order, modes
+from freebody.equations.modes import Modes, Root, first_order, modes, roots
 from freebody.equations.solve import Singular, TooLarge
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
 from freebody.solve.symbolic_state import SymbolicState
@@ -18,15 +18,21 @@ from freebody.symbolic.decimals import shown
 from freebody.symbolic.letters import Letter
 from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
 
-_POSITIVE = ("kg", "kg*m^2", "m", "N/m")
-"""Units of masses, inertias, lengths and stiffnesses."""
+_POSITIVE = ("kg", "kg*m^2", "m")
+"""Units of masses, inertias and lengths, where bodies, joints and places have them."""
+_SHAPES = ("bodies", "joints", "points", "lines", "curves", "contacts", "strings", "stops")
+"""Parts of a model in which a number is no gain; in laws of forces and motions it may be one, whatever its unit is."""
 _TAKEN = "Masses, inertias, lengths, stiffnesses and gravity are taken as positive."
 Factors = list[tuple[list[Tree], int]]
 
 
-def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter]) -> list[Block]:
-    """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short."""
+def character(
+    subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter]
+) -> tuple[list[Block], Stability | None, tuple[Root, ...]]:
+    """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short; with the
+    stability, where it is told, and the eigenvalues in numbers."""
     made: list[Block] = []
+    stable: Stability | None = None
     positive = _positive(subject)
     try:
         matrix = found.first_order()
@@ -40,23 +46,32 @@ def character(subject: SymbolicState, found: Linearised, letters: Mapping[str, L
             made += [Paragraph("The eigenvalues:"), Bullets(_paired(found_ones))]
         except TooLarge as error:
             made.append(Paragraph(f"{str(error).capitalize()}."))
-        made += _stability(parts, subject, found, letters, positive)
+        stable, said = _stability(parts, subject, found, letters, positive)
+        made += said
     except (TooLarge, Singular) as error:
         made.append(Paragraph(f"No more is given symbolically: {error}."))
-    return made + _numbers(subject, found)
+    try:
+        values = roots(first_order(*(numbers(subject, part) for part in (found.mass, found.damping, found.stiffness))))
+    except np.linalg.LinAlgError:
+        values = ()
+    return made + _numbers(values), stable, values
 
 
 def _positive(subject: SymbolicState) -> list[str]:
     """Masses, inertias, lengths, stiffnesses and gravity: the only symbols that are taken as positive, where they are so. Gains,
     dampings and the rest may have any sign, whatever they are in the model."""
     spec, letters = subject.source.spec, subject.letters
-    read_as = (str([spec["gravity"], *(force["with"].get("stiffness", "") for force in spec["forces"])]), "g")
-    named = {word for text in read_as for word in re.findall(r"[^\W\d]\w*", text)}
-    return [
-        name
-        for name in letters.of_kind("parameter", "constant")
-        if (letters[name].unit in _POSITIVE or name in named) and subject.values[Sym(name)] > 0
-    ]
+    lengths = [force["with"].get("rest_length", "") for force in spec["forces"]]
+    shapes = [lengths, *(spec[word] for word in _SHAPES), *(each["value"] for each in spec["parameters"])]
+    read, fallen = (set(re.findall(r"[^\W\d]\w*", str(each))) for each in (shapes, spec["gravity"]))
+    loads = fallen | {str(force["with"].get("stiffness")) for force in spec["forces"]}
+
+    def is_positive(name: str) -> bool:
+        unit, own = letters[name].unit, letters[name].kind == "constant"  # of the model's numbers without a name
+        is_size = unit in _POSITIVE and (own or name in read)
+        return (is_size or name in loads or (own and unit == "m/s^2")) and subject.values[Sym(name)] > 0
+
+    return list(filter(is_positive, letters.of_kind("parameter", "constant")))
 
 
 def _product(parts: Factors) -> Tree:
@@ -96,23 +111,22 @@ def _stated(value: Eigenvalue, sign: str = "", signed: str = "") -> Words:
 
 def _stability(
     parts: Factors, subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter], positive: Sequence[str]
-) -> list[Block]:
+) -> tuple[Stability, list[Block]]:
     near = modes(subject, found)
     stated = [stability(p, subject.letters, positive=positive, symmetric=near.symmetric) for p, _ in parts if not is_zero(p[-1])]
     made: list[Block] = [Heading("Stability"), *_free(near, letters)]
+    conditions = tuple(dict.fromkeys(c for each in stated for c in each.conditions))
+    kinds, never = {each.kind for each in stated}, any(each.never for each in stated)
+    whole = Stability(" and ".join(sorted(kinds)), conditions, never or near.grows)
     if not stated:
-        return made
-    if near.grows and not any(each.never for each in stated):
-        return [
-            *made,
-            Paragraph("A repeated eigenvalue has one eigenvector only, so perturbations grow with time: it is unstable."),
-        ]
-    conditions = list(dict.fromkeys(c for each in stated for c in each.conditions))
-    never = any(each.never for each in stated)
+        return whole, made
+    if near.grows and not never:
+        lacking = "A repeated eigenvalue has one eigenvector only, so perturbations grow with time: it is unstable."
+        return whole, [*made, Paragraph(lacking)]
     moving = listed(Sym(letters[name].name) for name in near.moving)
-    made.append(Paragraph(_verdict(stated, bool(near.free), bool(conditions), never, moving)))
+    made.append(Paragraph(_verdict(whole, bool(near.free), moving)))
     made += [Bullets([[shown(condition), " > 0"] for condition in conditions])] * bool(conditions and not never)
-    return [*made, Paragraph(_TAKEN)]
+    return whole, [*made, Paragraph(_TAKEN)]
 
 
 def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
@@ -128,24 +142,24 @@ def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
     return made
 
 
-def _verdict(stated: Sequence[Stability], free: bool, conditions: bool, never: bool, moving: Sequence[str | Side]) -> Words:
-    kinds = {each.kind for each in stated}
+def _verdict(stable: Stability, free: bool, moving: Sequence[str | Side]) -> Words:
     what: list[str | Side] = ["Apart from that, small perturbations of ", *moving] if free else ["Small perturbations"]
-    if never:
+    if stable.never:
         return [*what, " grow, whatever the values of the symbols: it is unstable."]
-    does = {"decays": "decay", "oscillates": "stay small and oscillate"}.get(*kinds) if len(kinds) == 1 else None
-    does = does or "stay small: some decay, others oscillate"
-    return [*what, f" {does}{' if' if conditions else ' for all values of the symbols.'}"]
+    does = {"decays": "decay", "oscillates": "stay small and oscillate"}.get(
+        stable.kind, "stay small: some decay, others oscillate"
+    )
+    return [*what, f" {does}{' if' if stable.conditions else ' for all values of the symbols.'}"]
 
 
-def _numbers(subject: SymbolicState, found: Linearised) -> list[Block]:
-    try:
-        roots = np.linalg.eigvals(first_order(*(numbers(subject, part) for part in (found.mass, found.damping, found.stiffness))))
-    except np.linalg.LinAlgError:
-        return []
+def _numbers(values: Sequence[Root]) -> list[Block]:
     said = []
-    for real, imaginary in sorted({(round(float(r.real), 6), round(abs(float(r.imag)), 6)) for r in roots}):
-        front = f"{real:.5g} ".replace("-", "−") if real or not imaginary else ""
-        period = f"± {imaginary:.5g} i 1/s (period {2 * np.pi / imaginary:.5g} s)" if imaginary else "1/s"
-        said.append(front + period)
-    return [Heading("In numbers"), Paragraph("With the parameters of the model the eigenvalues are"), Bullets(said)]
+    for root in values:
+        real, imaginary = root.value.real, root.value.imag
+        if imaginary >= 0:
+            front = f"{real:.5g} ".replace("-", "−") if real or not imaginary else ""
+            period = f"± {imaginary:.5g} i 1/s (period {2 * np.pi / imaginary:.5g} s)" if imaginary else "1/s"
+            said.append(front + period + f", {root.count} times" * (root.count > 1))
+    data = [{"real": root.value.real, "imaginary": root.value.imag, "count": root.count} for root in values]
+    named = Paragraph("With the parameters of the model the eigenvalues are")
+    return [Heading("In numbers"), named, Bullets(said, data)] if values else []
