@@ -20,22 +20,85 @@ joints:
   B: {{type: hinge, of: [crank.end, coupler.start], coordinate: {{name: beta, absolute: true}}}}
   D: {{type: hinge, of: [ground.D, rocker.start], coordinate: phi}}
   C: {{type: hinge, of: [coupler.end, rocker.end]}}
-motions: {{motor: {{of: theta, is: 1 + 2*t}}}}
-initial: {{theta: 1 rad, guess: {{beta: 0.5 rad, phi: 1.7 rad}}}}
+motions: {{motor: {{of: theta, {motion}}}}}
+initial: {{theta: 1 rad, {rates}guess: {{beta: 0.5 rad, phi: 1.7 rad}}}}
 run: {{until: 3 s}}
 """
 
 
-@pytest.mark.parametrize(("a", "b", "c"), [(0.4, 0.5, 0.8), (0.6, 0.6, 0.7), (0.5, 0.9, 0.3), (0.7, 0.4, 0.8)])
-def test_the_four_bar_stops_where_coupler_and_rocker_are_in_line(tmp_path: Path, a: float, b: float, c: float) -> None:
-    """There |BD| = b + c: cos θ = (a² + d² − (b + c)²)/(2 a d)."""
+FORWARD = {
+    "is: 1 + 2*t": "",
+    "is: 2, level: velocity": "",
+    "is: 1 + t, level: velocity": "",
+    "is: 0.5, level: acceleration": "rates: {theta: 1}, ",
+}
+BACKWARD = {
+    "is: 1 - 2*t": "",
+    "is: -2, level: velocity": "",
+    "is: -0.5, level: acceleration": "rates: {theta: -1}, ",
+}
+"""Motions of an angle from 1 rad on, at the level of positions, velocities and accelerations, with rates that start them."""
+
+
+def refused(tmp_path: Path, text: str, until: float = 3.0) -> fb.Run:
+    """The run of a mechanism that is driven where it does not reach."""
     file = tmp_path / "model.yaml"
-    file.write_text(FOUR_BAR.format(a=a, b=b, c=c))
-    run = fb.load(file).simulate()
+    file.write_text(text)
+    steps = iter(range(400))
+    run = fb.load(file).simulate(until=until, progress=lambda t: next(steps, None) is not None)
+    assert run.outcome.name == "dead_position" and run.outcome.path == "motions.motor", run.outcome
+    return run
+
+
+@pytest.mark.parametrize(("motion", "rates"), FORWARD.items())
+@pytest.mark.parametrize(("a", "b", "c"), [(0.4, 0.5, 0.8), (0.6, 0.6, 0.7), (0.5, 0.9, 0.3), (0.7, 0.4, 0.8)])
+def test_the_four_bar_stops_where_coupler_and_rocker_are_in_line(tmp_path, a, b, c, motion, rates):
+    """There |BD| = b + c: cos θ = (a² + d² − (b + c)²)/(2 a d)."""
+    run = refused(tmp_path, FOUR_BAR.format(a=a, b=b, c=c, motion=motion, rates=rates))
     theta = math.acos((a * a + 1 - (b + c) ** 2) / (2 * a))
-    assert run.outcome.name == "dead_position" and run.outcome.path == "motions.motor"
     assert f"the loop at `C` cannot close beyond theta = {math.degrees(theta):.1f}°" in run.outcome.sentence
     assert theta - 1e-3 < run.q[-1, 0] < theta
+
+
+@pytest.mark.parametrize(("motion", "rates"), BACKWARD.items())
+@pytest.mark.parametrize(("a", "b", "c"), [(0.5, 0.9, 0.3), (0.4, 0.2, 0.9), (0.6, 0.3, 0.95)])
+def test_the_four_bar_stops_where_coupler_and_rocker_are_folded(tmp_path, a, b, c, motion, rates):
+    """There |BD| = |b − c|."""
+    run = refused(tmp_path, FOUR_BAR.format(a=a, b=b, c=c, motion=motion, rates=rates))
+    theta = math.acos((a * a + 1 - (b - c) ** 2) / (2 * a))
+    assert f"beyond theta = {math.degrees(theta):.1f}°" in run.outcome.sentence
+    assert theta < run.q[-1, 0] < theta + 5e-3
+
+
+SLIDER_CRANK = """
+freebody: 1
+parameters: {{r: 0.1 m, l: {l} m}}
+bodies:
+  crank: {{shape: rod, length: r, mass: 0.2 kg}}
+  rod: {{shape: rod, length: l, mass: 0.3 kg}}
+  piston: {{mass: 0.5 kg, inertia: 1e-3}}
+joints:
+  O: {{type: hinge, of: [ground.O, crank.start], coordinate: theta}}
+  A: {{type: hinge, of: [crank.end, rod.start]}}
+  track: {{type: slider, along: {{through: ground.O, angle: 0}}, line: {{through: piston.origin, angle: 0}}, coordinate: x}}
+  B: {{type: hinge, of: [rod.end, piston.origin]}}
+motions: {{motor: {{of: x, {motion}}}}}
+initial: {{x: l, {rates}guess: {{theta: 80 deg}}}}
+"""
+
+
+STROKES = ["is: l + {v}*t", "is: {v}, level: velocity", "is: {v}*(1 + t), level: velocity", "is: {v}/10, level: acceleration"]
+
+
+@pytest.mark.parametrize("motion", STROKES)
+@pytest.mark.parametrize(("l", "v"), [(l, v) for l in (0.15, 0.25, 0.4) for v in (-0.2, 0.2)])
+def test_a_driven_piston_stops_at_the_end_of_its_stroke(tmp_path, l, v, motion):
+    """At x = l ± r, where crank and rod are in line."""
+    rates = f"rates: {{x: {v}}}, " if "acceleration" in motion else ""
+    run = refused(tmp_path, SLIDER_CRANK.format(l=l, motion=motion.format(v=v), rates=rates))
+    end = l + math.copysign(0.1, v)
+    assert f"beyond x = {end:.4f} m" in run.outcome.sentence
+    assert 0 < (end - run.evaluate("x", run.edges[-1])) * math.copysign(1, v) < 1e-3
 
 
 LADDER = """

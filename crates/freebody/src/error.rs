@@ -51,8 +51,8 @@ pub enum DynamicsError {
     CannotAssemble(Vec<(String, f64)>, Option<String>),
     /// No assembly has the signs asked for of expressions.
     BranchNotFound(Vec<String>),
-    /// Rates asked for contradict each other: the name of the worst, by how much, item.
-    InconsistentRates(String, f64, Option<String>),
+    /// Rates asked for contradict each other: the name of each and what the nearest motion leaves of it; the item of the first.
+    InconsistentRates(Vec<(String, f64)>, Option<String>),
     /// A contact, stop or string is violated: in words, and what to try; item.
     Penetration(String, &'static str, String),
     /// No force of joint friction fits the loads that it causes: names.
@@ -217,11 +217,14 @@ impl DynamicsError {
                 format!("no assembly was found in which the signs of {} are as asked; try the other sign or a nearer guess", signs.join(", ")),
                 None,
             ),
-            Self::InconsistentRates(name, off, at) => (
-                "inconsistent_velocities",
-                format!("the motions, loops and given rates contradict each other: at best {name} is off by {off:.3} (m/s or rad/s); remove one of them, or make them agree"),
-                at.as_deref(),
-            ),
+            Self::InconsistentRates(left, at) => {
+                let told: Vec<String> = left.iter().map(|(name, off)| format!("{name} is off by {off:.3}")).collect();
+                (
+                    "inconsistent_velocities",
+                    format!("the motions, loops and given rates contradict each other: at best {} (m/s or rad/s); remove one of them, or make them agree", told.join(", ")),
+                    at.as_deref(),
+                )
+            }
             Self::Penetration(what, hint, at) => ("penetration", format!("{what}; {hint}"), Some(at)),
             Self::SelfLocking(names) => (
                 "self_locking",

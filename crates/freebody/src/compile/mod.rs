@@ -15,7 +15,7 @@ pub use elements::coupling_card;
 use crate::builder::{twice, Builder, Names, Reach, Result, Scope};
 use crate::error::CompileError;
 use crate::expr::{Interpolation, Table};
-use crate::gauges::ModelExpr;
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::mechanism::{Discontinuity, Gap, Mechanism, Parameter};
 use crate::spec::{Number, Spec};
 use std::collections::HashSet;
@@ -139,9 +139,17 @@ impl Builder<'_> {
             }
         }
         for (j, joint) in m.joints.iter().enumerate() {
-            if let Some(curve) = joint.curve.map(|c| &m.curves[c]) {
-                let switches = sorted(curve.x.discontinuities().chain(curve.y.discontinuities()));
-                discontinuities.extend(switches.into_iter().map(|switch| Discontinuity::Bend(j, switch)));
+            let Some(curve) = joint.curve.map(|c| &m.curves[c]) else { continue };
+            let first = &joint.coordinates[0];
+            let turned = ModelExpr::constant(first.sense) * ModelExpr::variable(ModelVariable::Coordinate(j, 0));
+            let along = m.values[first.zero].clone() + turned;
+            for law in [&curve.x, &curve.y].map(|law| law.substitute(&ModelVariable::Local, &along)) {
+                let switches = sorted(law.discontinuities());
+                discontinuities.extend(switches.into_iter().map(|switch| Discontinuity::Bend(switch, law.clone())));
+                for (table, argument) in law.lookups() {
+                    let knots = m.tables[table].knots();
+                    discontinuities.extend(knots.map(|x| Discontinuity::Knot(table, argument.clone(), x)));
+                }
             }
         }
         self.m.discontinuities = discontinuities;
@@ -159,7 +167,7 @@ fn sorted(discontinuities: impl Iterator<Item = usize>) -> Vec<usize> {
 fn uses(law: &ModelExpr) -> HashSet<usize> {
     law.variables()
         .filter_map(|variable| match variable {
-            crate::gauges::ModelVariable::Parameter(i) => Some(*i),
+            ModelVariable::Parameter(i) => Some(*i),
             _ => None,
         })
         .collect()

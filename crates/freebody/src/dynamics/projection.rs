@@ -47,7 +47,14 @@ impl Workspace<'_> {
 
     /// Largest gap of the present state, lengths in units of the characteristic length.
     pub fn worst_gap(&mut self) -> f64 {
+        self.worst_gap_with(&[])
+    }
+
+    /// The same with rows that hold gauges at given values.
+    fn worst_gap_with(&mut self, held: &[(ModelExpr, f64)]) -> f64 {
         self.update_rows();
+        let targets: Vec<Row> = held.iter().map(|(gauge, value)| self.target_row(gauge, *value, 0.0)).collect();
+        self.rows.extend(targets);
         let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
         // What cannot be told (wheels that overlap) is wide open.
         self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
@@ -70,11 +77,23 @@ impl Workspace<'_> {
     /// # Errors
     /// `branch_lost` when the loops cannot be closed from here.
     pub fn project_positions(&mut self, mode: &Mode, t: f64, q: &mut [f64], u: &[f64]) -> Result<f64, DynamicsError> {
+        self.project_positions_with(mode, t, q, u, &[])
+    }
+
+    /// As [`Workspace::project_positions`], with further gauges that must have given values.
+    pub(crate) fn project_positions_with(
+        &mut self,
+        mode: &Mode,
+        t: f64,
+        q: &mut [f64],
+        u: &[f64],
+        held: &[(ModelExpr, f64)],
+    ) -> Result<f64, DynamicsError> {
         self.enter(mode);
         let (mut moved, mut last) = (0.0_f64, f64::INFINITY);
         for _ in 0..CORRECTIONS {
             self.move_to(t, q, u);
-            let gap = self.worst_gap();
+            let gap = self.worst_gap_with(held);
             // Gaps of contacts are told to the round-off of places: to lessen them further is work for nothing.
             let shut = gap <= 0.1 * CLOSED && self.m.closures.is_empty();
             if gap == 0.0 || shut || (gap >= 0.5 * last && gap <= OPEN) {
@@ -95,9 +114,10 @@ impl Workspace<'_> {
             q.iter_mut().zip(&step).for_each(|(q, d)| *q += d);
         }
         self.move_to(t, q, u);
-        if self.worst_gap() <= OPEN {
+        if self.worst_gap_with(held) <= OPEN {
             return Ok(moved);
         }
+        self.update_rows();
         let row = self.widest_row();
         let gap = self.gap(row).map_or(0.0, f64::abs);
         Err(DynamicsError::LoopOpened(row.source.name(self.m).to_string(), gap, row.source.path(self.m)))
@@ -184,21 +204,44 @@ impl Workspace<'_> {
         let units = self.units();
         let rates = |u: &[f64]| u.iter().zip(&units).map(|(u, unit)| (u / unit).abs()).fold(0.0, f64::max);
         let fastest = rates(&self.placed.u).max(rates(before));
-        let closing = self.rows.iter().filter_map(|row| {
-            let place = (row.source.name(self.m).to_string(), Some(row.source.path(self.m)));
-            row.rate.map(|left| (place, left, left / self.row_unit(row)))
-        });
-        let held = given.iter().map(|(name, gauge, rate)| {
-            let row = self.target_row(gauge, 0.0, *rate);
-            let left = row.rate.unwrap_or(0.0);
-            ((format!("rate of {name}"), None), left, left / self.row_unit(&row))
-        });
-        match closing.chain(held).max_by(|a, b| a.2.abs().total_cmp(&b.2.abs())) {
-            Some(((name, path), left, over)) if over.abs() > UNMET * fastest => {
-                Err(DynamicsError::InconsistentRates(name, left, path))
-            }
-            _ => Ok(()),
+        let closing = self
+            .rows
+            .iter()
+            .filter(|row| row.rate.is_some())
+            .map(|row| (row.source.name(self.m).to_string(), Some(row.source.path(self.m)), row.clone()));
+        let held = given
+            .iter()
+            .map(|(name, gauge, rate)| (format!("rate of {name}"), None, self.target_row(gauge, 0.0, *rate)));
+        let asking: Vec<(String, Option<String>, Row)> = closing.chain(held).collect();
+        let over = |left: f64, row: &Row| (left / self.row_unit(row)).abs();
+        if asking.iter().all(|(.., row)| over(row.rate.unwrap_or(0.0), row) <= UNMET * fastest) {
+            return Ok(());
         }
+        let rows: Vec<Row> = asking.iter().map(|(.., row)| row.clone()).collect();
+        let left = self.unmet_rates(&rows);
+        let worst = rows.iter().zip(&left).map(|(row, &left)| over(left, row)).fold(0.0, f64::max);
+        let mut named: Vec<(String, f64)> = vec![];
+        let mut item = None;
+        for ((name, path, row), left) in asking.into_iter().zip(left) {
+            if over(left, &row) >= UNMET * worst && named.iter().all(|(known, _)| *known != name) {
+                named.push((name, left));
+                item = item.or(path);
+            }
+        }
+        Err(DynamicsError::InconsistentRates(named, item))
+    }
+
+    /// What the motion that comes nearest leaves of the rates of rows: 0 but for those that contradict each other.
+    fn unmet_rates(&self, rows: &[Row]) -> Vec<f64> {
+        let (scaled, scales, _) = self.scaled(rows);
+        let split = Orthogonal::factor(&scaled);
+        let rates: Vec<f64> = rows.iter().zip(&scales).map(|(row, scale)| row.rate.unwrap_or(0.0) * scale).collect();
+        let mut left = vec![0.0; rows.len()];
+        for stress in (split.rank().rank..rows.len()).map(|k| split.y().row(k)) {
+            let along: f64 = stress.iter().zip(&rates).map(|(s, r)| s * r).sum();
+            left.iter_mut().zip(stress).for_each(|(l, s)| *l += along * s);
+        }
+        left.iter().zip(&scales).map(|(l, scale)| l / scale).collect()
     }
 
     /// A motion of the tree in the user's rates.

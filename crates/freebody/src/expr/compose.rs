@@ -135,6 +135,22 @@ impl<L: Clone + PartialEq> Expr<L> {
         })
     }
 
+    /// The expression with `value` in place of a leaf; of one without time derivatives.
+    pub fn substitute(&self, leaf: &L, value: &Self) -> Self {
+        let (mut all, mut places) = (Expr { ops: vec![] }, Vec::with_capacity(self.ops.len()));
+        for op in &self.ops {
+            let place = match op {
+                Op::Variable(variable) if variable == leaf => all.absorb(value.clone()),
+                _ => {
+                    all.ops.push(op.clone().moved(|i| places[i]));
+                    all.ops.len() - 1
+                }
+            };
+            places.push(place);
+        }
+        all
+    }
+
     /// One more operation on the value.
     fn extend(mut self, op: impl FnOnce(usize) -> Op<L>) -> Self {
         self.ops.push(op(self.ops.len() - 1));

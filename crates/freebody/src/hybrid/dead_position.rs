@@ -4,7 +4,6 @@
 use super::HybridSystem;
 use crate::dynamics::{DynamicsError, Source};
 use crate::gauges::{ModelExpr, ModelVariable};
-use crate::kinematics::State;
 use crate::mechanism::{Drive, Level, Mechanism};
 
 /// Independence of the closing rows below which a dead position may be near.
@@ -17,11 +16,6 @@ const GLANCE: f64 = 1e-11;
 /// Times that are left after which loops that pass a singular configuration are well on its other side.
 const BEYOND: f64 = 4.0;
 
-/// Whether a drive says where its gauge is at every time.
-fn is_given(drive: &Drive) -> bool {
-    drive.is_motion() && drive.level == Level::Position
-}
-
 impl HybridSystem<'_> {
     /// Refuses a state, that of the last projection, from which the motions lead to where loops cannot close, or a
     /// string has no length, a moment later.
@@ -29,13 +23,12 @@ impl HybridSystem<'_> {
     /// # Errors
     /// `dead_position`, `string_zero_length`.
     pub(super) fn check_dead_position(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
-        if !self.workspace.at().drives().any(|(_, drive)| is_given(drive)) {
+        if !self.workspace.at().drives().any(|(_, drive)| drive.is_motion()) {
             return Ok(());
         }
-        let (n, string) = (self.workspace.m.freedom(), self.shortening_string(t, y));
-        if let Some((l, left)) = string {
-            let (mut q, u) = (y[..n].to_vec(), vec![0.0; n]);
-            if self.workspace.project_positions(&self.mode, t + BEYOND * left, &mut q, &u).is_err() {
+        if let Some((l, left)) = self.shortening_string(t, y) {
+            let q = y[..self.workspace.m.freedom()].to_vec();
+            if self.close_ahead(t, y, BEYOND * left, q).is_err() {
                 return Err(self.zero_length_error(l));
             }
         }
@@ -55,14 +48,12 @@ impl HybridSystem<'_> {
         if !(left > 0.0 && left.is_finite()) {
             return Ok(());
         }
-        let mut q: Vec<f64> = (0..n).map(|i| y[i] + BEYOND * left * y[n + i]).collect();
-        let Err(open) = self.workspace.project_positions(&self.mode, t + BEYOND * left, &mut q, &y[n..2 * n]) else {
-            return Ok(());
-        };
-        self.place(t + left, y);
-        let at = self.workspace.at();
-        let (index, drive) = at.drives().find(|(_, drive)| is_given(drive)).expect("the caller saw one");
-        let value: f64 = drive.law.eval(&State(at));
+        let ahead = (0..n).map(|i| y[i] + BEYOND * left * y[n + i]).collect();
+        let Err(open) = self.close_ahead(t, y, BEYOND * left, ahead) else { return Ok(()) };
+        self.place(t, y);
+        let (index, drive) =
+            self.workspace.at().drives().find(|(_, drive)| drive.is_motion()).expect("the caller saw one");
+        let value = self.gauge_ahead(drive, left);
         let value = if m.turns(&drive.of) { format!("{:.1}°", value.to_degrees()) } else { format!("{value:.4} m") };
         let place = format!("{} = {value}", name_of(m, drive));
         let opened = match &open {
@@ -74,6 +65,23 @@ impl HybridSystem<'_> {
             place,
             Source::Drive(index).path(m),
         ))
+    }
+
+    /// Closes the loops as they would be a time `later`, from coordinates near there: what motions give is where they say, or
+    /// where the rates lead that they give.
+    fn close_ahead(&mut self, t: f64, y: &[f64], later: f64, mut q: Vec<f64>) -> Result<f64, DynamicsError> {
+        self.place(t, y);
+        let moving =
+            self.workspace.at().drives().filter(|(_, drive)| drive.is_motion() && drive.level != Level::Position);
+        let held: Vec<_> = moving.map(|(_, drive)| (drive.of.clone(), self.gauge_ahead(drive, later))).collect();
+        let still = vec![0.0; q.len()];
+        self.workspace.project_positions_with(&self.mode, t + later, &mut q, &still, &held)
+    }
+
+    /// The gauge of a motion a time `later`, as it goes at the present state.
+    fn gauge_ahead(&self, drive: &Drive, later: f64) -> f64 {
+        let now = self.workspace.target_row(&drive.of, 0.0, 0.0);
+        now.value.unwrap_or(0.0) + later * now.rate.unwrap_or(0.0)
     }
 
     /// A taut string with a segment that is short and shortens, and in what time it would have no length.

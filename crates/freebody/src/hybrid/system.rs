@@ -5,7 +5,7 @@ use super::impacts::Rule;
 use super::mode_changes::ModeChange;
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
-use crate::kinematics::{curve_switch, Poses, State};
+use crate::kinematics::State;
 use crate::mechanism::{Discontinuity, EventAction};
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, EventRecord, EventSpec, System};
@@ -175,9 +175,8 @@ impl<'m> HybridSystem<'m> {
     fn switching(&self, discontinuity: &Discontinuity) -> f64 {
         let at = self.workspace.at();
         match discontinuity {
-            Discontinuity::Switch(switch, law) => law.switch(*switch, &State(at)),
+            Discontinuity::Switch(switch, law) | Discontinuity::Bend(switch, law) => law.switch(*switch, &State(at)),
             Discontinuity::Knot(_, argument, x) => argument.eval::<f64, _>(&State(at)) - x,
-            Discontinuity::Bend(joint, switch) => curve_switch(at.m, at.n, *joint, at.coordinate(*joint, 0), *switch),
         }
     }
 

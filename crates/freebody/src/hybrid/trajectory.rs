@@ -224,7 +224,8 @@ impl Trajectory {
         Ok(rows)
     }
 
-    /// Tables of laws that were left, each with when, s: where the step began within which its argument is beyond its points.
+    /// Tables of laws and curves that were left, each with when first, s: where the step began within which an argument is
+    /// beyond its points.
     ///
     /// # Errors
     /// As [`Trajectory::sample`].
@@ -244,6 +245,8 @@ impl Trajectory {
             let beyond = rows.iter().position(|row| row[k] < first || row[k] > last);
             left.extend(beyond.map(|step| (table, self.steps[step])));
         }
+        left.sort_by(|a: &(usize, f64), b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        left.dedup_by_key(|(table, _)| *table);
         Ok(left)
     }
 

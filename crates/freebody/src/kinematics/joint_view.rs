@@ -103,39 +103,6 @@ impl<T: Scalar> CurveOf<T> for CurveView<'_, T> {
     }
 }
 
-/// The switching function of a switch in the curve of a joint, at a place on it.
-pub fn curve_switch(m: &Mechanism, n: &BoundValues, joint: usize, s: f64, switch: usize) -> f64 {
-    let curve = &m.curves[m.joints[joint].curve.expect("a joint along a curve")];
-    let env = Still { m, p: &n.p, s };
-    match curve.x.discontinuities().any(|k| k == switch) {
-        true => curve.x.switch(switch, &env),
-        false => curve.y.switch(switch, &env),
-    }
-}
-
-/// What the description of a curve may read, as plain numbers.
-struct Still<'a> {
-    m: &'a Mechanism,
-    p: &'a [f64],
-    s: f64,
-}
-
-impl Env<f64, ModelVariable> for Still<'_> {
-    fn variable(&self, variable: &ModelVariable) -> f64 {
-        let along: Dual<1> = Along { m: self.m, p: self.p, s: self.s }.variable(variable);
-        along.re
-    }
-    fn rate(&self, _: &ModelExpr) -> f64 {
-        0.0
-    }
-    fn accel(&self, _: &ModelExpr) -> f64 {
-        0.0
-    }
-    fn table(&self, table: usize, x: f64) -> f64 {
-        self.m.tables[table].eval(x)
-    }
-}
-
 /// What the description of a curve may read.
 struct Along<'a, T> {
     m: &'a Mechanism,

@@ -10,7 +10,7 @@ mod joint_view;
 mod measure;
 mod view;
 
-pub use joint_view::{curve_switch, JointView};
+pub use joint_view::JointView;
 pub use measure::{gradient, jet, Config, Observed, State};
 pub use view::{relative, MotionView, Poses, SeededView, StateView};
 

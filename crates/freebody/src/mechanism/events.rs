@@ -11,8 +11,8 @@ pub enum Discontinuity {
     Switch(usize, ModelExpr),
     /// A table, and its argument at one of its points.
     Knot(usize, ModelExpr, f64),
-    /// A switch in the description of the curve of a joint.
-    Bend(usize, usize),
+    /// A switch in the description of the curve of a joint, by its identifier; its arm is never frozen.
+    Bend(usize, ModelExpr),
 }
 
 /// Something to watch for.
