@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from freebody.cli.models import pairs
-from freebody.cli.user_errors import UserError, explained
+from freebody.cli.user_errors import UserError, problems
 from freebody.core import ModelError, MotionError
 
 ROOT = Path(__file__).parents[2]
@@ -201,12 +201,13 @@ def test_a_missing_file_is_said_in_a_line(command):
     ],
 )
 def test_what_a_user_can_mend_is_told(error, told):
-    assert explained(error).startswith(told)
+    (problem,) = problems(error)
+    assert f"{problem.where.path}: {problem.what}".removeprefix(": ").startswith(told)
 
 
 @pytest.mark.parametrize("error", [KeyError("x"), IndexError(), TypeError("x"), RecursionError(), AssertionError()])
 def test_our_own_slips_are_not_hidden(error):
-    assert explained(error) is None
+    assert problems(error) is None
 
 
 def test_version_is_the_installed_one(command):

@@ -12,7 +12,7 @@ SOLVED = CORE | {"model", "solve", "run", "impact"}
 MAY_USE = {
     "core": set(),
     "symbolic": set(),
-    "document": {"symbolic"},
+    "document": {"symbolic", "formats"},
     "solve": CORE,
     "impact": CORE | {"model", "solve"},
     "run": CORE | {"model", "solve"},

@@ -10,10 +10,12 @@ import typer
 from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
-from freebody.cli.models import moment, obtained, opened, print_json, simulated, written
+from freebody.cli.models import moment, obtained, opened, simulated, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.systems import systems
+from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
+from freebody.formats import check_writable, replacing
 
 app = typer.Typer(
     cls=Guarded,
@@ -45,18 +47,26 @@ def run(
     """Simulate; print what happened and write a report. A model that it continues with follows, with files of its own."""
     from freebody.cli import show
 
-    runs, page = [simulated(model, changes, until=until, method=method, rtol=rtol)], report or Path(f"{model.stem}.html")
+    page = report or Path(f"{model.stem}.html")
+    if not no_report:
+        check_writable(page)
+    runs = [simulated(model, changes, until=until, method=method, rtol=rtol)]
     while (after := runs[-1].next) is not None:
         runs.append(after)
     files: list[list[Path]] = []
     for stage, each in enumerate(runs, 1):
+        if not as_json:
+            show.run(each)
         ending = f"-{stage}" if stage > 1 else ""  # the files of a model that it continues with have their number in the name
         files.append([each.save(output.with_stem(output.stem + ending))] if output else [])
         if not no_report:
             from freebody.views.report import write_report
 
             files[-1].append(write_report(each, page.with_stem(page.stem + ending)))
-    show.runs(list(zip(runs, files, strict=True)), as_json)
+        if not as_json:
+            written(*files[-1])
+    if as_json:
+        show.runs_as_json(runs, files)
     if not all(each.outcome.ok for each in runs):
         raise typer.Exit(NOT_TRUE)
 
@@ -91,14 +101,12 @@ def validate(
 ) -> None:
     """Say what is modelled, ignored and assumed; draw the labelled mechanism."""
     from freebody.cli import show
-    from freebody.views.diagram.picture import FORMATS
 
-    if output:
-        FORMATS.of(output)
     mechanism = opened(model)
     show.mechanism(mechanism.solve(), as_json)
     if output:
-        mechanism.drawing().figure.savefig(output)
+        with replacing(output) as beside:
+            mechanism.drawing().figure.savefig(beside)
         if not as_json:
             written(output)
 
@@ -191,7 +199,7 @@ def compare(
 
 app.command()(systems)
 app.command(cls=Command)(equations)
-app.command()(code)
+app.command(cls=Command)(code)
 app.command()(check)
 
 
@@ -208,4 +216,4 @@ def version() -> None:
     """Print the version."""
     from importlib.metadata import version as installed
 
-    typer.echo(installed("freebody"))
+    print(installed("freebody"))

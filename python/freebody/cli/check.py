@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened, print_json
+from freebody.cli.models import opened
 from freebody.cli.options import AsJson, Changes
+from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import NOT_TRUE
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ import typer
 from freebody.cli.models import opened, written
 from freebody.cli.options import Changes, Model, offering
 from freebody.codegen.languages import LANGUAGES
+from freebody.formats import write
 
 _FIRST = next(iter(LANGUAGES))
 
@@ -28,5 +29,4 @@ def code(
     if output is None:
         typer.echo(text.rstrip("\n"))
     else:
-        output.write_text(text, encoding="utf-8")
-        written(output)
+        written(write(output, text))

@@ -9,9 +9,10 @@ import typer
 
 from freebody.cli.models import moment, opened, pairs, written
 from freebody.cli.options import After, Before, Model, offering
+from freebody.cli.terminal import speaks_unicode, spelt
 from freebody.cli.user_errors import UserError
 from freebody.codegen.languages import LANGUAGES
-from freebody.document.rendering import FORMATS
+from freebody.document.rendering import FORMATS, text
 
 if TYPE_CHECKING:
     from freebody.document.document import Document
@@ -97,7 +98,8 @@ def equations(
     if output:
         written(found.save(output, kind))
     else:
-        typer.echo(found.printed(kind).rstrip("\n"))
+        ascii = kind == text.FORMAT.ending and not speaks_unicode()
+        typer.echo((spelt(found.text(ascii=True)) if ascii else found.printed(kind)).rstrip("\n"))
 
 
 def derived(

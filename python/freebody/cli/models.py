@@ -1,14 +1,9 @@
-"""What the commands open and write: models with changes, runs, NAME=VALUE as words; JSON, and the names of files."""
+"""What the commands open and write: models with changes, runs, NAME=VALUE as words; the names of files."""
 
 from __future__ import annotations
 
-import json
-import math
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import typer
 
 from freebody.cli.user_errors import UserError
 
@@ -74,19 +69,6 @@ def moment(at: list[str] | None, before: str | None = None, after: str | None = 
         raise UserError("--at TIME, --before and --after are one moment", "give one of them")
     named = {"at": times[0] if times else None, "before": before, "after": after}
     return {name: text for name, text in named.items() if text} | ({} if times else pairs(at))
-
-
-def print_json(data: Any) -> None:
-    """Data for a script; what is not a finite number is null."""
-    typer.echo(json.dumps(_finite(data), ensure_ascii=False, indent=1, allow_nan=False))
-
-
-def _finite(data: Any) -> Any:
-    if isinstance(data, Mapping):
-        return {key: _finite(value) for key, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [_finite(value) for value in data]
-    return None if isinstance(data, float) and not math.isfinite(data) else data
 
 
 def written(*files: Path) -> None:

@@ -12,6 +12,8 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand
 
+from freebody.formats import Formats, check_writable
+
 Model = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file, YAML or JSON.")]
 Changes = Annotated[list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Change a parameter; repeatable.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")]
@@ -38,12 +40,25 @@ def offering(choices: Mapping[str, str]) -> Callable[[Callable[..., None]], Call
 
 
 class Command(TyperCommand):
-    """A command in whose help ``{run.storage}`` stands for the kinds of files there, read only when the help is asked for."""
+    """A command in whose help ``{run.storage}`` stands for the kinds of files there, read only when they are asked for. What it writes
+    is held against them before it begins."""
 
     def format_help(self, *where: Any) -> None:
         for option in self.params:
-            stated: str = getattr(option, "help", None) or ""
-            for home in re.findall(r"\{([a-z.]+)\}", stated):
-                stated = stated.replace(f"{{{home}}}", str(import_module(f"freebody.{home}").FORMATS))
-                option.help = stated  # type: ignore[attr-defined]
+            for home, formats in _formats(option):
+                option.help = option.help.replace(f"{{{home}}}", str(formats))  # type: ignore[attr-defined]
         super().format_help(*where)
+
+    def invoke(self, context: typer.Context) -> Any:
+        if output := context.params.get("output"):
+            for option in self.params:
+                for _, formats in _formats(option) if option.name == "output" else ():
+                    formats.of(output)
+            check_writable(output)
+        return super().invoke(context)
+
+
+def _formats(option: Any) -> list[tuple[str, Formats[Any]]]:
+    """The kinds of files that the help of an option names, and where they are listed."""
+    homes = re.findall(r"\{([a-z.]+)\}", getattr(option, "help", None) or "")
+    return [(home, import_module(f"freebody.{home}").FORMATS) for home in homes]

@@ -13,7 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from freebody.cli.models import print_json, written
+from freebody.cli.terminal import print_json
 from freebody.solve.rich_tables import table
 from freebody.views.peaks import known_peaks
 
@@ -36,38 +36,33 @@ def put(*things: Any) -> None:
         if not isinstance(thing, Table):
             console.print(Text(thing) if isinstance(thing, str) else thing)
         elif thing.row_count:
-            console.print(thing, "")
+            console.print(thing, "", crop=False)
 
 
 # A run
 
 
-def runs(done: Sequence[tuple[Run, Sequence[Path]]], as_json: bool) -> None:
-    """Runs one after the other, each with the files that were made; of several, JSON is a list."""
-    if as_json:
-        data = [
-            {
-                "name": each.name,
-                "outcome": asdict(each.outcome),
-                "digits": each.accuracy.to_json(),
-                "events": [asdict(event) | _digits(t=each.accuracy.time(event.t)) for event in each.events],
-                "changes": [asdict(change) | _digits(t=change.t, lost=change.lost) for change in each.accuracy.changes],
-                "report": {
-                    label: asdict(reported) | _digits(value=reported.value, t=reported.t)
-                    for label, reported in each.accuracy.report.items()
-                },
-                "energy": {"balance": float(abs(each.energy.balance).max(initial=0.0)), "relative": closure(each)},
-                "peaks": [asdict(peak) | _digits(size=peak.size, couple=peak.couple) for peak in known_peaks(each)],
-                "stats": each.stats,
-                "files": [str(path) for path in files],
-            }
-            for each, files in done
-        ]
-        print_json(data if len(data) > 1 else data[0])
-        return
-    for each, files in done:
-        run(each)
-        written(*files)
+def runs_as_json(done: Sequence[Run], files: Sequence[Sequence[Path]]) -> None:
+    """Runs one after the other, each with the files that were made; several as a list."""
+    data = [
+        {
+            "name": each.name,
+            "outcome": asdict(each.outcome),
+            "digits": each.accuracy.to_json(),
+            "events": [asdict(event) | _digits(t=each.accuracy.time(event.t)) for event in each.events],
+            "changes": [asdict(change) | _digits(t=change.t, lost=change.lost) for change in each.accuracy.changes],
+            "report": {
+                label: asdict(reported) | _digits(value=reported.value, t=reported.t)
+                for label, reported in each.accuracy.report.items()
+            },
+            "energy": {"balance": float(abs(each.energy.balance).max(initial=0.0)), "relative": closure(each)},
+            "peaks": [asdict(peak) | _digits(size=peak.size, couple=peak.couple) for peak in known_peaks(each)],
+            "stats": each.stats,
+            "files": [str(path) for path in made],
+        }
+        for each, made in zip(done, files, strict=True)
+    ]
+    print_json(data if len(data) > 1 else data[0])
 
 
 def _digits(**figures: float | None) -> dict[str, Any]:

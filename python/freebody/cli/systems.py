@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened, print_json, written
+from freebody.cli.models import opened, written
 from freebody.cli.options import AsJson
+from freebody.cli.terminal import print_json, speaks_unicode
 from freebody.cli.user_errors import NOT_TRUE, UserError
+from freebody.formats import check_writable
 
 if TYPE_CHECKING:
     from freebody.catalogue import System
@@ -30,9 +32,6 @@ def systems(
     try:
         listed = catalogue.systems()
         chosen = listed if identity is None else [catalogue.find(identity)]
-    except ModuleNotFoundError as missing:
-        what = f"the catalogue checks its answers with other libraries, of which {missing.name} is missing"
-        raise UserError(what, "pip install 'freebody[catalogue]'") from None
     except KeyError as error:
         raise UserError(error.args[0], "freebody systems lists them") from None
     if diagrams:
@@ -103,14 +102,15 @@ def _derive(systems: list[System]) -> None:
     for model in (path for system in systems for path in system.models):
         try:
             for form in FORMS:
-                typer.echo(opened(model).equations(form).text())
+                print(opened(model).equations(form).text(ascii=not speaks_unicode()))
         except MotionError as error:
-            typer.echo(f"{model.name}: {error.what}\n")
+            print(f"{model.name}: {error.what}\n")
 
 
 def _draw(systems: list[System], page: Path) -> None:
     """A page with the diagrams of all models of some systems."""
     from freebody.views.diagram.gallery import write_gallery
 
+    check_writable(page)
     models = ((f"{system.id}, {path.stem}: {system.title}", opened(path)) for system in systems for path in system.models)
     written(write_gallery(models, page))

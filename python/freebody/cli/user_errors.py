@@ -1,13 +1,18 @@
-"""What the user can correct is said in a line or two, never as a traceback."""
+"""What the user can correct is said in a line or two, never as a traceback; as JSON where that was asked for."""
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
-from pathlib import Path
+from contextlib import suppress
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperGroup
+
+from freebody.cli import terminal
 
 if TYPE_CHECKING:
     from freebody.model.errors import Problem
@@ -24,41 +29,65 @@ class Guarded(TyperGroup):
     """Commands whose errors, where the user can correct them, are printed and end with code 2."""
 
     def invoke(self, context: typer.Context) -> Any:
+        as_json = "--json" in context.args
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(AttributeError):  # a stream of a notebook takes everything
+                stream.reconfigure(errors=terminal.SPELT)  # type: ignore[union-attr]
         try:
-            return super().invoke(context)
+            done = super().invoke(context)
+            sys.stdout.flush()
+            return done
         except Exception as error:
-            stated = explained(error)
-            if stated is None:
+            found = problems(error)
+            if found is None or (hasattr(error, "format_message") and not as_json):
                 raise
-            print(stated, file=sys.stderr)
+            if as_json and not _is_of_stdout(error):
+                terminal.print_json({"problems": [asdict(problem) for problem in found]})
+            else:
+                print("\n".join(map(_stated, found)), file=sys.stderr)
+            if _is_of_stdout(error):
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left of it is not tried again
             raise typer.Exit(MISTAKEN) from None
 
 
-def explained(error: Exception) -> str | None:
-    """What is wrong and what to try; None for an error that is ours."""
-    from freebody.core import ExpressionError, ModelError, MotionError
-    from freebody.model.errors import ModelFileError, ModelProblem, Problem
+def problems(error: Exception) -> list[Problem] | None:
+    """What is wrong, where, and what to try; None for an error that is ours, and for a reader that went away."""
+    from freebody.model.errors import Problem, Where
 
-    if isinstance(error, OSError) and error.filename:
-        return f"{error.filename}: {error.strerror}"
+    if isinstance(error, OSError):
+        return None if error.errno == errno.EPIPE else [Problem(Where(str(error.filename or "")), error.strerror or str(error))]
+    if isinstance(error, ModuleNotFoundError) and error.name and not error.name.startswith("freebody"):
+        what = f"this needs {error.name}, which is not installed"
+        return [Problem(Where(), what, "pip install 'freebody[catalogue,table]' brings all that freebody can use")]
+    if hasattr(error, "format_message"):  # of typer, about the words of the command
+        return [Problem(Where(), error.format_message())]
+
+    from freebody.core import ExpressionError, ModelError, MotionError
+    from freebody.model.errors import ModelFileError, ModelProblem
+
     if isinstance(error, ModelFileError):
-        return "\n".join(map(_placed, error.problems))
+        return error.problems
     if where := getattr(error, "where", None):
-        return str(Problem(where, *error.args[-2:]))
+        return [Problem(where, *error.args[-2:])]
     if isinstance(error, (UserError, ModelProblem, ModelError, ExpressionError, MotionError)):
-        # The last two are always what is wrong and what to try; a place in front of them is a path in the model.
+        # The last two are always what is wrong and what to try.
         *_, what, hint = error.args
-        if isinstance(error, MotionError):
-            hint = hint.replace("; ", "\n  ")
-        place = f"{error.args[0]}: " if isinstance(error, ModelError) else ""
-        return f"{place}{what}\n  {hint}" if hint else f"{place}{what}"
+        hint = hint.replace("; ", "\n  ") if isinstance(error, MotionError) else hint
+        return [Problem(Where(path=error.path) if isinstance(error, ModelError) else Where(), what, hint)]
     # A bare KeyError or IndexError says nothing to a user: it is a slip of ours.
     spoken = isinstance(error, (ValueError, LookupError, ImportError)) and not isinstance(error, (KeyError, IndexError))
-    return str(error) if spoken or type(error) is RuntimeError else None
+    return [Problem(Where(), str(error))] if spoken or type(error) is RuntimeError else None
 
 
-def _placed(problem: Problem) -> str:
+def _stated(problem: Problem) -> str:
     """A problem with its place, unless that is a line of Python: then it came with the command."""
-    if Path(problem.where.file).suffix in ("", ".yaml", ".yml", ".json") and not problem.where.file.startswith("<"):
+    where = problem.where
+    if where.file and not where.file.endswith((".py", ">")):
         return str(problem)
-    return f"{problem.what}\n  {problem.hint}" if problem.hint else problem.what
+    place = f"{where.path}: " if where.path and not where.file else ""
+    return f"{place}{problem.what}\n  {problem.hint}" if problem.hint else f"{place}{problem.what}"
+
+
+def _is_of_stdout(error: Exception) -> bool:
+    return isinstance(error, OSError) and error.filename is None
+

@@ -11,6 +11,7 @@ from freebody.document.blocks import Block, Equation, Figure, MatrixEquation, is
 from freebody.document.rendering import FORMATS
 from freebody.document.rendering.html import page
 from freebody.document.rendering.text import Text
+from freebody.formats import write
 from freebody.symbolic.letters import Letters
 from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Tree
@@ -32,7 +33,7 @@ class Document:
         """Write a file by its ending or ``kind``, see ``printed``, and the figures beside it. Returns all that is written."""
         path = Path(path)
         form = FORMATS[kind or path.suffix.removeprefix(".")]
-        path.write_text(self.printed(form.ending, path.stem), encoding="utf-8")
+        write(path, self.printed(form.ending, path.stem))
         figures = [block for block in self.blocks if isinstance(block, Figure) and form.figures]
         return [path, *(each.picture.save(path.with_name(f"{path.stem}-{each.name}{form.figures}")) for each in figures)]
 

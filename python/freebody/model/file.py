@@ -11,6 +11,8 @@ from typing import Any
 from ruamel.yaml import YAML
 from ruamel.yaml.comments import CommentedMap, CommentedSeq
 
+from freebody.formats import write
+
 from . import reading
 from .errors import ModelFileError
 from .schema import Model
@@ -28,13 +30,7 @@ def save(model: Model, path: str | FilePath, written: str = "") -> None:
     """
     path = FilePath(path)
     text = json.dumps(model.written(), indent=2, ensure_ascii=False) + "\n" if path.suffix == ".json" else dumps(model, written)
-    path = path.resolve()  # what a link leads to is replaced, not the link
-    beside = path.with_name(f".{path.name}.part")
-    try:
-        beside.write_bytes(text.encode())
-        beside.replace(path)
-    finally:
-        beside.unlink(missing_ok=True)
+    write(path, text)
 
 
 def dumps(model: Model, written: str = "") -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array, CompiledModel, Motion, ReportItem, Settings, State
-from freebody.formats import Formats
+from freebody.formats import Formats, replacing
 from freebody.run.records import KINDS, Column, Reported
 
 if TYPE_CHECKING:
@@ -201,7 +201,8 @@ def to_xarray(run: Run) -> xarray.Dataset:
 def save(run: Run, path: Path) -> Path:
     """Write a run as one of ``FORMATS``."""
     write, _ = FORMATS.of(path)
-    write(run, path)
+    with replacing(path) as beside:
+        write(run, beside)
     return path
 
 

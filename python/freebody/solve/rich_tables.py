@@ -40,12 +40,13 @@ def table(
     filled = [i for i in range(len(heads)) if not rows or any(row[i] not in ("", None) for row in rows)]
     heads, rows = [heads[i] for i in filled], [[row[i] for i in filled] for row in rows]
     made = Table(title=Text(title, "bold") if title else None, title_justify="left", box=box.SIMPLE_HEAD, show_edge=edge)
+    stated = [[figure(cell) if isinstance(cell, float) else "" if cell is None else cell for cell in row] for row in rows]
     for i, head in enumerate(heads):
         right = "[" in head or head in figures or any(isinstance(row[i], float) for row in rows)
-        made.add_column(Text(head), justify="right" if right else "left")
-    for row in rows:
-        texts = (figure(cell) if isinstance(cell, float) else "" if cell is None else cell for cell in row)
-        made.add_row(*(text if isinstance(text, Text) else Text(str(text)) for text in texts))
+        widest = max((len(str(row[i])) for row in stated), default=0) if right else None  # words give way to figures
+        made.add_column(Text(head), justify="right" if right else "left", min_width=widest, overflow="fold")
+    for row in stated:
+        made.add_row(*(text if isinstance(text, Text) else Text(str(text)) for text in row))
     return made
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import Array
-from freebody.formats import Formats
+from freebody.formats import Formats, replacing
 from freebody.views.impact_markers import LASTING
 from freebody.views.render import frame_axes, render, render_markers
 from freebody.views.scene import Scene, of_run
@@ -54,7 +54,7 @@ def _write_film(path: Path, figure: Figure, frames: Iterator[None], count: int, 
     if not gif and not shutil.which("ffmpeg"):
         raise RuntimeError("an MP4 needs the program ffmpeg, which is not on PATH; a .gif needs nothing more")
     writer = PillowWriter(fps=fps) if gif else FFMpegWriter(fps=fps, extra_args=["-pix_fmt", "yuv420p"])
-    with writer.saving(figure, str(path), dpi=110):
+    with replacing(path) as beside, writer.saving(figure, str(beside), dpi=110):
         for _ in frames:
             writer.grab_frame()
     return path
@@ -64,7 +64,8 @@ def _write_frames(path: Path, figure: Figure, frames: Iterator[None], count: int
     digits = len(str(count - 1))
     names = [path.with_name(f"{path.stem}_{k:0{digits}d}.svg") for k in range(count)]
     for name, _ in zip(names, frames, strict=True):
-        figure.savefig(name)
+        with replacing(name) as beside:
+            figure.savefig(beside)
     return names[0]
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import MotionError
 from freebody.document.templates import template
+from freebody.formats import write
 from freebody.impact.impacts import impacts
 from freebody.model.errors import ModelFileError
 from freebody.views.diagram.impulses import impulse_diagram
@@ -32,8 +33,7 @@ def write_gallery(models: Iterable[tuple[str, Mechanism]], path: Path) -> Path:
         struck = list(_impacts(mechanism, f"{prefix}b"))
         place = re.sub(r"\W+", "-", heading).strip("-")
         shown.append({"place": place, "heading": heading, "pictures": pictures, "refusal": refusal, "impacts": struck})
-    path.write_text(template(__package__, "gallery.html").render(models=shown), encoding="utf-8")
-    return path
+    return write(path, template(__package__, "gallery.html").render(models=shown))
 
 
 def _impacts(mechanism: Mechanism, prefix: str) -> Iterator[dict[str, Any]]:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from zlib import crc32
 
-from freebody.formats import Formats
+from freebody.formats import Formats, replacing
 from freebody.views.diagram.paper import parted, sheet
 from freebody.views.diagram.rows import Row
 from freebody.views.style import quiet
@@ -35,7 +35,9 @@ class Picture:
     def save(self, path: str | Path) -> Path:
         """Write one of ``FORMATS``. Raises ``ValueError`` for any other."""
         path = Path(path)
-        FORMATS.of(path)(self, path)
+        form = FORMATS.of(path)
+        with replacing(path) as beside:
+            form(self, beside)
         return path
 
     def svg(self) -> str:

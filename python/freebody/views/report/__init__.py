@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from freebody.document.templates import template
+from freebody.formats import write
 from freebody.views.report import tables
 from freebody.views.report.series import frames, plots
 from freebody.views.scene import of_run
@@ -21,9 +22,7 @@ if TYPE_CHECKING:
 
 def write_report(run: Run, path: str | Path) -> Path:
     """Write the report of a run."""
-    path = Path(path)
-    path.write_text(report_html(run), encoding="utf-8")
-    return path
+    return write(path, report_html(run))
 
 
 def report_html(run: Run) -> str:
