@@ -211,7 +211,7 @@ class Moving:
     def check(self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None) -> Verdict:
         """Whether an equation, lines of them or a claim is true of every motion; see ``freebody.check.Checker``.
 
-        ``letters`` are own symbols, like ``{"phi": "theta - alpha"}``. Raises ``StatementError`` and ``ModelProblem``.
+        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``. Raises ``StatementError`` and ``ModelProblem``.
         """
         from freebody.check import check
 
@@ -245,7 +245,7 @@ class Moving:
         initial: Mapping[str, Any] | None = None,
         **changes: Any,
     ) -> Diagram:
-        """Free-body diagrams: symbolic, with symbols in their positive sense, or ``to_scale``, with what acts.
+        """Free-body diagrams: symbolic, with letters in their positive sense, or ``to_scale``, with what acts.
 
         ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
         by itself. Drawn is the moment that ``at``, ``before`` and ``after`` name, by default the start, with ``changes``, as in

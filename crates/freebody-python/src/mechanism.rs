@@ -152,6 +152,22 @@ impl Mechanism {
         Ok(PyArray1::from_vec(py, workspace.evaluate(&laws, works).map_err(errors::motion)?))
     }
 
+    fn derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        texts: Vec<String>,
+        state: State<'py>,
+    ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+        let laws = self.0.observables(&texts)?;
+        let m = self.0.mechanism();
+        let mut workspace = placed(&m, &state)?;
+        let laws: Vec<&ModelExpr> = laws.iter().collect();
+        let works = state.4.as_ref().map_or(&[][..], |past| &past.works);
+        let along = workspace.unit_directions();
+        let rows = workspace.derivatives(&laws, works, &along).map_err(errors::motion)?;
+        array(py, rows.concat(), [along.len(), laws.len()])
+    }
+
     fn points<'py>(&self, py: Python<'py>, p: Array<'py>) -> PyResult<Bound<'py, PyAny>> {
         let m = self.0.mechanism();
         m.check_parameters(p.as_slice()?).map_err(errors::motion)?;

@@ -5,7 +5,7 @@ use crate::expr::{Env, Table};
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::mechanism::{Body, Coordinate, Mechanism, PointLocation, ValueId};
 use crate::plane::{Turn, Vec2};
-use crate::scalar::Scalar;
+use crate::scalar::{Dual, Scalar};
 
 /// All numbers of a mechanism, evaluated at parameters `p`.
 #[derive(Clone, Debug)]
@@ -78,8 +78,8 @@ impl<S: Scalar> Env<S, ModelVariable> for OfParameters<'_, S> {
 
 impl Mechanism {
     /// The parameters, those with an entry in `given` overruled; the others follow their expressions.
-    pub fn parameters_with(&self, given: &[(usize, f64)]) -> Vec<f64> {
-        let mut p = vec![f64::NAN; self.parameters.len()];
+    pub fn parameters_with<S: Scalar>(&self, given: &[(usize, S)]) -> Vec<S> {
+        let mut p = vec![S::of(f64::NAN); self.parameters.len()];
         for &(i, value) in given {
             p[i] = value;
         }
@@ -89,6 +89,14 @@ impl Mechanism {
             }
         }
         p
+    }
+
+    /// How all parameters of `p` change with one of them, which is overruled: those that follow from it, by its expression.
+    pub fn parameter_direction(&self, p: &[f64], along: usize) -> Vec<f64> {
+        let held = self.overruled(p).into_iter().filter(|&(i, _)| i != along);
+        let mut given: Vec<(usize, Dual<1>)> = held.map(|(i, x)| (i, Dual::constant(x))).collect();
+        given.push((along, Dual::variable(p[along], 0)));
+        self.parameters_with(&given).into_iter().map(|x| x.du[0]).collect()
     }
 
     /// The parameters of `p` that do not follow from their expressions: those that were overruled.

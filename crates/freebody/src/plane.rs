@@ -22,6 +22,10 @@ pub fn vec2<S>(x: S, y: S) -> Vec2<S> {
 }
 
 impl<S: Scalar> Vec2<S> {
+    /// The plain values.
+    pub fn value(self) -> Vec2 {
+        vec2(self.x.value(), self.y.value())
+    }
     /// The zero vector.
     pub fn zero() -> Self {
         vec2(S::zero(), S::zero())

@@ -42,13 +42,13 @@ class Checker:
         self.correcting = True
         self._runs: list[Any] = []  # the model's own, once it is asked for
 
-    def symbols(self, declared: Declared | None = None) -> Symbols:
+    def letters(self, declared: Declared | None = None) -> Symbols:
         """The symbols of the model with own ones. Raises ``ModelProblem``."""
         return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity)
 
     def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
         """A statement beside the motions that decide about it. Raises ``StatementError`` and ``ModelProblem``."""
-        known = self.symbols(letters)
+        known = self.letters(letters)
         program = known.read(text)
         meaning = StatementSymbols(known, program, self.sampler)
         given = hypothesis or self.hypothesis
@@ -100,16 +100,16 @@ class Checker:
 def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
     """The verdict about equations."""
     case = checker.case(text, letters)
-    if (error := misfit(case.program, case.meaning.symbols.dimensions)) is None:
+    if (error := misfit(case.program, case.meaning.letters.dimensions)) is None:
         verdict = judged(case)
     else:
         verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
-    return replace(verdict, notes=case.meaning.symbols.notes(case.program))
+    return replace(verdict, notes=case.meaning.letters.notes(case.program))
 
 
 def _in_figures(case: Case) -> Verdict | None:
     """The verdict where an equation is true whose dimensions fit if figures stand for measures in SI units."""
-    if misfit(case.program, case.meaning.symbols.dimensions, figures=True) or not holds(case):
+    if misfit(case.program, case.meaning.letters.dimensions, figures=True) or not holds(case):
         return None
     verdict = judged(case)
     return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None

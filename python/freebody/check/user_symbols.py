@@ -156,12 +156,12 @@ class Reader:
             return OfBodies("declared", moving, ENERGY, group)
         return OfBodies("declared", still, ENERGY.times(TIME), group, (moving,))
 
-    def orbits(self, group: Sequence[str], point: str, symbol: str, spin: str) -> tuple[str, ...]:
+    def orbits(self, group: Sequence[str], point: str, letter: str, spin: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""
         out: list[str] = []
         for body in group:
             g = f"{body}.G"
-            turn = f"(x({g}) - x({point}))*{symbol}y({g}) - (y({g}) - y({point}))*{symbol}x({g})"
+            turn = f"(x({g}) - x({point}))*{letter}y({g}) - (y({g}) - y({point}))*{letter}x({g})"
             turns = "0" if body in self.particles else self.measured(f"{spin}({body})")[0]
             out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)

@@ -121,14 +121,14 @@ class CompiledModel:
         """All that acts on each body."""
         return FreeBodies.read(self.mechanism.free_bodies(state.arrays))
 
-    def symbolic_answers(
+    def letters(
         self,
         state: State,
         questions: Sequence[Mapping[str, Any]],
         at_rest: bool = False,
         numbers: Mapping[str, float] | None = None,
     ) -> SymbolicAnswers:
-        """What is asked of a state symbolically; crates/freebody/src/symbolic/query.rs lists the questions. Symbols among
+        """What is asked of a state symbolically; crates/freebody/src/symbolic/query.rs lists the questions. Letters among
         ``numbers`` are these numbers."""
         setting = {"at_rest": at_rest, "numbers": dict(numbers or {})}
         return SymbolicAnswers.read(self.mechanism.letters(state.arrays, setting, list(questions)))
@@ -136,6 +136,10 @@ class CompiledModel:
     def evaluate(self, texts: Sequence[str], state: State) -> Array:
         """Values (k,) of expressions; works count as 0."""
         return self.mechanism.evaluate(list(texts), state.arrays)
+
+    def derivatives(self, texts: Sequence[str], state: State) -> Array:
+        """Derivatives (k, 1 + 2 n + np) of expressions by time, coordinates, rates and parameters, in the mode of the state."""
+        return self.mechanism.derivatives(list(texts), state.arrays).T
 
     def points(self, p: Array) -> dict[str, tuple[str, float, float]]:
         """Named points: body, x and y in its frame (m)."""

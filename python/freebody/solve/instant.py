@@ -253,6 +253,20 @@ class Instant:
             refuse_indeterminate(text, self.reactions, self._metadata)
         return value
 
+    def derivatives(self, text: str) -> dict[str, float]:
+        """The exact partial derivatives of any expression at this instant: by ``t``, by each coordinate and its ``rate(…)``, all others
+        kept, and by each parameter, with the parameters that follow from it. What sticks, slides or is open stays so.
+
+        Where loops close, coordinates and rates do not change alone: only sums of derivatives that belong to a motion of the
+        mechanism say how the value changes in it. A reaction that is not determined raises.
+        """
+        names = [c["name"] for c in self._metadata["coordinates"]]
+        by = ["t", *names, *(f"rate({name})" for name in names), *(p["name"] for p in self._metadata["parameters"])]
+        found = self.core.derivatives([text], self.state)[0]
+        if np.isnan(found).all():
+            refuse_indeterminate(text, self.reactions, self._metadata)
+        return dict(zip(by, found.tolist(), strict=True))
+
     def _values(self, texts: list[str]) -> Array:
         return self.core.evaluate(texts, self.state)
 

@@ -63,7 +63,7 @@ impl Gap {
     }
 
     /// Where a touch acts.
-    pub fn contact(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> Option<Contact> {
+    pub fn contact<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, feature: Feature) -> Option<Contact<T>> {
         match self {
             Gap::ContactPair(touch) => Some(touch.contact(m, poses, feature.index)),
             Gap::Gauge(_) | Gap::Cable(_) => None,

@@ -2,19 +2,16 @@
 
 use super::contact_modes::force_on_first;
 use super::rows::{gap_row, slide_row};
-use super::{BodyWrenches, Row, Source, Workspace};
+use super::{BodyWrenches, Row, SolvedView, Source, Workspace};
 use crate::gauges::{Axis, ContactQuantity};
+use crate::kinematics::{StateView, ValuesView};
 use crate::mechanism::Friction;
 use crate::mode::ContactMode;
-use crate::plane::Vec2;
+use crate::plane::{Vec2, Wrench};
+use crate::scalar::Scalar;
 use crate::solve::{keep_above, Matrix};
 
 impl Workspace<'_> {
-    /// Of every unilateral constraint the force along its gap and its slide in the last solution, N.
-    pub fn contact_forces(&self) -> Vec<[f64; 2]> {
-        self.forces_of(&self.solved.lambda)
-    }
-
     /// Where closed unilateral constraints can load each other, as a block jammed between walls, the least margin of
     /// all under the forces, of those that balance it, by which it is greatest: they hold as long as any forces hold
     /// them. What each unilateral constraint carries is not determined then. Of the last solution by
@@ -30,7 +27,7 @@ impl Workspace<'_> {
             return None;
         }
         let margins = |lambda: &[f64]| {
-            let forces = self.forces_of(lambda);
+            let forces = SolvedView { lambda, ..self.solved_view() }.contact_forces();
             let of = |&l: &usize| self.margins(l, forces[l]);
             constraints.iter().flat_map(of).collect::<Vec<f64>>()
         };
@@ -51,34 +48,6 @@ impl Workspace<'_> {
             }
             _ => vec![normal / self.lever(constraint)],
         }
-    }
-
-    /// The forces of all unilateral constraints by multipliers of the present rows.
-    fn forces_of(&self, lambda: &[f64]) -> Vec<[f64; 2]> {
-        let mut forces = vec![[0.0; 2]; self.m.unilateral.len()];
-        for (row, &lambda) in self.rows.iter().zip(lambda) {
-            match row.source {
-                Source::Gap(l) => {
-                    let friction = match (self.mode().contacts[l].mode, self.m.unilateral[l].friction) {
-                        (ContactMode::Slip(sense), Some(Friction::Coulomb { kinetic, .. })) => {
-                            -sense * self.n.values[kinetic]
-                        }
-                        (ContactMode::PartialFriction(part), _) => part,
-                        _ => 0.0,
-                    };
-                    forces[l] = [lambda, forces[l][1] + friction * lambda];
-                }
-                Source::Friction(l) if self.mode().contacts[l].mode == ContactMode::Stick => forces[l][1] = lambda,
-                _ => {}
-            }
-        }
-        for l in self.compliant_contacts() {
-            forces[l] = [
-                self.compliant_force(l),
-                self.m.joint_friction_of(l).map_or(0.0, |friction| self.joint_friction_force(friction)),
-            ];
-        }
-        forces
     }
 
     /// How a unilateral constraint is held, as one sees it: what is pressed sticks or slides, with friction.
@@ -122,78 +91,125 @@ impl Workspace<'_> {
         self.n.values[self.m.unilateral[constraint].restitution]
     }
 
+    /// Power of all springs and dampers of unilateral constraints at the present state, W.
+    pub fn compliant_power(&self) -> f64 {
+        compliant_contacts(self.at())
+            .map(|l| compliant_force(self.at(), l) * gap_row(self.at(), l, None).rate.unwrap_or(0.0))
+            .sum()
+    }
+}
+
+/// The force of the spring and the damper of a unilateral constraint, N; below 0 where they would have to pull.
+pub fn compliant_force<S: Scalar>(at: StateView<'_, S>, constraint: usize) -> S {
+    let Some([stiffness, damping]) = at.m.unilateral[constraint].soft else { return S::zero() };
+    let row = gap_row(at, constraint, None);
+    let (gap, rate) = (row.value.unwrap_or(S::zero()), row.rate.unwrap_or(S::zero()));
+    -at.n.values[stiffness] * gap - at.n.values[damping] * rate
+}
+
+fn compliant_contacts<S: Scalar>(at: StateView<'_, S>) -> impl Iterator<Item = usize> + '_ {
+    (0..at.m.unilateral.len()).filter(move |&l| at.mode.contacts[l].mode == ContactMode::Compliant)
+}
+
+/// Adds the loads of all unilateral constraints with a spring that are pressed.
+pub(super) fn add_compliant_forces<S: Scalar>(at: StateView<'_, S>, loads: &mut [Wrench<S>]) {
+    for l in compliant_contacts(at) {
+        let force = compliant_force(at, l);
+        for (body, load) in gap_row(at, l, None).motion {
+            loads[body] += load * force;
+        }
+    }
+}
+
+impl<S: Scalar> SolvedView<'_, S> {
+    /// Of every unilateral constraint the force along its gap and its slide, N.
+    pub fn contact_forces(&self) -> Vec<[S; 2]> {
+        let (m, at) = (self.at.m, self.at);
+        let mut forces = vec![[S::zero(); 2]; m.unilateral.len()];
+        for (row, lambda) in self.multipliers() {
+            match row.source {
+                Source::Gap(l) => {
+                    let friction = match (at.mode.contacts[l].mode, m.unilateral[l].friction) {
+                        (ContactMode::Slip(sense), Some(Friction::Coulomb { kinetic, .. })) => {
+                            at.n.values[kinetic].scale(-sense)
+                        }
+                        (ContactMode::PartialFriction(part), _) => S::of(part),
+                        _ => S::zero(),
+                    };
+                    forces[l] = [lambda, forces[l][1] + friction * lambda];
+                }
+                Source::Friction(l) if at.mode.contacts[l].mode == ContactMode::Stick => forces[l][1] = lambda,
+                _ => {}
+            }
+        }
+        for l in compliant_contacts(at) {
+            let friction = m.joint_friction_of(l).map_or(S::zero(), |friction| self.joint_friction_force(friction));
+            forces[l] = [compliant_force(at, l), friction];
+        }
+        forces
+    }
+
     /// Something of a contact, stop or string.
-    pub(super) fn read_contact(&self, group: usize, bound: ContactQuantity) -> f64 {
-        let constraints = || self.m.groups[group].constraints.clone();
-        let closed = |l: &usize| self.mode().contacts[*l].mode.touches();
-        match bound {
-            ContactQuantity::Gap => constraints().map(|l| self.open_gap(l)).fold(f64::INFINITY, f64::min),
-            ContactQuantity::Slip => constraints().filter(closed).map(|l| self.slide_rate(l)).next().unwrap_or(0.0),
-            ContactQuantity::Force => constraints().map(|l| self.contact_forces()[l][0]).sum(),
-            ContactQuantity::Friction => constraints().map(|l| self.contact_forces()[l][1]).sum(),
+    pub(super) fn read_contact(&self, group: usize, quantity: ContactQuantity) -> S {
+        let (m, at) = (self.at.m, self.at);
+        let constraints = || m.groups[group].constraints.clone();
+        let along = |i: usize| {
+            let forces = self.contact_forces();
+            constraints().fold(S::zero(), |sum, l| sum + forces[l][i])
+        };
+        match quantity {
+            ContactQuantity::Gap => self.least_gap(group),
+            ContactQuantity::Slip => {
+                let sliding = constraints().find(|&l| at.mode.contacts[l].mode.touches());
+                sliding.and_then(|l| slide_row(at, l, None)?.rate).unwrap_or(S::zero())
+            }
+            ContactQuantity::Force => along(0),
+            ContactQuantity::Friction => along(1),
             ContactQuantity::OnFirst(axis) => component(self.force_on_first(group), axis),
             ContactQuantity::Place(axis) => component(self.resultant_at(group), axis),
         }
     }
 
+    /// The least gap of a contact, each on whichever feature it now is, m; without bound where there is none.
+    fn least_gap(&self, group: usize) -> S {
+        let (m, at) = (self.at.m, self.at);
+        let gap = |l: usize| {
+            let (gap, last) = (&m.unilateral[l].gap, at.mode.contacts[l].feature);
+            gap.gap(m, at.mode, &at, gap.feature(m, &ValuesView(at), last))
+        };
+        let least = |least: S, gap: S| S::select(gap.value() < least.value(), gap, least);
+        m.groups[group].constraints.clone().map(gap).fold(S::of(f64::INFINITY), least)
+    }
+
     /// The force of a contact on its first body, of a string on its first end, N, fixed axes.
-    pub fn force_on_first(&self, group: usize) -> Vec2 {
-        let (forces, at) = (self.contact_forces(), self.at());
+    pub fn force_on_first(&self, group: usize) -> Vec2<S> {
+        let (forces, at) = (self.contact_forces(), self.at);
         let mut sum = Vec2::zero();
-        for l in self.m.groups[group].constraints.clone().filter(|&l| forces[l] != [0.0; 2]) {
+        let acts = |l: &usize| forces[*l].iter().any(|force| force.value() != 0.0);
+        for l in at.m.groups[group].constraints.clone().filter(acts) {
             let along = [Some(gap_row(at, l, None)), slide_row(at, l, None)];
             for (row, force) in along.into_iter().zip(forces[l]).filter_map(|(row, f)| row.map(|row| (row, f))) {
-                sum += force_on_first(self.m, l, &row.motion) * force;
+                sum += force_on_first(at.m, l, &row.motion) * force;
             }
         }
         sum
     }
 
-    /// The force of the spring and the damper of a unilateral constraint at the present state, N; below 0 where they
-    /// would have to pull.
-    pub fn compliant_force(&self, constraint: usize) -> f64 {
-        let Some([stiffness, damping]) = self.m.unilateral[constraint].soft else { return 0.0 };
-        let row = gap_row(self.at(), constraint, None);
-        let (gap, rate) = (row.value.unwrap_or(0.0), row.rate.unwrap_or(0.0));
-        -self.n.values[stiffness] * gap - self.n.values[damping] * rate
-    }
-
-    fn compliant_contacts(&self) -> impl Iterator<Item = usize> + '_ {
-        (0..self.m.unilateral.len()).filter(|&l| self.mode().contacts[l].mode == ContactMode::Compliant)
-    }
-
-    /// Adds the loads of all unilateral constraints that are pressed.
-    pub(super) fn add_compliant_forces(&mut self) {
-        for l in self.compliant_contacts().collect::<Vec<_>>() {
-            let force = self.compliant_force(l);
-            for (body, load) in gap_row(self.at(), l, None).motion {
-                self.loads[body] += load * force;
-            }
-        }
-    }
-
-    /// Power of all springs and dampers of unilateral constraints at the present state, W.
-    pub fn compliant_power(&self) -> f64 {
-        self.compliant_contacts()
-            .map(|l| self.compliant_force(l) * gap_row(self.at(), l, None).rate.unwrap_or(0.0))
-            .sum()
-    }
-
     /// Where the resultant of a contact's normal forces acts; NaN where it does not touch.
-    pub fn resultant_at(&self, group: usize) -> Vec2 {
-        let (forces, mut sum, mut all) = (self.contact_forces(), Vec2::zero(), 0.0);
-        for l in self.m.groups[group].constraints.clone() {
-            let feature = self.mode().contacts[l].feature;
-            if let Some(contact) = self.m.unilateral[l].gap.contact(self.m, &self.at(), feature) {
+    pub fn resultant_at(&self, group: usize) -> Vec2<S> {
+        let (forces, mut sum, mut all) = (self.contact_forces(), Vec2::zero(), S::zero());
+        for l in self.at.m.groups[group].constraints.clone() {
+            let feature = self.at.mode.contacts[l].feature;
+            if let Some(contact) = self.at.m.unilateral[l].gap.contact(self.at.m, &self.at, feature) {
                 sum += contact.point * forces[l][0];
                 all += forces[l][0];
             }
         }
-        sum * (1.0 / all)
+        sum * (S::one() / all)
     }
 }
 
-fn component(v: Vec2, axis: Axis) -> f64 {
+fn component<S: Scalar>(v: Vec2<S>, axis: Axis) -> S {
     match axis {
         Axis::X => v.x,
         Axis::Y => v.y,

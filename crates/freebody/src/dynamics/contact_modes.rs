@@ -12,6 +12,7 @@ use crate::error::Paradox;
 use crate::mechanism::Friction;
 use crate::mode::{ContactMode, Mode};
 use crate::plane::{Vec2, Wrench};
+use crate::scalar::Scalar;
 use crate::solve::Matrix;
 
 /// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
@@ -371,7 +372,11 @@ impl Workspace<'_> {
 
 /// The force that loads put on the first body of a unilateral constraint's group; ground takes the opposite of what the
 /// others get.
-pub(super) fn force_on_first(m: &crate::mechanism::Mechanism, constraint: usize, loads: &[(usize, Wrench)]) -> Vec2 {
+pub(super) fn force_on_first<S: Scalar>(
+    m: &crate::mechanism::Mechanism,
+    constraint: usize,
+    loads: &[(usize, Wrench<S>)],
+) -> Vec2<S> {
     let first = m.groups[m.unilateral[constraint].group].ends[0];
     match loads.iter().find(|(body, _)| *body == first) {
         Some((_, load)) => load.f,

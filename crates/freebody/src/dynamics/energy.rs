@@ -2,7 +2,7 @@
 
 use super::Workspace;
 use crate::kinematics::{State, StateView};
-use crate::plane::{vec2, Vec2};
+use crate::plane::Vec2;
 use crate::scalar::Scalar;
 
 /// Kinetic energy of a body, J.
@@ -24,22 +24,45 @@ pub fn potential<S: Scalar>(at: StateView<'_, S>) -> S {
     gravity + elastic
 }
 
+/// Kinetic energy of all bodies, J.
+pub fn kinetic_energy<S: Scalar>(at: StateView<'_, S>) -> S {
+    (1..at.m.bodies.len()).fold(S::zero(), |sum, body| sum + kinetic(at, body))
+}
+
+/// Velocity of a body's mass centre.
+fn centre_velocity<S: Scalar>(at: StateView<'_, S>, body: usize) -> Vec2<S> {
+    at.k.twist[body].at(at.centre_arm(body))
+}
+
+/// Momentum of all bodies, kg·m/s.
+pub fn whole_momentum<S: Scalar>(at: StateView<'_, S>) -> Vec2<S> {
+    (1..at.m.bodies.len()).fold(Vec2::zero(), |sum, i| sum + centre_velocity(at, i) * at.n.mass[i])
+}
+
+/// Angular momentum of all bodies about a place, kg·m²/s.
+pub fn angular_momentum<S: Scalar>(at: StateView<'_, S>, about: Vec2<S>) -> S {
+    (1..at.m.bodies.len()).fold(S::zero(), |sum, i| {
+        let orbital = (at.mass_centre(i) - about).cross(centre_velocity(at, i)) * at.n.mass[i];
+        sum + (orbital + at.n.inertia[i] * at.k.twist[i].w)
+    })
+}
+
+/// Mass centre of all bodies.
+pub fn whole_mass_centre<S: Scalar>(at: StateView<'_, S>) -> Vec2<S> {
+    let mass = at.n.mass[1..].iter().fold(S::zero(), |sum, &mass| sum + mass);
+    let moment = (1..at.m.bodies.len()).fold(Vec2::zero(), |sum, i| sum + at.mass_centre(i) * at.n.mass[i]);
+    moment * (S::one() / mass)
+}
+
 impl Workspace<'_> {
     /// Place and velocity of a body's mass centre.
     pub fn centre(&self, body: usize) -> (Vec2, Vec2) {
-        let arm = self.at().centre_arm(body);
-        (self.k.pose[body].at + arm, self.k.twist[body].at(arm))
-    }
-
-    /// Acceleration of a body's mass centre in the last solution.
-    pub fn centre_acceleration(&self, body: usize) -> Vec2 {
-        let arm = self.at().centre_arm(body);
-        self.solved.bodies[body].acceleration_at(arm, self.k.twist[body].w)
+        (self.at().mass_centre(body), centre_velocity(self.at(), body))
     }
 
     /// Kinetic energy of all bodies, J.
     pub fn kinetic_energy(&self) -> f64 {
-        (1..self.m.bodies.len()).map(|body| kinetic(self.at(), body)).sum()
+        kinetic_energy(self.at())
     }
 
     /// Potential energy, J.
@@ -47,31 +70,15 @@ impl Workspace<'_> {
         potential(self.at())
     }
 
-    /// Momentum of all bodies, kg·m/s.
-    pub fn momentum(&self) -> Vec2 {
-        (1..self.m.bodies.len()).fold(vec2(0.0, 0.0), |sum, i| sum + self.centre(i).1 * self.n.mass[i])
-    }
-
-    /// Angular momentum of all bodies about a place, kg·m²/s.
-    pub fn angular_momentum(&self, about: Vec2) -> f64 {
-        (1..self.m.bodies.len())
-            .map(|i| {
-                let (at, v) = self.centre(i);
-                (at - about).cross(v) * self.n.mass[i] + self.n.inertia[i] * self.k.twist[i].w
-            })
-            .sum()
-    }
-
-    /// Mass centre of all bodies.
-    pub fn mass_centre(&self) -> Vec2 {
-        let mass: f64 = self.n.mass[1..].iter().sum();
-        let moment = (1..self.m.bodies.len()).fold(vec2(0.0, 0.0), |sum, i| sum + self.centre(i).0 * self.n.mass[i]);
-        moment * (1.0 / mass)
-    }
-
     /// Place of a site, fixed axes.
     pub fn site(&self, site: usize) -> Vec2 {
-        self.k.pose[self.m.body_of(site)].place(self.n.arms[site])
+        self.at().site(site)
+    }
+
+    /// Acceleration of a body's mass centre in the last solution.
+    pub fn centre_acceleration(&self, body: usize) -> Vec2 {
+        let arm = self.at().centre_arm(body);
+        self.solved.bodies[body].acceleration_at(arm, self.k.twist[body].w)
     }
 
     /// Frame origin and angle of a body: x, y in m and rad.

@@ -1,7 +1,7 @@
 //! Gaps at one state: their features and borders, which are closed, and parts put in place.
 
 use super::rows::{closing_rows, joint_rows};
-use super::{DynamicsError, Source, Workspace};
+use super::{compliant_force, DynamicsError, Source, Workspace};
 use crate::bound_values::BoundValues;
 use crate::kinematics::MotionView;
 use crate::mechanism::{Gap, Group, Mechanism, Part};
@@ -64,7 +64,7 @@ impl Workspace<'_> {
         for l in 0..self.m.unilateral.len() {
             let (gap, is_off) = (self.constraint_gap(l), mode.contacts[l].mode == ContactMode::Off);
             if self.m.unilateral[l].soft.is_some() {
-                let pressed = gap < 0.0 && self.compliant_force(l) > 0.0;
+                let pressed = gap < 0.0 && compliant_force(self.at(), l) > 0.0;
                 mode.contacts[l].mode = match (is_off, pressed) {
                     (true, _) => ContactMode::Off,
                     (_, true) => ContactMode::Compliant,

@@ -1,8 +1,8 @@
 //! Impacts: what impulses through unilateral constraints and joints do.
 
 use super::contact_modes::force_on_first;
-use super::minimal::Force;
-use super::{ClosedContacts, ContactTolerances, DynamicsError, JointLoad, Row, Workspace};
+use super::minimal::{joint_wrenches, Force};
+use super::{ClosedContacts, ContactTolerances, DynamicsError, JointLoad, Row, SolvedView, Workspace};
 use crate::contact::complementarity::{self, ImpactProblem, Problem};
 use crate::gauges::ModelExpr;
 use crate::mechanism::Friction;
@@ -93,9 +93,10 @@ impl Workspace<'_> {
         let k = contacts.len();
         let on_first = (0..k).map(|i| self.on_first(contacts, i, p[i], p[k + i])).collect();
         let (normal, tangent) = (impulses.normal, impulses.tangent);
-        let drives = self.of_drives(&solution.lambda);
+        let by_impulses = SolvedView { lambda: &solution.lambda, ..self.solved_view() };
+        let drives = by_impulses.drive_forces();
         // Of an actuator with a direction of its own the rate along it jumps: then the mean counts.
-        let drive_works = self.drive_powers_of(&solution.lambda, |body| self.k.twist[body] + jumps[body] * 0.5);
+        let drive_works = by_impulses.drive_powers_of(|body| self.k.twist[body] + jumps[body] * 0.5);
         ImpactSolution { change, normal, tangent, on_first, joints, drives, drive_works, note }
     }
 
@@ -111,9 +112,10 @@ impl Workspace<'_> {
         self.to_user(&solution.a, &mut change);
         let jumps = self.jumps(&solution.a);
         let joints = self.impulsive_loads(&nothing, &[], &jumps, &solution.lambda);
-        let drives = self.of_drives(&solution.lambda);
+        let by_impulses = SolvedView { lambda: &solution.lambda, ..self.solved_view() };
+        let drives = by_impulses.drive_forces();
         // A drive that is engaged has its own rate from the first.
-        let drive_works = self.drive_powers_of(&solution.lambda, |body| self.k.twist[body] + jumps[body]);
+        let drive_works = by_impulses.drive_powers_of(|body| self.k.twist[body] + jumps[body]);
         let (normal, tangent, on_first) = (vec![], vec![], vec![]);
         Ok(ImpactSolution { change, normal, tangent, on_first, joints, drives, drive_works, note: None })
     }
@@ -142,7 +144,7 @@ impl Workspace<'_> {
         let rate = |row: &Row| row.motion.iter().map(|(body, w)| w.power(jump(*body))).sum();
         let jumps: Vec<f64> = self.rows.iter().map(rate).collect();
         let lambda = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &jumps).lambda;
-        Ok(self.drive_powers_of(&lambda[..closing], |body| self.k.twist[body]))
+        Ok(SolvedView { lambda: &lambda[..closing], ..self.solved_view() }.drive_powers())
     }
 
     /// Jumps of the velocities of all bodies by those of the joints of the tree.
@@ -186,7 +188,7 @@ impl Workspace<'_> {
             }
         }
         super::add_multipliers(&self.rows, lambda, &mut unbalanced);
-        let joint_wrenches = self.joint_wrenches(unbalanced);
-        self.joint_loads_of(&joint_wrenches, lambda)
+        let joint_wrenches = joint_wrenches(self.at(), &unbalanced);
+        SolvedView { joint_wrenches: &joint_wrenches, lambda, ..self.solved_view() }.joint_loads()
     }
 }

@@ -1,11 +1,15 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
-use super::{force_power, force_value, Determinacy, DynamicsError, JointLoad, Route, TermScales, Workspace};
+use super::energy::{angular_momentum, kinetic, kinetic_energy, potential, whole_mass_centre, whole_momentum};
+use super::{
+    force_power, force_value, Determinacy, DynamicsError, JointLoad, Route, SolvedView, TermScales, Workspace,
+};
 use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
 use crate::kinematics::Observed;
 use crate::mechanism::FrictionSource;
 use crate::mode::ContactMode;
 use crate::plane::Vec2;
+use crate::scalar::Scalar;
 
 /// Everything about one instant.
 #[derive(Clone, Debug)]
@@ -68,13 +72,14 @@ impl Workspace<'_> {
             _ if modes().any(ContactMode::touches) => "closed",
             _ => "open",
         };
-        let read = |bound| self.read_contact(group, bound);
-        let at = self.resultant_at(group);
+        let seen = self.solved_view();
+        let read = |quantity| seen.read_contact(group, quantity);
+        let at = seen.resultant_at(group);
         ContactLoad {
             state,
             gap: read(ContactQuantity::Gap),
             along: [read(ContactQuantity::Force), read(ContactQuantity::Friction)],
-            force: self.force_on_first(group),
+            force: seen.force_on_first(group),
             at: at.x.is_finite().then_some(at),
             determinate,
         }
@@ -91,8 +96,7 @@ impl Workspace<'_> {
         self.check_finite()?;
         let mut accelerations = vec![0.0; self.m.freedom()];
         self.accelerations(&mut accelerations);
-        let joints = self.joint_loads();
-        let drives = self.drive_forces();
+        let (joints, drives) = (self.solved_view().joint_loads(), self.solved_view().drive_forces());
         let drives_in_place = self.at().drives().map(|(drive, _)| drive).collect();
         let (residuals, sizes) = (self.residuals(), self.term_scales());
         let length = self.length;
@@ -125,6 +129,33 @@ impl Workspace<'_> {
     }
 }
 
+/// What expressions ask of an instant beyond its state.
+struct Needs {
+    /// Its solution.
+    solution: bool,
+    /// Reactions, and whether they are determinate.
+    reactions: bool,
+}
+
+impl Needs {
+    fn of(laws: &[&ModelExpr]) -> Self {
+        let mut needs = Needs { solution: false, reactions: false };
+        for law in laws {
+            needs.solution |= law.depends_on_accelerations();
+            for variable in law.variables() {
+                let ModelVariable::Reading(reading) = variable else { continue };
+                needs.reactions |= match reading {
+                    Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_) => true,
+                    Reading::Contact(_, quantity) => !quantity.needs().is_empty(),
+                    _ => false,
+                };
+                needs.solution |= needs.reactions || matches!(reading, Reading::JointFriction(_));
+            }
+        }
+        needs
+    }
+}
+
 impl Workspace<'_> {
     /// The values of expressions at the present state, which is solved only when one of them asks for it; `works` of
     /// all forces, then of all drives. What is not determinate is NaN.
@@ -132,85 +163,74 @@ impl Workspace<'_> {
     /// # Errors
     /// As [`Workspace::solve`].
     pub fn evaluate(&mut self, laws: &[&ModelExpr], works: &[f64]) -> Result<Vec<f64>, DynamicsError> {
-        let (mut needs_solution, mut needs_reactions) = (false, false);
-        for law in laws {
-            needs_solution |= law.depends_on_accelerations();
-            for variable in law.variables() {
-                let ModelVariable::Reading(reading) = variable else { continue };
-                needs_reactions |= match reading {
-                    Reading::Reaction(..) | Reading::Drive(_) | Reading::DrivePower(_) => true,
-                    Reading::Contact(_, bound) => !bound.needs().is_empty(),
-                    _ => false,
-                };
-                needs_solution |= needs_reactions || matches!(reading, Reading::JointFriction(_));
-            }
-        }
-        let (mut joints, mut drives, mut powers) = (vec![], vec![], vec![]);
-        let (mut sure, mut drives_sure, mut groups_sure) = (vec![], vec![], vec![]);
+        let needs = Needs::of(laws);
         let mut accelerations = vec![0.0; self.m.freedom()];
-        if needs_solution {
+        if needs.solution {
             self.solve()?;
             self.accelerations(&mut accelerations);
         }
-        if needs_reactions {
-            joints = self.joint_loads();
-            drives = self.drive_forces();
-            powers = self.drive_powers();
-            Determinacy { joints: sure, drives: drives_sure, groups: groups_sure } = self.determinacy();
-        }
-        let b = &*self;
-        let read = |reading: Reading| -> f64 {
-            let known = |sure: bool, x: f64| if sure { x } else { f64::NAN };
-            match reading {
-                Reading::Reaction(j, Axis::Row(r)) => known(sure[j].iter().all(|&s| s), b.row_loads(j)[r]),
-                Reading::Reaction(j, axis) => component(&joints[j], sure[j], axis),
-                Reading::Drive(d) => known(drives_sure[d], drives[d]),
-                Reading::DrivePower(d) => known(drives_sure[d], powers[d]),
-                Reading::DriveWork(d) => works.get(b.m.forces.len() + d).copied().unwrap_or(0.0),
-                Reading::Force(f) => force_value(b.at(), f),
-                Reading::ForcePower(f) => force_power(b.at(), f),
-                Reading::ForceWork(f) => works.get(f).copied().unwrap_or(0.0),
-                Reading::Kinetic(Some(body)) => super::kinetic(b.at(), body),
-                Reading::Kinetic(None) => b.kinetic_energy(),
-                Reading::Potential => b.potential_energy(),
-                Reading::Momentum(Axis::X) => b.momentum().x,
-                Reading::Momentum(_) => b.momentum().y,
-                Reading::AngularMomentum(site) => b.angular_momentum(b.site(site)),
-                Reading::Centre(Axis::X) => b.mass_centre().x,
-                Reading::Centre(_) => b.mass_centre().y,
-                Reading::Contact(group, bound) => {
-                    let sure = groups_sure.get(group).is_none_or(|flags| bound.needs().iter().all(|&i| flags[i]));
-                    known(sure, b.read_contact(group, bound))
-                }
-                Reading::JointFriction(joint) => {
-                    let friction = b.m.joint_friction.iter().position(
-                        |friction| matches!(friction.of, FrictionSource::Joint { joint: j, .. } if j == joint),
-                    );
-                    friction.map_or(0.0, |friction| b.joint_friction_force(friction))
-                }
-                Reading::FrictionWork => works.get(b.m.forces.len() + b.m.drives.len()).copied().unwrap_or(0.0),
-            }
-        };
-        let observed = Observed { at: b.at(), bodies: &b.solved().bodies, accelerations: &accelerations, read: &read };
+        let determinacy = needs.reactions.then(|| self.determinacy());
+        let seen = self.solved_view();
+        let read = |reading| seen.read(reading, works, determinacy.as_ref());
+        let observed =
+            Observed { at: seen.at, bodies: &self.solved.bodies, accelerations: &accelerations, read: &read };
         Ok(laws.iter().map(|law| law.eval(&observed)).collect())
     }
 }
 
-/// One component of a reaction, NaN where it is not determinate.
-fn component(load: &JointLoad, sure: [bool; 3], axis: Axis) -> f64 {
-    let (needed, value) = match axis {
-        Axis::X => (sure[0], load.force.x),
-        Axis::Y => (sure[1], load.force.y),
-        Axis::Couple => (sure[2], load.couple),
-        Axis::Along => (sure[0] && sure[1], load.in_joint_axes().x),
-        Axis::Across => (sure[0] && sure[1], load.in_joint_axes().y),
-        Axis::Size => (sure[0] && sure[1], load.force.norm()),
-        Axis::Row(_) => unreachable!("a row is read by its own way"),
-        Axis::Tension => (sure[0] && sure[1], load.tension()),
-    };
-    if needed {
-        value
-    } else {
-        f64::NAN
+impl<S: Scalar> SolvedView<'_, S> {
+    /// A quantity of the instant; `works` of all forces, drives and friction since the start. NaN where it is not
+    /// determinate.
+    pub fn read(&self, reading: Reading, works: &[S], determinacy: Option<&Determinacy>) -> S {
+        let (at, m) = (self.at, self.at.m);
+        let known = |is_sure: &dyn Fn(&Determinacy) -> bool, value: S| {
+            S::select(determinacy.is_none_or(is_sure), value, S::of(f64::NAN))
+        };
+        let work = |i: usize| works.get(i).copied().unwrap_or(S::zero());
+        match reading {
+            Reading::Reaction(j, axis) => {
+                let (parts, value) = self.component(j, axis);
+                known(&|sure| parts.iter().all(|&i| sure.joints[j][i]), value)
+            }
+            Reading::Drive(d) => known(&|sure| sure.drives[d], self.drive_forces()[d]),
+            Reading::DrivePower(d) => known(&|sure| sure.drives[d], self.drive_powers()[d]),
+            Reading::DriveWork(d) => work(m.forces.len() + d),
+            Reading::Force(f) => force_value(at, f),
+            Reading::ForcePower(f) => force_power(at, f),
+            Reading::ForceWork(f) => work(f),
+            Reading::Kinetic(Some(body)) => kinetic(at, body),
+            Reading::Kinetic(None) => kinetic_energy(at),
+            Reading::Potential => potential(at),
+            Reading::Momentum(Axis::X) => whole_momentum(at).x,
+            Reading::Momentum(_) => whole_momentum(at).y,
+            Reading::AngularMomentum(site) => angular_momentum(at, at.site(site)),
+            Reading::Centre(Axis::X) => whole_mass_centre(at).x,
+            Reading::Centre(_) => whole_mass_centre(at).y,
+            Reading::Contact(group, quantity) => {
+                let is_sure = |flags: &[bool; 4]| quantity.needs().iter().all(|&i| flags[i]);
+                known(&|sure| sure.groups.get(group).is_none_or(is_sure), self.read_contact(group, quantity))
+            }
+            Reading::JointFriction(joint) => {
+                let of_joint = |source| matches!(source, FrictionSource::Joint { joint: j, .. } if j == joint);
+                let friction = m.joint_friction.iter().position(|friction| of_joint(friction.of));
+                friction.map_or(S::zero(), |friction| self.joint_friction_force(friction))
+            }
+            Reading::FrictionWork => work(m.forces.len() + m.drives.len()),
+        }
+    }
+
+    /// One component of a reaction, and which of (Fx, Fy, M) must be determinate for it.
+    fn component(&self, joint: usize, axis: Axis) -> (&'static [usize], S) {
+        let load = self.joint_load(joint);
+        match axis {
+            Axis::X => (&[0], load.force.x),
+            Axis::Y => (&[1], load.force.y),
+            Axis::Couple => (&[2], load.couple),
+            Axis::Along => (&[0, 1], load.in_joint_axes().x),
+            Axis::Across => (&[0, 1], load.in_joint_axes().y),
+            Axis::Size => (&[0, 1], load.force.norm()),
+            Axis::Tension => (&[0, 1], load.tension()),
+            Axis::Row(row) => (&[0, 1, 2], self.row_loads(joint)[row]),
+        }
     }
 }

@@ -5,9 +5,12 @@
 //! as long as friction does not jam the joint each turn brings them closer.
 
 use super::rows::joint_friction_row;
-use super::{ContactTolerances, DynamicsError, Route, Source, Workspace};
+use super::{compliant_force, ContactTolerances, DynamicsError, Route, SolvedView, Source, Workspace};
+use crate::kinematics::StateView;
 use crate::mechanism::FrictionSource;
 use crate::mode::{ContactMode, Mode};
+use crate::plane::Wrench;
+use crate::scalar::Scalar;
 
 /// Turns after which a joint counts as jammed.
 const FRICTION_ITERATIONS: usize = 200;
@@ -18,45 +21,68 @@ const BRINGS_BACK: f64 = 1e-9;
 /// Change of a friction force that is round-off, over the most that the largest load of all could cause by friction.
 const SETTLED: f64 = 1e-14;
 
-impl Workspace<'_> {
-    /// The most that friction can be in the last solution, by a coefficient: N, or N·m of a hinge.
-    fn most_friction(&self, friction: usize, rests: bool) -> f64 {
-        let of = &self.m.joint_friction[friction];
-        let pressing = match of.of {
-            FrictionSource::Joint { joint, .. } => self.joint_load(joint).force.norm() * self.arm_of(friction),
-            FrictionSource::Unilateral(constraint) => self.compliant_force(constraint).max(0.0),
-        };
-        pressing * self.n.values[if rests { of.fixed } else { of.kinetic }]
+/// Radius of the bearing of a hinge, m; else 1.
+fn arm_of<S: Scalar>(at: StateView<'_, S>, friction: usize) -> S {
+    match at.m.joint_friction[friction].of {
+        FrictionSource::Joint { radius: Some(radius), .. } => at.n.values[radius],
+        _ => S::one(),
     }
+}
 
-    /// Radius of the bearing of a hinge, m; else 1.
-    fn arm_of(&self, friction: usize) -> f64 {
-        match self.m.joint_friction[friction].of {
-            FrictionSource::Joint { radius: Some(radius), .. } => self.n.values[radius],
-            _ => 1.0,
-        }
-    }
-
-    /// Adds the loads of all that slides.
-    pub(super) fn add_joint_friction(&mut self) {
-        for friction in 0..self.m.joint_friction.len() {
-            let force = self.joint_friction_forces[friction];
-            if matches!(self.mode().joint_friction[friction], ContactMode::Slip(_)) && force != 0.0 {
-                for (body, load) in joint_friction_row(self.at(), friction, None).motion {
-                    self.loads[body] += load * force;
-                }
+/// Adds the loads of all that slides in joints.
+pub(super) fn add_joint_friction<S: Scalar>(at: StateView<'_, S>, forces: &[S], loads: &mut [Wrench<S>]) {
+    for (friction, &force) in forces.iter().enumerate() {
+        if matches!(at.mode.joint_friction[friction], ContactMode::Slip(_)) {
+            for (body, load) in joint_friction_row(at, friction, None).motion {
+                loads[body] += load * force;
             }
         }
     }
+}
 
+impl<S: Scalar> SolvedView<'_, S> {
+    /// The most that friction can be, by a coefficient: N, or N·m of a hinge.
+    fn most_friction(&self, friction: usize, rests: bool) -> S {
+        let of = &self.at.m.joint_friction[friction];
+        let pressing = match of.of {
+            FrictionSource::Joint { joint, .. } => self.joint_load(joint).force.norm() * arm_of(self.at, friction),
+            FrictionSource::Unilateral(constraint) => {
+                let force = compliant_force(self.at, constraint);
+                S::select(force.value() > 0.0, force, S::zero())
+            }
+        };
+        pressing * self.at.n.values[if rests { of.fixed } else { of.kinetic }]
+    }
+
+    /// The friction of all that slides in joints, by the forces that press; 0 of what does not slide.
+    pub(super) fn friction_by_law(&self) -> Vec<S> {
+        let by_law = |friction: usize| match self.at.mode.joint_friction[friction] {
+            ContactMode::Slip(sense) => self.most_friction(friction, false).scale(-sense),
+            _ => S::zero(),
+        };
+        (0..self.at.m.joint_friction.len()).map(by_law).collect()
+    }
+
+    /// Friction along what it keeps from sliding: N, or N·m of a hinge.
+    pub fn joint_friction_force(&self, friction: usize) -> S {
+        match self.at.mode.joint_friction[friction] {
+            ContactMode::Slip(_) => self.sliding_friction[friction],
+            _ => {
+                let rows = self.multipliers().filter(|(row, _)| row.source == Source::JointFriction(friction));
+                rows.fold(S::zero(), |sum, (_, l)| sum + l)
+            }
+        }
+    }
+}
+
+impl Workspace<'_> {
     /// Solves again until the friction of all that slides fits the forces that press.
     pub(super) fn solve_joint_friction(&mut self, route: Route) -> Result<(), DynamicsError> {
         for _ in 0..FRICTION_ITERATIONS {
-            let wanted: Vec<f64> =
-                (0..self.m.joint_friction.len()).map(|friction| self.sliding_friction(friction)).collect();
+            let wanted = self.solved_view().friction_by_law();
             let largest = self.largest_force();
             let noise = |friction: usize| {
-                SETTLED * self.n.values[self.m.joint_friction[friction].kinetic] * self.arm_of(friction) * largest
+                SETTLED * self.n.values[self.m.joint_friction[friction].kinetic] * arm_of(self.at(), friction) * largest
             };
             let fits =
                 |friction: usize| (wanted[friction] - self.joint_friction_forces[friction]).abs() <= noise(friction);
@@ -66,8 +92,13 @@ impl Workspace<'_> {
             self.joint_friction_forces = wanted;
             self.solve_once(route)?;
         }
+        Err(self.self_locking())
+    }
+
+    /// The friction of joints has no forces that fit it.
+    pub(super) fn self_locking(&self) -> DynamicsError {
         let names = (0..self.m.joint_friction.len()).map(|r| Source::JointFriction(r).name(self.m).to_string());
-        Err(DynamicsError::SelfLocking(names.collect()))
+        DynamicsError::SelfLocking(names.collect())
     }
 
     /// The largest force of all that balance each other at a body, in the last solution: applied, passed on, of
@@ -78,27 +109,10 @@ impl Workspace<'_> {
         (0..self.m.bodies.len()).flat_map(forces).fold(0.0, f64::max)
     }
 
-    fn sliding_friction(&self, friction: usize) -> f64 {
-        match self.mode().joint_friction[friction] {
-            ContactMode::Slip(sense) => -sense * self.most_friction(friction, false),
-            _ => 0.0,
-        }
-    }
-
-    /// Friction in the last solution, along what it keeps from sliding: N, or N·m of a hinge.
-    pub fn joint_friction_force(&self, friction: usize) -> f64 {
-        match self.mode().joint_friction[friction] {
-            ContactMode::Slip(_) => self.joint_friction_forces[friction],
-            _ => {
-                let rows = self.rows.iter().zip(&self.solved.lambda);
-                rows.filter(|(row, _)| row.source == Source::JointFriction(friction)).map(|(_, &l)| l).sum()
-            }
-        }
-    }
-
     /// How much of the friction at rest is left in the last solution, in either direction.
     pub fn joint_friction_reserve(&self, friction: usize) -> [f64; 2] {
-        let (most, force) = (self.most_friction(friction, true), self.joint_friction_force(friction));
+        let seen = self.solved_view();
+        let (most, force) = (seen.most_friction(friction, true), seen.joint_friction_force(friction));
         [most - force, most + force]
     }
 
@@ -110,7 +124,7 @@ impl Workspace<'_> {
     /// Power of all that slides in the last solution, W.
     pub(super) fn joint_friction_power(&self) -> f64 {
         (0..self.m.joint_friction.len())
-            .map(|friction| self.joint_friction_force(friction) * self.joint_sliding_rate(friction))
+            .map(|friction| self.solved_view().joint_friction_force(friction) * self.joint_sliding_rate(friction))
             .sum()
     }
 

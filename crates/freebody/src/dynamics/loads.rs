@@ -106,12 +106,12 @@ fn power<S: Scalar>(at: StateView<'_, S>, force: usize, counts: impl Fn(&GaugeFo
 }
 
 /// The size of a force as its user gave it: the value of its laws together, N or N·m; 0 where it is not in place.
-pub fn force_value(at: StateView<'_, f64>, force: usize) -> f64 {
+pub fn force_value<S: Scalar>(at: StateView<'_, S>, force: usize) -> S {
     if !at.mode.has(Part::Force(force)) {
-        return 0.0;
+        return S::zero();
     }
     let force = &at.m.forces[force];
-    let gauge_forces: f64 = force.gauge_forces.iter().map(|p| gauge_force_value(at, p)).sum();
-    let point_forces: f64 = force.point_forces.iter().map(|p| pushed(at, p).2.norm()).sum();
+    let gauge_forces = force.gauge_forces.iter().fold(S::zero(), |sum, p| sum + gauge_force_value(at, p));
+    let point_forces = force.point_forces.iter().fold(S::zero(), |sum, p| sum + pushed(at, p).2.norm());
     gauge_forces + point_forces
 }

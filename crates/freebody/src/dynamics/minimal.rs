@@ -8,6 +8,7 @@ use super::{
 use crate::kinematics::StateView;
 use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
+use crate::scalar::Scalar;
 use crate::solve::{Islands, Matrix, Orthogonal, SaddleError};
 
 /// Memory of the dense solution.
@@ -180,20 +181,21 @@ impl Workspace<'_> {
     pub(super) fn propagate_joint_wrenches(&mut self) {
         let s = &self.solved;
         self.solved.joint_wrenches =
-            self.joint_wrenches(residual(self.at(), &self.loads, &s.bodies, &self.rows, &s.lambda));
+            joint_wrenches(self.at(), &residual(self.at(), &self.loads, &s.bodies, &self.rows, &s.lambda));
     }
+}
 
-    /// The load that each body's joint passes, for what all else leaves of the balance of each body.
-    pub(super) fn joint_wrenches(&self, unbalanced: Vec<Wrench>) -> Vec<Wrench> {
-        let mut needed: Vec<Wrench> = unbalanced.into_iter().map(|load| -load).collect();
-        let mut joint_wrenches = vec![Wrench::zero(); needed.len()];
-        for i in (1..needed.len()).rev() {
-            let b = self.m.bodies[i].tree_joint.expect("every body hangs in the tree");
-            joint_wrenches[i] = if self.m.bodies[i].particle { Wrench { f: needed[i].f, m: 0.0 } } else { needed[i] };
-            needed[b.parent] += joint_wrenches[i].seen_from(self.k.arm[i]);
-        }
-        joint_wrenches
+/// The load that each body's joint in the tree passes, for what all else leaves of the balance of each body.
+pub(super) fn joint_wrenches<S: Scalar>(at: StateView<'_, S>, unbalanced: &[Wrench<S>]) -> Vec<Wrench<S>> {
+    let mut needed: Vec<Wrench<S>> = unbalanced.iter().map(|&load| -load).collect();
+    let mut joint_wrenches = vec![Wrench::zero(); needed.len()];
+    for i in (1..needed.len()).rev() {
+        let b = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
+        let couple = if at.m.bodies[i].particle { S::zero() } else { needed[i].m };
+        joint_wrenches[i] = Wrench { f: needed[i].f, m: couple };
+        needed[b.parent] += joint_wrenches[i].seen_from(at.k.arm[i]);
     }
+    joint_wrenches
 }
 
 /// Unit of each coordinate: a radian for angles, the characteristic length for lengths, and for the parameter of a curve

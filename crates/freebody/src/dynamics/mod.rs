@@ -11,6 +11,7 @@ mod answer;
 mod articulated_body;
 mod contact_forces;
 mod contact_modes;
+mod derivatives;
 mod energy;
 mod gaps;
 mod gear_flank;
@@ -27,9 +28,12 @@ mod rank;
 mod reactions;
 mod rows;
 mod scales;
+mod solved_view;
 mod term_scales;
 
+pub use contact_forces::compliant_force;
 pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
+pub use derivatives::Direction;
 pub use energy::{kinetic, potential};
 pub use impact::ImpactSolution;
 pub use instant::{ContactLoad, Instant};
@@ -42,6 +46,7 @@ pub use reactions::JointLoad;
 pub use rows::{
     closing_rows, drive_row, gap_row, joint_friction_row, joint_rows, slide_row, BodyWrenches, Row, Source,
 };
+pub use solved_view::SolvedView;
 pub use term_scales::TermScales;
 
 use crate::bound_values::BoundValues;
@@ -277,8 +282,8 @@ impl<'m> Workspace<'m> {
         let at = self.placed.view(self.m, &self.n, &self.k);
         loads::centre_arms(at, &mut self.arms);
         loads::loads(at, &self.arms, &mut self.loads);
-        self.add_joint_friction();
-        self.add_compliant_forces();
+        joint_friction::add_joint_friction(at, &self.joint_friction_forces, &mut self.loads);
+        contact_forces::add_compliant_forces(at, &mut self.loads);
         if !self.loads.iter().flat_map(Wrench::parts).all(f64::is_finite) {
             return Err(self.infinite_load());
         }

@@ -4,9 +4,9 @@
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
 use super::contact_modes::{force_on_first, REST};
-use super::minimal::{row_scales, rows_in_coordinates, Force};
+use super::minimal::{joint_wrenches, row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
-use super::{Row, Source, Workspace};
+use super::{Row, SolvedView, Source, Workspace};
 use crate::kinematics::StateView;
 use crate::mechanism::{Mechanism, Part};
 use crate::mode::{ContactMode, Mode};
@@ -236,9 +236,9 @@ impl Workspace<'_> {
         let lambda: Vec<f64> = (0..self.rows.len()).map(|i| multipliers[(i, k)]).collect();
         let mut loads = vec![Wrench::zero(); self.m.bodies.len()];
         super::add_multipliers(&self.rows, &lambda, &mut loads);
-        let joint_wrenches = self.joint_wrenches(loads);
-        let loads = self.joint_loads_of(&joint_wrenches, &lambda);
-        let drives = self.of_drives(&lambda);
+        let joint_wrenches = joint_wrenches(self.at(), &loads);
+        let stressed = SolvedView { joint_wrenches: &joint_wrenches, lambda: &lambda, ..self.solved_view() };
+        let (loads, drives) = (stressed.joint_loads(), stressed.drive_forces());
         let mut groups = vec![[0.0; 4]; self.m.groups.len()];
         for (row, &l) in self.rows.iter().zip(&lambda) {
             let (Source::Gap(constraint) | Source::Friction(constraint)) = row.source else { continue };

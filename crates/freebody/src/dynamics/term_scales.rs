@@ -24,7 +24,7 @@ impl Workspace<'_> {
             let force = self.strength(load);
             sizes.include(force, if mass > 0.0 { force / mass } else { 0.0 });
         }
-        for joint in self.joint_loads() {
+        for joint in self.solved_view().joint_loads() {
             sizes.include(self.strength(&Wrench { f: joint.force, m: joint.couple }), 0.0);
         }
         for (row, &lambda) in self.rows.iter().zip(&self.solved.lambda) {

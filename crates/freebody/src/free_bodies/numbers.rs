@@ -1,7 +1,7 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
 use super::{loads, relate_friction, Load, Origin, Part, Size};
-use crate::dynamics::{closing_rows, Determinacy, DynamicsError, Source, Workspace};
+use crate::dynamics::{closing_rows, compliant_force, Determinacy, DynamicsError, Source, Workspace};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
 use crate::plane::{Twist, Vec2};
@@ -141,9 +141,10 @@ struct LoadValues<'l> {
 
 impl<'l> LoadValues<'l> {
     fn of(b: &Workspace<'_>, determinacy: &'l Determinacy) -> Self {
-        let loads = b.joint_loads();
+        let seen = b.solved_view();
+        let loads = seen.joint_loads();
         let joints = loads.iter().enumerate().map(|(j, l)| (l.force, rows_of(b, j))).collect();
-        LoadValues { determinacy, joints, drives: b.drive_forces(), contacts: b.contact_forces() }
+        LoadValues { determinacy, joints, drives: seen.drive_forces(), contacts: seen.contact_forces() }
     }
 
     fn of_load(&self, b: &Workspace<'_>, load: &Load<f64>, all: &[Load<f64>]) -> (Option<f64>, bool) {
@@ -169,9 +170,9 @@ impl<'l> LoadValues<'l> {
             Origin::Row(Source::Gap(l)) => (Some(self.contacts[l][0]), self.determinacy.groups[group(l)][2]),
             Origin::Row(Source::Friction(l)) => (Some(self.contacts[l][1]), self.determinacy.groups[group(l)][3]),
             Origin::Row(Source::JointFriction(friction)) | Origin::JointFriction(friction) => {
-                (Some(b.joint_friction_force(friction)), true)
+                (Some(b.solved_view().joint_friction_force(friction)), true)
             }
-            Origin::Compliant(l) | Origin::Sliding(l) => (Some(b.compliant_force(l)), true),
+            Origin::Compliant(l) | Origin::Sliding(l) => (Some(compliant_force(b.at(), l)), true),
         }
     }
 
@@ -199,5 +200,5 @@ fn rows_of(b: &Workspace<'_>, joint: usize) -> Vec<f64> {
     if b.m.joints[joint].rows.is_empty() {
         return vec![];
     }
-    b.row_loads(joint)
+    b.solved_view().row_loads(joint)
 }

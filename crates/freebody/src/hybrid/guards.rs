@@ -1,7 +1,7 @@
 //! Switching functions: of events, of laws that are not smooth, and guards, which stay positive as long as the mode holds.
 
 use super::HybridSystem;
-use crate::dynamics::{DynamicsError, Route, Source};
+use crate::dynamics::{compliant_force, DynamicsError, Route, Source};
 use crate::mechanism::{Gap, Mechanism};
 use crate::mode::ContactMode;
 
@@ -78,7 +78,7 @@ impl HybridSystem<'_> {
             self.workspace.solve_by(Route::Minimal)?;
         }
         let shared = if carries { self.workspace.safest_margin(self.strength) } else { None };
-        let forces = if carries && shared.is_none() { self.workspace.contact_forces() } else { vec![] };
+        let forces = if carries && shared.is_none() { self.workspace.solved_view().contact_forces() } else { vec![] };
         let (out, friction) = out.split_at_mut(CONTACT_GUARDS.len() * m.unilateral.len());
         self.joint_friction_guards(friction);
         let apart = self.workspace.apart();
@@ -174,7 +174,7 @@ impl HybridSystem<'_> {
     fn compliant_state(&self, l: usize) -> [f64; 2] {
         let lever = self.workspace.lever(l);
         let gap = self.workspace.constraint_gap(l) * lever / self.workspace.length;
-        [gap, self.workspace.compliant_force(l) / (lever * self.strength)]
+        [gap, compliant_force(self.workspace.at(), l) / (lever * self.strength)]
     }
 
     /// One guard of a contact, if it is of places and speeds alone: then nothing needs to be solved.

@@ -297,7 +297,7 @@ impl System for HybridSystem<'_> {
             dy[2 * n + i] = crate::dynamics::unaccounted_power(self.workspace.at(), f);
         }
         if !self.driven.is_empty() {
-            let powers = self.workspace.drive_powers();
+            let powers = self.workspace.solved_view().drive_powers();
             for (i, &d) in self.driven.iter().enumerate() {
                 dy[2 * n + self.worked.len() + i] = powers[d];
             }

@@ -204,7 +204,7 @@ impl Trajectory {
         self.each(m, times, |workspace, _, _| {
             workspace.solve()?;
             let sure = workspace.determinacy().joints;
-            let loads = workspace.joint_loads();
+            let loads = workspace.solved_view().joint_loads();
             rows.push(loads.iter().zip(sure).map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
             Ok(())
         })?;

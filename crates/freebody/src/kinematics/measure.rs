@@ -81,26 +81,26 @@ pub fn jet<S: Scalar>(moving: &MotionView<'_, S>, gauge: &ModelExpr) -> Jet<S> {
 }
 
 /// A solved instant as an environment of expressions.
-pub struct Observed<'a> {
+pub struct Observed<'a, S = f64> {
     /// The state.
-    pub at: StateView<'a>,
+    pub at: StateView<'a, S>,
     /// Accelerations of joint origins and angles.
-    pub bodies: &'a [Twist],
+    pub bodies: &'a [Twist<S>],
     /// Accelerations of the coordinates.
-    pub accelerations: &'a [f64],
+    pub accelerations: &'a [S],
     /// What a reading is.
-    pub read: &'a dyn Fn(Reading) -> f64,
+    pub read: &'a dyn Fn(Reading) -> S,
 }
 
-impl Observed<'_> {
-    fn moving(&self) -> MotionView<'_, f64> {
+impl<S: Scalar> Observed<'_, S> {
+    fn moving(&self) -> MotionView<'_, S> {
         MotionView { at: self.at, bodies: Some(self.bodies), accelerations: Some(self.accelerations) }
     }
 }
 
-impl Env<f64, ModelVariable> for Observed<'_> {
-    fn variable(&self, variable: &ModelVariable) -> f64 {
-        let place = |site: usize| -> Vec2 { self.at.pose(self.at.m.body_of(site)).place(self.at.arm(site)) };
+impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
+    fn variable(&self, variable: &ModelVariable) -> S {
+        let place = |site: usize| -> Vec2<S> { self.at.pose(self.at.m.body_of(site)).place(self.at.arm(site)) };
         match variable {
             ModelVariable::Parameter(i) => self.at.parameter(*i),
             ModelVariable::Time => self.at.t,
@@ -112,13 +112,13 @@ impl Env<f64, ModelVariable> for Observed<'_> {
             ModelVariable::Local => unreachable!("a curve's parameter outside a curve"),
         }
     }
-    fn rate(&self, of: &ModelExpr) -> f64 {
+    fn rate(&self, of: &ModelExpr) -> S {
         jet(&self.moving(), of).d1
     }
-    fn accel(&self, of: &ModelExpr) -> f64 {
+    fn accel(&self, of: &ModelExpr) -> S {
         jet(&self.moving(), of).d2
     }
-    fn table(&self, table: usize, x: f64) -> f64 {
+    fn table(&self, table: usize, x: S) -> S {
         self.at.m.tables[table].eval(x)
     }
     fn branch(&self, discontinuity: usize) -> Option<bool> {

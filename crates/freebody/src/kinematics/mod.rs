@@ -12,7 +12,7 @@ mod view;
 
 pub use joint_view::JointView;
 pub use measure::{gradient, jet, Config, Observed, State};
-pub use view::{relative, MotionView, Poses, SeededView, StateView};
+pub use view::{relative, MotionView, Poses, SeededView, StateView, ValuesView};
 
 use crate::bound_values::BoundValues;
 use crate::joints::Relative;

@@ -80,6 +80,35 @@ impl<S: Scalar> Poses<S> for StateView<'_, S> {
     }
 }
 
+/// A state over any scalar by its plain values, for decisions.
+pub struct ValuesView<'a, S>(pub StateView<'a, S>);
+
+impl<S: Scalar> Poses<f64> for ValuesView<'_, S> {
+    fn pose(&self, body: usize) -> Pose {
+        let Pose { at, turn } = self.0.pose(body);
+        let turn = Turn { angle: turn.angle.value(), cos: turn.cos.value(), sin: turn.sin.value() };
+        Pose { at: at.value(), turn }
+    }
+    fn arm(&self, site: usize) -> Vec2 {
+        self.0.arm(site).value()
+    }
+    fn value(&self, id: usize) -> f64 {
+        self.0.value(id).value()
+    }
+    fn parameter(&self, i: usize) -> f64 {
+        self.0.parameter(i).value()
+    }
+    fn time(&self) -> f64 {
+        self.0.t.value()
+    }
+    fn coordinate(&self, joint: usize, k: usize) -> f64 {
+        self.0.coordinate(joint, k).value()
+    }
+    fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2 {
+        self.0.span(from, to, m).value()
+    }
+}
+
 impl<'a, S: Scalar> StateView<'a, S> {
     /// The joints in place, with their numbers.
     pub fn joints(&self) -> impl Iterator<Item = (usize, &'a Joint)> {
@@ -99,6 +128,10 @@ impl<'a, S: Scalar> StateView<'a, S> {
     /// From the joint origin of a body to its mass centre, fixed axes.
     pub fn centre_arm(&self, body: usize) -> Vec2<S> {
         self.k.pose[body].turn.apply(self.n.centre[body])
+    }
+    /// The place of a site, fixed axes.
+    pub fn site(&self, site: usize) -> Vec2<S> {
+        self.k.pose[self.m.body_of(site)].place(self.n.arms[site])
     }
     /// The mass centre of a body, fixed axes.
     pub fn mass_centre(&self, body: usize) -> Vec2<S> {

@@ -11,6 +11,7 @@ mod cables;
 mod closed_forms;
 mod contact_geometry;
 mod contacts;
+mod derivatives;
 mod driven_impacts;
 mod free_bodies;
 mod gauges;

@@ -94,7 +94,7 @@ fn the_motion_alone_is_that_of_the_whole_solution() {
         let found = |workspace: &Workspace| {
             let mut accelerations = vec![0.0; bench.q.len()];
             workspace.accelerations(&mut accelerations);
-            [accelerations, workspace.drive_powers()].concat()
+            [accelerations, workspace.solved_view().drive_powers()].concat()
         };
         workspace.solve_motion().unwrap_or_else(|e| panic!("{label}: {e:?}"));
         let alone = found(workspace);
@@ -188,10 +188,11 @@ fn energy_changes_by_the_power_put_in() {
         for potential in at.forces().filter_map(|(_, force)| force.potential.as_ref()) {
             terms.extend(m.bodies_of(potential).into_iter().map(|b| gradient(at, potential, b).power(at.k.twist[b])));
         }
-        terms.extend(workspace.drive_powers().iter().map(|p| -p));
+        terms.extend(workspace.solved_view().drive_powers().iter().map(|p| -p));
         // Ideal joints transmit any power; what they take in at one body they give out at the other.
         let left: f64 = terms.iter().sum();
-        let transmitted = workspace.joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
+        let transmitted =
+            workspace.solved_view().joint_loads().iter().map(|l| l.force.norm() + l.couple.abs()).fold(1.0, f64::max);
         let size = terms.iter().fold(transmitted, |m: f64, x| m.max(x.abs()));
         assert!(left.abs() < AGREE * size, "{label}: {left:e} of {size:e} W is unaccounted for");
     });
