@@ -16,10 +16,12 @@ from freebody.core import FreeBodies, cards
 from freebody.equations import Letter, Letters, Sym, latex
 from freebody.solve.symbols import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
+from freebody.views.diagram.configuration import Configuration
 from freebody.views.labels import AIR, extent
 from freebody.views.shapes import dense
 
 LONG_LETTERS = {"GEN-CAR/driveshaft": 95}  # mm; "pinion bearing" and "axle" at the two ends of the car, and three more between
+FULL = 12  # arrows on a panel, beyond which there may be no room for a label that none of them crosses
 every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER))
 
 
@@ -282,6 +284,19 @@ def test_no_leader_runs_through_a_label(model, of):
                 if led.leader is not None:
                     way = dense([led.leader], 1.0)
                     assert not (np.abs(way - other.centre) < other.half - AIR).all(axis=1).any(), (led.label, other.label)
+
+
+@every_model
+def test_no_arrow_runs_through_a_label(model):
+    """Neither a force nor a dimension, where there is room: on a panel that is not full of arrows or of long letters."""
+    state, _ = store.start(model)
+    configuration = Configuration(mechanism(model).source(), state)
+    sheets = drawn(model), drawn(model, None, True), drawn(model, "all"), configuration, replace(configuration, each_body=True)
+    for panel in (panel for sheet in sheets for row in sheet.rows for panel in row.panels):
+        arrows = [mark.line for mark in panel.marks] + [dimension.arrow for dimension in panel.scenery.dimensions]
+        for label in panel.labels if len(arrows) <= FULL and model not in LONG_LETTERS else ():
+            for way in (dense([line], 1.0) for line in arrows):
+                assert not (np.abs(way - label.centre) < label.half - AIR).all(axis=1).any(), label.label.text
 
 
 @every_model

@@ -145,7 +145,8 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offer
     left = aside * np.array([-along[1], along[0]])
     arrow = np.array([zero, zero + shown * asked.sense * along]) + left
     foot = sketch.place(asked.joint["with"]["of"][0]) if asked.word in _AXES else zero
-    return arrow, [np.array([foot, arrow[0] + 0.2 * left])], shown
+    guides = [np.array([foot, arrow[0] + 0.2 * left])]
+    return arrow, [*guides, np.array([place, place + 1.2 * left])] if shown == asked.value else guides, shown
 
 
 def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:

@@ -57,7 +57,7 @@ class Panel:
 
     @cached_property
     def _arrows(self) -> Array:
-        return dense([mark.line for mark in self.marks], 1.5)
+        return dense([*(mark.line for mark in self.marks), *(each.arrow for each in self.scenery.dimensions)], 1.5)
 
     def _wanted(self) -> Iterator[Label]:
         for mark in self.marks:
@@ -65,8 +65,9 @@ class Panel:
             anchors = np.array([mark.free, mark.line.mean(axis=0)]) if isinstance(mark, Arrow) else around
             yield Label(f"${mathtext(mark.action.label)}$", anchors, 10.0, tone(mark.action))
         for dimension in self.scenery.dimensions:
-            n = len(dimension.arrow)
-            yield Label(f"${mathtext(dimension.text)}$", dimension.arrow[[n // 2, -1]], 9.0, MEASURE)
+            arrow = dimension.arrow
+            anchors = arrow[[len(arrow) // 2, -1]] if len(arrow) > 2 else np.array([arrow[1], arrow.mean(axis=0)])
+            yield Label(f"${mathtext(dimension.text)}$", anchors, 9.0, MEASURE)
             if dimension.axis is not None:
                 yield Label(f"${mathtext(dimension.axis.text)}$", dimension.axis.at[None], 8.0, MEASURE)
         for tag in filter(lambda tag: tag.text, self.scenery.points):
