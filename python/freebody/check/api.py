@@ -18,8 +18,9 @@ from .claims import claimed
 from .families import ALL, Family
 from .language.dimensions import misfit
 from .motion_sampler import MotionSampler
+from .printed_symbols import PrintedSymbols
 from .symbols import Symbols
-from .verdict import Verdict, holds, judged, of_wrong_dimensions
+from .verdict import Verdict, judged, of_wrong_dimensions
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -37,19 +38,20 @@ class Checker:
     def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0) -> None:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
-        self.sampler = MotionSampler(mechanism, seed)
+        self.sampler, self.printed = MotionSampler(mechanism, seed), PrintedSymbols(mechanism)
         self.hypothesis = ALL
         self.correcting = True
         self._runs: list[Any] = []  # the model's own, once it is asked for
 
     def letters(self, declared: Declared | None = None) -> Symbols:
         """The symbols of the model with own ones. Raises ``ModelProblem``."""
-        return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity)
+        return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity, self.printed)
 
-    def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None) -> Case:
-        """A statement beside the motions that decide about it. Raises ``StatementError`` and ``ModelProblem``."""
+    def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, units: bool = True) -> Case:
+        """A statement beside the motions that decide about it, read with ``units`` or without. Raises ``StatementError`` and
+        ``ModelProblem``."""
         known = self.letters(letters)
-        program = known.read(text)
+        program = known.read(text, units)
         meaning = StatementSymbols(known, program, self.sampler)
         given = hypothesis or self.hypothesis
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
@@ -100,6 +102,8 @@ class Checker:
 def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
     """The verdict about equations."""
     case = checker.case(text, letters)
+    if case.program.units and (found := _in_figures(checker.case(text, letters, units=False))):
+        return found
     if (error := misfit(case.program, case.meaning.letters.dimensions)) is None:
         verdict = judged(case)
     else:
@@ -109,9 +113,9 @@ def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
 
 def _in_figures(case: Case) -> Verdict | None:
     """The verdict where an equation is true whose dimensions fit if figures stand for measures in SI units."""
-    if misfit(case.program, case.meaning.letters.dimensions, figures=True) or not holds(case):
+    if misfit(case.program, case.meaning.letters.dimensions, figures=True):
         return None
-    verdict = judged(case)
+    verdict = judged(replace(case, correcting=False))
     return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None
 
 

@@ -59,7 +59,7 @@ class StatementSymbols:
         found = self.letters.values(self._valued, samples)
         for n in self._valued:
             one = self._one(n)
-            if one.kind not in ("parameter", "gravity") and one.dimension is not None:
+            if one.kind not in ("parameter", "gravity"):
                 size = self.sampler.unit(one.dimension) * self.sampler.rate**n.dots
                 found[n.key] = found[n.key] * (np.max(np.abs(found[n.key]), initial=0.0) >= _ROUND_OFF * size)
         return found

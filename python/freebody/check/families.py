@@ -78,7 +78,7 @@ class Samples:
 
     def _stressed(self, state: State, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
         """A row in which what reads reactions that are not determined has a value, too."""
-        if not np.isnan(row).any() or state.history is not None:
+        if not np.isnan(row).any():
             return row
         values = admissible(self.core, state, rng, self.stress)
         lost = [i for i, text in enumerate(texts) if np.isnan(row[i]) and with_numbers(text, values) != text]

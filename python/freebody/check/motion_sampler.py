@@ -193,8 +193,9 @@ class MotionSampler:
 
     @cached_property
     def _distances(self) -> list[str]:
-        """The distances that springs, dampers and expressions of the model read."""
+        """The distances that springs, dampers, polar coordinates and expressions of the model read."""
         pairs = [force["with"]["between"] for force in self.spec["forces"] if "between" in force["with"]]
+        pairs += [joint["with"]["of"] for joint in self.spec["joints"] if joint["type"] == "polar"]
         read = re.findall(r"distance\([^()]*\)", json.dumps(self.spec, ensure_ascii=False))
         return [*(f"distance({a}, {b})" for a, b in pairs), *read]
 

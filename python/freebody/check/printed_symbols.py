@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 from freebody.core import MotionError
-from freebody.equations.derivation.conserved import energies
+from freebody.equations.derivation.conserved import energies, momenta
 from freebody.equations.derivation.preamble import directions
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.symbols import Renamed, unicode_name
-from freebody.symbolic.tree import Sym, substitute, symbols
+from freebody.symbolic.symbols import Renamed, folded, unicode_name
+from freebody.symbolic.tree import Sym, Tree, substitute, symbols
 
 from .language.spelling import spell as written
 
@@ -24,24 +25,36 @@ _ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
 """The force at one place of a contact that holds at several."""
 
 
-def printed(mechanism: Builder) -> dict[str, str]:
-    """What each means, as a declaration. Nothing where the model does not start."""
-    derived = _derived(mechanism)
-    parts = (_named, _bodies, _whole, _directions) if derived else ()
-    return {name: meant for part in parts for name, meant in part(derived)}
+class PrintedSymbols:
+    """What printed equations of a model, as it is at a moment, call things; nothing where it does not start."""
 
+    def __init__(self, mechanism: Builder, **moment: Any) -> None:
+        self.mechanism, self.moment = mechanism, moment
 
-def renamed(mechanism: Builder) -> list[Renamed]:
-    """What is not called by its usual name, because something else is. Nothing where the model does not start."""
-    derived = _derived(mechanism)
-    return list(derived.symbols.renamed.values()) if derived else []
+    @cached_property
+    def _derived(self) -> SymbolicState | None:
+        try:
+            return SymbolicState(self.mechanism.source(), self.mechanism.moment(**self.moment)[0])
+        except (MotionError, ModelProblem):
+            return None
 
+    @cached_property
+    def plain(self) -> dict[str, str]:
+        """What each symbol means, as a declaration."""
+        return self._of(_named, _bodies, _whole, _directions)
 
-def _derived(mechanism: Builder) -> SymbolicState | None:
-    try:
-        return SymbolicState(mechanism.source(), mechanism.moment()[0])
-    except (MotionError, ModelProblem):
-        return None
+    @cached_property
+    def momenta(self) -> dict[str, str]:
+        """The same of momenta that stay constant, which take longer to be found."""
+        return self._of(_momenta)
+
+    def _of(self, *parts: Callable[[SymbolicState], Iterator[tuple[str, str]]]) -> dict[str, str]:
+        return {name: meant for part in parts for name, meant in part(self._derived)} if self._derived else {}
+
+    @cached_property
+    def renamed(self) -> list[Renamed]:
+        """What is not called by its usual name, because something else is."""
+        return list(self._derived.symbols.renamed.values()) if self._derived else []
 
 
 def _named(derived: SymbolicState) -> Iterator[tuple[str, str]]:
@@ -51,9 +64,8 @@ def _named(derived: SymbolicState) -> Iterator[tuple[str, str]]:
         one = f"load {load.symbol}" if _ONE_OF_SEVERAL.search(load.symbol) else load.symbol
         yield names[load.symbol].unicode(), f"{spell(load.name)}.value" if load.kind == "force" else one
     names = derived.symbols.names
-    for name in derived.symbols.renamed:
-        if name in names and derived.table.get(name, {}).get("kind") in ("coordinate", "parameter"):
-            yield names[name].unicode(), spell(name)
+    own = (name for name, entry in derived.table.items() if entry["kind"] in ("coordinate", "parameter"))
+    yield from ((names[name].unicode(), spell(name)) for name in own if folded(names[name].unicode()) != folded(name))
     numbers = ((name, entry) for name, entry in derived.table.items() if entry["kind"] == "number")
     yield from ((names[name].unicode(), f"{entry['value']!r} {entry['unit']}") for name, entry in numbers)
 
@@ -81,14 +93,26 @@ def _whole(derived: SymbolicState) -> Iterator[tuple[str, str]]:
         yield "H/G", f"angular_momentum({point}) - ({carried})"
 
 
+def _momenta(derived: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Momenta that stay constant, of parts of the whole or along any direction."""
+    for each in momenta(derived):
+        place, bodies = f"[{', '.join(_expression(x, {}) for x in each.place)}]", ", ".join(each.found.bodies)
+        meant = f"angular momentum of {bodies} about {place}, along k" if each.found.turns else f"momentum of {bodies} along {place}"
+        yield each.letter(derived).text, meant
+
+
+def _expression(tree: Tree, angles: Mapping[str, str]) -> str:
+    """A tree in the model language, angles of bodies as they are read there."""
+    return written(substitute(tree, {n: Sym(angles.get(n.name) or spell(n.name)) for n in symbols(tree)}))
+
+
 def _directions(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
     turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in derived.source.metadata["bodies"]}
     named = directions(derived)
     yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))
     for pair in named.pairs:
-        names = {n: Sym(turning.get(n.name) or spell(n.name)) for n in symbols(pair.angle)}
-        angle = written(substitute(pair.angle, names))
+        angle = _expression(pair.angle, turning)
         c, s = f"cos({angle})", f"sin({angle})"
         around = (f"[{c}, {s}]", f"[-{s}, {c}]", f"[-{c}, -{s}]", f"[{s}, -{c}]")
         yield pair.along, around[pair.quarters]

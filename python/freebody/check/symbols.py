@@ -23,7 +23,7 @@ from .language.parser import parse, parse_expression
 from .language.spelling import spell as written
 from .language.statements import Program
 from .language.tokens import Names
-from .printed_symbols import printed, renamed
+from .printed_symbols import PrintedSymbols
 from .user_symbols import Array, Meaning, Reader
 
 if TYPE_CHECKING:
@@ -65,9 +65,13 @@ class Symbols:
     """
 
     def __init__(
-        self, mechanism: Builder, declared: Mapping[str, str | Sequence[str | float]] | None = None, gravity: str | None = None
+        self,
+        mechanism: Builder,
+        declared: Mapping[str, str | Sequence[str | float]] | None = None,
+        gravity: str | None = None,
+        printed: PrintedSymbols | None = None,
     ) -> None:
-        self.mechanism = mechanism
+        self.printed = printed or PrintedSymbols(mechanism)
         lowered = mechanism.lowered()
         self.spec = lowered.spec
         self.named = meanings.meanings(lowered.root)
@@ -102,9 +106,9 @@ class Symbols:
         """Symbols that do not change with time."""
         return self.of_kind("parameter", "gravity", "direction")
 
-    def read(self, text: str) -> Program:
-        """The statement that a text is. What it asks of the model in the model's own words, ``ax(rod.G)``, ``energy()``,
-        ``accel(s)``, becomes a symbol, too. Raises ``StatementError``."""
+    def read(self, text: str, units: bool = True) -> Program:
+        """The statement that a text is, with ``units`` for symbols of their names where dimensions fit only so. What it asks of the
+        model in the model's own words, ``ax(rod.G)``, ``energy()``, ``accel(s)``, becomes a symbol, too. Raises ``StatementError``."""
         for found in _READING.finditer(text):
             name = "".join(found[0].split())
             if name not in self.meanings:
@@ -118,10 +122,11 @@ class Symbols:
                 hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
                 raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
         program = parse(text, self.names, self.still)
-        given = {line.name for line in program.assignments}
-        if any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program)):
-            taken = {folded(name) for name in self.meanings}
-            for name, said in printed(self.mechanism).items():  # those of printed equations join the others, which go before them
+        taken = {folded(name) for name in self.meanings}
+        for part in ("plain", "momenta"):  # what printed equations call things comes after the symbols of the model
+            if not self._unknown(program):
+                break
+            for name, said in getattr(self.printed, part).items():
                 if folded(name) not in taken:
                     with suppress(ModelProblem):
                         self._declare(name, said)
@@ -130,7 +135,7 @@ class Symbols:
         if clashing := self._clashing(program):
             names = tuple(name for name in names if name not in clashing)
             program = parse(text, names, self.still)
-        if not misfit(program, self.dimensions, strictly=True):
+        if not units or not misfit(program, self.dimensions, strictly=True):
             return program
         try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
             other = parse(text, names, self.still, units=True)
@@ -138,6 +143,11 @@ class Symbols:
         except StatementError:
             return program
         return other
+
+    def _unknown(self, program: Program) -> bool:
+        """Whether a symbol of a program has no meaning."""
+        given = {line.name for line in program.assignments}
+        return any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
 
     def _clashing(self, program: Program) -> set[str]:
         """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""
@@ -159,7 +169,7 @@ class Symbols:
         clashes = [
             f"Here {name} is what the statement gives that name, not the {self.meanings[name].kind} of the model." for name in own
         ]
-        return (*clashes, *(str(each) for each in renamed(self.mechanism) if folded(each.usual.unicode()) in used))
+        return (*clashes, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))
 
     # --- values --------------------------------------------------------------------------------
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freebody.model.errors import ModelProblem
-from freebody.model.names import suggestion
+from freebody.model.names import spell, suggestion
 from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
 
 from .rates import derivative
@@ -51,25 +51,28 @@ class Meaning:
 @dataclass(frozen=True)
 class OfBodies(Meaning):
     """A sum over bodies as a vector along i, j, k: Σ (m x, m y, m z + I s), where ``texts`` are x, y, z, s of each body; the
-    resultant of the forces from outside, their moment, or angular momentum. ``rates``: the same of the derivatives that are known."""
+    resultant of the forces from outside, their moment, or a momentum. ``rates``: the same of the derivatives that are known.
+    ``axis`` leaves one component, a number."""
 
     bodies: tuple[str, ...] = ()
     rates: tuple[tuple[str, ...], ...] = ()
+    axis: int | None = None
 
     @property
     def is_vector(self) -> bool:
-        return True
+        return self.axis is None
 
     def needed(self, dots: int) -> list[str]:
         if dots > len(self.rates):
-            raise ModelProblem("only the first rate of an angular momentum is known, and none of a force or a moment")
+            raise ModelProblem("only the first rate of a momentum is known, and none of a force or a moment")
         return list((self.texts, *self.rates)[dots])
 
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
         parts, known = np.array([values[text] for text in self.needed(dots)]), masses()
         weights = np.array([(m, m, m, i) for m, i in map(known.__getitem__, self.bodies)])
         x, y, z, s = (weights * parts.reshape(weights.shape)).swapaxes(0, 1)
-        return np.stack([sum(x), sum(y), sum(z + s)], axis=-1)
+        found = np.stack([sum(x), sum(y), sum(z + s)], axis=-1)
+        return found if self.axis is None else found[:, self.axis]
 
 
 _KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}
@@ -77,7 +80,8 @@ _POINT = r"(\S+)"
 _PLACE = re.compile(rf"(position|velocity|acceleration) of {_POINT}(?: (?:from|relative to) {_POINT})?")
 _DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
 _JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
-_GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\S+)")
+_GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\[.+\]|\S+?)(, along k)?")
+_MOMENTUM = re.compile(r"momentum of (.+) along \[(.+)\]")
 _FORCE = re.compile(r"force on (.+)")
 LOAD = "load "
 """How a text begins that names a load of the free-body diagrams, one place of a contact that holds at several, by its symbol."""
@@ -103,7 +107,7 @@ class Reader:
         if phrase.startswith(LOAD):
             return Meaning("reaction", (phrase,), FORCE)
         phrases = {_PLACE: self.place, _DIRECTION: self.direction, _JOINT: self.reaction}
-        phrases |= {_GROUP: self.moment, _FORCE: self.resultant}
+        phrases |= {_GROUP: self.moment, _MOMENTUM: self.momentum, _FORCE: self.resultant}
         for pattern, reading in phrases.items():
             if found := pattern.fullmatch(phrase):
                 return reading(*found.groups())
@@ -148,28 +152,39 @@ class Reader:
             return self.vector(["0", "0", f"{sign}{joint}.M"], ENERGY)
         return self.vector([f"{sign}{joint}.Fx", f"{sign}{joint}.Fy"], FORCE)
 
-    def moment(self, what: str, bodies: str, point: str) -> Meaning:
-        """Angular momentum of bodies about a point, or the moment on them."""
+    def momentum(self, bodies: str, along: str) -> Meaning:
+        """That of bodies along a unit vector, a number."""
         group = self.group(bodies)
+        x, y = (self.measured(part)[0] for part in _parts(along))
+        along, rate = (
+            tuple(text for body in map(spell, group) for text in (f"({x})*{v}x({body}.G) + ({y})*{v}y({body}.G)", "0", "0", "0"))
+            for v in "va"
+        )
+        return OfBodies("declared", along, FORCE.times(TIME), group, (rate,), 0)
+
+    def moment(self, what: str, bodies: str, point: str, number: str | None) -> Meaning:
+        """Angular momentum of bodies about a point, or the moment on them; as a ``number``, or along k."""
+        group, axis = self.group(bodies), 2 if number else None
         still, moving = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
         if what == "moment":
-            return OfBodies("declared", moving, ENERGY, group)
-        return OfBodies("declared", still, ENERGY.times(TIME), group, (moving,))
+            return OfBodies("declared", moving, ENERGY, group, axis=axis)
+        return OfBodies("declared", still, ENERGY.times(TIME), group, (moving,), axis)
 
     def orbits(self, group: Sequence[str], point: str, letter: str, spin: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""
         out: list[str] = []
+        x, y = [self.measured(part)[0] for part in _parts(point[1:-1])] if point[0] == "[" else (f"x({point})", f"y({point})")
         for body in group:
-            g = f"{body}.G"
-            turn = f"(x({g}) - x({point}))*{letter}y({g}) - (y({g}) - y({point}))*{letter}x({g})"
-            turns = "0" if body in self.particles else self.measured(f"{spin}({body})")[0]
+            g = f"{spell(body)}.G"
+            turn = f"(x({g}) - ({x}))*{letter}y({g}) - (y({g}) - ({y}))*{letter}x({g})"
+            turns = "0" if body in self.particles else self.measured(f"{spin}({spell(body)})")[0]
             out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)
 
     def resultant(self, bodies: str) -> Meaning:
         """All that acts on bodies from outside: Σ m a of their mass centres."""
         group = self.group(bodies)
-        found = [[self.measured(f"{a}({body}.G)")[0] for a in ("ax", "ay")] for body in group]
+        found = [[self.measured(f"{a}({body}.G)")[0] for a in ("ax", "ay")] for body in map(spell, group)]
         return OfBodies("declared", tuple(text for x, y in found for text in (x, y, "0", "0")), FORCE, group)
 
     def group(self, bodies: str) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from freebody.core import GROUND, CompiledModel, Load, cards
+from freebody.symbolic.evaluate import FUNCTIONS
 from freebody.symbolic.symbols import Name, Renamed, Taken, folded
 
 _Law: TypeAlias = dict[str, Any] | None
@@ -42,13 +43,14 @@ class Symbols:
     def of(cls, source: CompiledModel, loads: Iterable[Load], table: Mapping[str, Mapping[str, Any]]) -> Symbols:
         """Those of a model with some loads; ``table`` are the letters as the core lists them.
 
-        What the user names goes first, then time and numbers, then loads. A force whose law is one letter, or whose name is, has
-        that letter."""
+        Functions go first, then what the user names, then time and numbers, then loads. A force whose law is one letter, or whose
+        name is, has that letter."""
         wanted = {each["name"]: (f"the coordinate {each['name']}", [each["name"]]) for each in source.metadata["coordinates"]}
         wanted |= {each["name"]: (f"the parameter {each['name']}", [each["name"]]) for each in source.metadata["parameters"]}
         wanted |= {"t": ("time", ["t"]), "pi": ("the number π", ["pi"])}
         wanted |= {name: (entry["doc"], entry["names"]) for name, entry in table.items() if entry["kind"] == "number"}
-        taken, given = Taken(), source.metadata["coordinates"] + source.metadata["parameters"]
+        taken = Taken({name: (name, f"the function {name}") for name in FUNCTIONS})
+        given = source.metadata["coordinates"] + source.metadata["parameters"]
         plain = [each["name"] for each in given if folded(each["name"]) == each["name"]]  # goes before what is only read like it
         names = {symbol: taken.give(wanted[symbol][0], *map(Name.parse, wanted[symbol][1])) for symbol in (*plain, *wanted)}
         own = _of_loads(source, loads, taken)

@@ -42,7 +42,7 @@ def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units
         known = replace(known, known=(*own, *_assigned(tokens(text, known), known)))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
         lines = _written_out(_meanings(rows, set(own)), known)
-        program = Program((*_rates(lines, known), *lines), text, span=(0, len(text)))
+        program = Program((*_rates(lines, known), *lines), text, units, span=(0, len(text)))
     except StatementError as error:
         raise error.within(text) from None
     except RecursionError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
 
@@ -54,6 +55,8 @@ def _plain(node: Node, least: int) -> str:
             return _times(factors)
         case Quotient(top=top, bottom=bottom):
             return f"{_plain(top, _PRODUCT)}/{_plain(bottom, _FACTOR)}"
+        case Pow(base=base, exponent=Fraction() as exponent):
+            return f"{_plain(base, _ATOM)}^({exponent})"
         case Pow(base=base, exponent=exponent):
             return f"{_plain(base, _ATOM)}^{_plain(exponent, _ATOM)}"
         case Fn(name=function, args=arguments):

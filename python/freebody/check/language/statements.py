@@ -59,10 +59,11 @@ class Assignment(Node):
 
 @dataclass(frozen=True)
 class Program(Node):
-    """All lines of a statement, in order, and its text."""
+    """All lines of a statement, in order, and its text; ``units``: read so that units behind numbers go before symbols."""
 
     lines: tuple[Assignment | Equation, ...]
     text: str = field(default="", compare=False)
+    units: bool = field(default=False, compare=False)
 
     @property
     def assignments(self) -> tuple[Assignment, ...]:

@@ -209,11 +209,18 @@ class _Reader:
             if (stop < end and self.row[stop].kind in (Kind.LOW, Kind.PRIME)) or self.row[stop - 1].text == "":
                 continue
             spelling = self.spelling(start, stop)
-            if known := self.names.find(spelling):
-                out.append(_Piece("letter", known[0], known[1] + self.marks(start, stop), stop))
-            elif spelling in CALLS and not self.marks(start, stop) and self.row[start].kind is Kind.WORD:
+            known, marks = self.names.find(spelling), self.marks(start, stop)
+            calls = spelling in CALLS and not marks and self.row[start].kind is Kind.WORD
+            if calls and (not known or self.is_argument(stop)):
                 out.append(_Piece("function", CALLS[spelling], 0, stop))
+            elif known:
+                out.append(_Piece("letter", known[0], known[1] + marks, stop))
         return out
+
+    def is_argument(self, at: int) -> bool:
+        """Whether what stands here may be what a function before it is of."""
+        after = next(glyph for glyph in self.row[at:] if glyph.kind is not Kind.SPACE)
+        return after.kind in (Kind.WORD, Kind.DIGIT) or after.text in ("(", "[", "{", "sqrt", "frac")
 
     def matches(self, start: int, name: str) -> int | None:
         """The glyph behind a name with signs in it, where it stands here."""

@@ -19,6 +19,7 @@ from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import Script, typed, word
 from freebody.symbolic.presentation import presented
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Sym, Tree, add, is_negative, is_zero, negative, power, read, symbols
 
 _ABSENT = 1e-9
@@ -76,10 +77,37 @@ def total(subject: SymbolicState) -> Tree | None:
 
 @dataclass(frozen=True)
 class Momentum:
-    """A constant ``momentum`` of some bodies, ``found`` in numbers; the balance says that its rate is 0."""
+    """A constant ``momentum`` of some bodies, ``found`` in numbers, with the ``place`` about which it is or the unit vector along which;
+    the balance says that its rate is 0."""
 
     found: ConservedMomentum
     momentum: Tree
+    place: tuple[Tree, Tree]
+
+    def words(self, subject: SymbolicState) -> str:
+        """What it is: ``angular momentum of rod about ground.O``."""
+        found, of = self.found, ""
+        if not 1 < len(found.bodies) == len(subject.free.bodies):
+            of = f" of {' + '.join(found.bodies)}"
+        return f"{'angular ' * found.turns}momentum{of} {'about' if found.turns else 'along'} {self.where(subject)}"
+
+    def where(self, subject: SymbolicState) -> str:
+        """About what point, or along what."""
+        if len(self.found.bodies) == 1 and self.found.twist.question == {"about": "centre"}:
+            return "its mass centre"
+        return self.found.twist.name if self.found.turns else subject.line(self.found.twist.name)
+
+    def letter(self, subject: SymbolicState) -> Written:
+        """``L_x``, ``H/ground.O``, about the mass centre of the whole ``H/G``; plain for a part of the whole, or another direction."""
+        question = self.found.twist.question or {}
+        about, along = question.get("about"), question.get("along")
+        whole = len(self.found.bodies) == len(subject.free.bodies)
+        point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
+        if whole and point and not isinstance(along, str):
+            return Written(f"H/{point}", (Script(typed("H"), typed("/", word(point))),))
+        if whole and isinstance(along, str):
+            return Written.of(subject.symbols.quantity(f"L_{along}", f"momentum along {along}"))
+        return Written.of(subject.symbols.taken.give(f"the {self.words(subject)}", Name("H" if self.found.turns else "L")))
 
 
 def momenta(subject: SymbolicState) -> list[Momentum]:
@@ -90,7 +118,7 @@ def momenta(subject: SymbolicState) -> list[Momentum]:
         questions = [{"ask": "equation", "bodies": list(each.bodies), **(each.twist.question or {})} for each in asked]
         stated |= {id(each): balance for each, balance in zip(asked, subject.balances(questions), strict=True)}
         may_be = [each for each in may_be if id(each) not in stated or _holds(subject, each, stated[id(each)])]
-    return [Momentum(each, _written(subject, stated[id(each)])) for each in independent(may_be)]
+    return [_written(subject, each, stated[id(each)]) for each in independent(may_be)]
 
 
 def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> bool:
@@ -105,41 +133,25 @@ def _conserved_momenta(subject: SymbolicState, in_letters: bool) -> list[Block]:
     made: list[Block] = []
     while_idle = f"As long as {clause(subject.idle, 'carries', 'carry')} no load, the" if subject.idle else "The"
     for each in momenta(subject):
-        found, of = each.found, ""
-        if not 1 < len(found.bodies) == len(subject.free.bodies):
-            of = f" of {' + '.join(found.bodies)}"
-        where = found.twist.name if found.turns else subject.line(found.twist.name)
-        if len(found.bodies) == 1 and found.twist.question == {"about": "centre"}:
-            where = "its mass centre"
-        what = f"angular momentum{of} about" if found.turns else f"momentum{of} along"
-        made.append(Paragraph(f"{while_idle} {what} {where} is conserved: {_reason(subject, found, where)}."))
+        reason = _reason(subject, each.found, each.where(subject))
+        made.append(Paragraph(f"{while_idle} {each.words(subject)} is conserved: {reason}."))
         if in_letters:
-            made.append(Equation(_letter(subject, found), each.momentum))
+            made.append(Equation(each.letter(subject), each.momentum))
     return made or [Paragraph(_NONE)]
 
 
-def _letter(subject: SymbolicState, found: ConservedMomentum) -> Written:
-    """``L_x``, ``H/ground.O``, about the mass centre of the whole ``H/G``; plain for a part of the whole, or another direction."""
-    question = found.twist.question or {}
-    about, along = question.get("about"), question.get("along")
-    whole = len(found.bodies) == len(subject.free.bodies)
-    point = "G" if about == "centre" else about.get("point") if isinstance(about, Mapping) else None
-    if whole and point and not isinstance(along, str):
-        return Written(f"H/{point}", (Script(typed("H"), typed("/", word(point))),))
-    usual = ("H", "angular momentum") if found.turns else ("L", "momentum")
-    name = subject.symbols.quantity(*((f"L_{along}", f"momentum along {along}") if whole and isinstance(along, str) else usual))
-    return Written.of(name)
-
-
-def _written(subject: SymbolicState, balance: Balance) -> Tree:
+def _written(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> Momentum:
     """The momentum; of a direction that is told by a load of another size than 1, over that size."""
     if balance.turns:
-        return balance.momentum
+        return Momentum(found, balance.momentum, balance.place.xy)
     x, y = balance.place.xy
     size = float(np.hypot(*(evaluate(tree, subject.values, subject.tables) for tree in (x, y))))
-    made = presented(balance.momentum)
-    made = made if abs(size - 1) < _ABSENT else quotient(made, power(add(power(x, 2), power(y, 2)), "1/2"))
-    return negative(made) if not isinstance(made, Add) and is_negative(made) else made
+    made, unit = presented(balance.momentum), abs(size - 1) < _ABSENT
+    length = power(add(power(x, 2), power(y, 2)), "1/2")
+    made, x, y = (each if unit else quotient(each, length) for each in (made, x, y))
+    if not isinstance(made, Add) and is_negative(made):
+        made, x, y = negative(made), negative(x), negative(y)
+    return Momentum(found, made, (x, y))
 
 
 def _reason(subject: SymbolicState, found: ConservedMomentum, where: str) -> str:

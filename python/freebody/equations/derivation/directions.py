@@ -7,13 +7,14 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain, count
 
 from freebody.document.blocks import Vector, Words, Written
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbolic_state import Arrow, Motion
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.symbols import Name, Taken, direction, subscript, unicode_name
+from freebody.symbolic.symbols import Name, Taken, direction, folded, subscript, unicode_name
 from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, mul, negative, number, symbols
 
 
@@ -114,9 +115,9 @@ class Directions:
             link, ahead = next(((link, k) for link, k in quarters if k is not None), (None, 0))
             named = [_word(body) for body in (*owners[angle], *turning[angle], *([link.name] if link else []))]
             named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
-            taken = {pair.below for pair in made}
-            taken |= {word for word in named if any(symbols.owner(Name(stem, (word,))) for stem in "λn")}
-            below = next((word for word in named if word not in taken), str(len(made) + 1))
+            taken = {folded(pair.below) for pair in made}
+            free = (word for word in chain(named, map(str, count(len(made) + 1))) if folded(word) not in taken)
+            below = next(word for word in free if not any(symbols.owner(Name(stem, (word,))) for stem in "λn"))
             made.append(Direction(below, angle, owners[angle], turning[angle], link, ahead))
         return cls(tuple(made), frozenset(moving), axes(symbols))
 
