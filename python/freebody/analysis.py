@@ -59,7 +59,7 @@ class Moving:
 
         state, notes = self.start(initial, t, **changes)
         with self.core_errors():
-            return state_of(self, state, at, before, after), notes
+            return state_of(self, state, self.source(), at, before, after), notes
 
     def solve(
         self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
@@ -166,7 +166,7 @@ class Moving:
 
         state, notes = self.start(initial, t, **changes)
         with self.core_errors():
-            return opening(self, state, notes)
+            return opening(self, state, self.source(notes))
 
     def simulate(
         self: Builder,
@@ -208,14 +208,18 @@ class Moving:
             hint = "look for a load that nothing carries, or leave `equilibrium` out"
             raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {stated}", hint)
 
-    def check(self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None) -> Verdict:
-        """Whether an equation, lines of them or a claim is true of every motion; see ``freebody.check.Checker``.
+    def check(
+        self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None, **asked: Any
+    ) -> Verdict:
+        """Whether an equation, lines of them or a claim is true of every motion in which all is in place and holds as at a moment, by
+        default the start, after the events there; see ``freebody.check.Checker``.
 
-        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``. Raises ``StatementError`` and ``ModelProblem``.
+        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``; ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t``
+        and changes, as in ``solve``. Raises ``StatementError``, ``ModelProblem``, and ``ValueError`` for a moment that there is not.
         """
-        from freebody.check import check
+        from freebody.check import Checker
 
-        return check(self, text, letters)
+        return Checker(self, letters, **asked).check(text)
 
     @contextmanager
     def core_errors(self: Builder) -> Iterator[None]:

@@ -121,7 +121,8 @@ MODELS = [
     (PUSHED, "N_floor₁ + N_floor₂ = m g", T),
     (PUSHED, "(N_floor₁ - N_floor₂) b = mu N h", T),  # moments about the centre: the right corner, ahead, carries more
     (PUSHED, "(N_floor₁ - N_floor₂) b = 2 mu N h", W),
-    (PUSHED, "F >= mu N", T),  # else it would not slide
+    (PUSHED, "F >= mu N", W),  # it may also slide on, ever slower
+    (PUSHED, "if the start is at rest: F >= mu N", T),  # else it would not slide
     (DROPPED, "if the start is at rest: ball.y'^2 = 2 g (h - ball.y)", T),  # up to the impact
     (DRAG, "m x'' = -c v x'; m y'' = -m g - c v y'", T),
     (DRAG, "d/dt(1/2 m (x'^2 + y'^2) + m g y) = -c v^3", T),

@@ -1,6 +1,6 @@
 """Is my equation right? Statements of a person against the mechanics of a model."""
 
-from .api import Checker, check
+from .api import Checker
 from .verdict import Correction, Evidence, Kind, Verdict
 
-__all__ = ["Checker", "Correction", "Evidence", "Kind", "Verdict", "check"]
+__all__ = ["Checker", "Correction", "Evidence", "Kind", "Verdict"]

@@ -32,13 +32,14 @@ Declared = Mapping[str, str | Sequence[str | float]]
 class Checker:
     """Checks many statements about one model; its true motions are made once.
 
-    ``letters`` are own symbols for all of them. ``seed`` makes the random motions reproducible.
+    ``letters`` are own symbols for all of them. ``seed`` makes the random motions reproducible. ``asked`` tells the moment of which the
+    model is spoken, ``at``, ``before`` or ``after``, and the start, ``initial``, ``t`` and changes, as in ``Mechanism.solve``.
     """
 
-    def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0) -> None:
+    def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0, **asked: Any) -> None:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
-        self.sampler, self.printed = MotionSampler(mechanism, seed), PrintedSymbols(mechanism)
+        self.sampler, self.printed = MotionSampler(mechanism, seed, **asked), PrintedSymbols(mechanism, **asked)
         self.hypothesis = ALL
         self.correcting = True
         self._runs: list[Any] = []  # the model's own, once it is asked for
@@ -71,7 +72,8 @@ class Checker:
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         try:
-            return claimed(checker, text, letters or {}) or _stated(checker, text, letters)
+            verdict = claimed(checker, text, letters or {}) or _stated(checker, text, letters)
+            return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except (ModelProblem, ModelError, MotionError) as error:
             what, hint = error.args[-2:]
         except ModelFileError as error:  # a number of a parameter that is none
@@ -117,8 +119,3 @@ def _in_figures(case: Case) -> Verdict | None:
         return None
     verdict = judged(replace(case, correcting=False))
     return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None
-
-
-def check(mechanism: Builder, text: str, letters: Declared | None = None) -> Verdict:
-    """Whether a statement is true of every motion of a model; see ``Checker``."""
-    return Checker(mechanism, letters).check(text)

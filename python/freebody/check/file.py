@@ -144,6 +144,7 @@ def as_json(verdict: Verdict) -> dict[str, Any]:
         "statement": verdict.text,
         "verdict": verdict.kind.value,
         "reason": verdict.reason,
+        "moment": verdict.moment,
         "assumption": verdict.assumption,
         "mends": [
             {

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, ModelError, MotionError, State, Trajectory, quote
+from freebody.core import Array, CompiledModel, FreeBodies, ModelError, MotionError, State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.model.start import Start, evaluate, initial_state
+from freebody.run.moments import START, Unreached, state_of
+from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE, Dimension
 
 from .families import ALL, Family, NoMotion, Samples
@@ -41,24 +43,34 @@ _STEP = 1e-6  # of central differences, relative to the size of a coordinate
 _EXACT = 1e-13  # tolerance of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
+_ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
-_PLACES = 12  # steps of Newton's method to one
-_TOUCHES = 1e-12  # gap that is closed, relative to the size of the model
 _STEPS = 2000  # of a run, which is short
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
-_SLOW = 1e-9  # of the usual rate: a joint with friction that slides no faster stands
 _RATES = (1e-3, 1e3)  # 1/s, within which the usual rate of a model is looked for
-_ONE_OF_SEVERAL = re.compile(r"\.N\d+$")  # the force at one place of a contact that holds at several
 
 
 class MotionSampler:
-    """The true motions of a model. Families of samples are made once and kept. Where contacts, strings, stops or friction decide
-    what moves, samples lie on short runs from the model's start."""
+    """The true motions of a model, as it is at a moment: by default the start, after the events there. Families of samples are made
+    once and kept. Where contacts, strings, stops, friction or events decide what moves, and at a later moment, samples lie near the
+    state of the moment, and what is in place and holds is the same there.
 
-    def __init__(self, mechanism: Builder, seed: int = 0) -> None:
+    ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t`` and changes, as in ``Mechanism.solve``."""
+
+    def __init__(self, mechanism: Builder, seed: int = 0, **asked: Any) -> None:
         lowered = mechanism.lowered()
-        self.start: Start = lowered.start
+        self.mechanism, self.start, initial = mechanism, lowered.start, asked.pop("initial", None)
+        if initial is not None:
+            self.start = Start(coordinates=self.start.coordinates, parameters=self.start.parameters)
+        self.begins = asked.pop("t", 0.0)
+        self.moment = {word: asked.pop(word) for word in ("at", "before", "after") if asked.get(word) is not None}
+        self.changes = {**(initial or {}), **{name: value for name, value in asked.items() if value is not None}}
         self.spec: dict[str, Any] = {**lowered.spec, "parameters": list(lowered.spec["parameters"])}
+        opening = [event["name"] for event in self.spec["events"] if event.get("opening")]
+        self.stated = ""  # of which moment the model is spoken, where it is none that a motion comes to
+        if opening and self.moment.get("before") in (START, *opening):
+            self.stated, self.moment = f"before {' and '.join(opening)}", {}
+            self.spec["events"] = []
         self.gravity = self._parametrised_gravity()
         self.core = CompiledModel.of(self.spec)
         self.metadata = self.core.metadata
@@ -67,7 +79,8 @@ class MotionSampler:
         text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
         numbers = {p["name"]: p["value"] for p in self.spec["parameters"] if isinstance(p["value"], int | float)}
         counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
-        self.free_parameters = {name: float(value) for name, value in numbers.items() if name not in counts}
+        changed = {name: evaluate(value, {}) for name, value in self.changes.items() if name in self.start.parameters}
+        self.free_parameters = {name: float(value) for name, value in (numbers | changed).items() if name not in counts}
         """Parameters that are plain numbers in the model, with those; the others follow from them, or count items."""
         self.seed = seed
         self._families: dict[tuple[Family, int], Samples] = {}
@@ -93,7 +106,7 @@ class MotionSampler:
             self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh))
         if not self._families[key].states:
             try:
-                _ = self.first
+                _ = self.own
             except MotionError as error:
                 raise NoMotion(f"the model does not start: {error.what}") from None
             there = "".join(f"has `{_stated(text)}` and " for text in family.vanishing)
@@ -115,7 +128,7 @@ class MotionSampler:
             if i == _PATIENCE and not found:
                 return []
             for _ in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
-                with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError):
+                with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
                     if (made := self._made(rng, self._parameters(rng, family), family)) is not None:
                         found.append(made)
                         break
@@ -125,7 +138,7 @@ class MotionSampler:
         if family.since and not family.at_start:
             found = self._since_start(rng, values, family)
         elif self.restricted:
-            found = self._on_a_run(rng, values, family)
+            found = self._near_moment(rng, values, family)
         else:
             found = self._started(values) if family.at_start else self._anywhere(rng, values, family)
         return found if found and all(self._vanishes(text, found, family) for text in family.vanishing) else None
@@ -233,122 +246,68 @@ class MotionSampler:
             q = q - slope * left / (slope @ slope)
         return moved(q, u)
 
-    # -- on runs, where contacts, strings, stops or friction decide what moves
+    # -- near a moment, where contacts, strings, stops, friction or events decide what moves
 
     @cached_property
     def own(self) -> State:
-        """The state of the model at its start, after the events there."""
-        return self._run(self.first, 1e-6 / self.rate).state(self.first.t) if self.restricted else self.first
+        """The state of the model at its moment. Raises ``ValueError`` where there is none."""
+        found = self._at_moment({})
+        return replace(found, moment=self.stated or found.moment)
+
+    def _at_moment(self, values: Mapping[str, float], rates: Mapping[str, float] | None = None) -> State:
+        """The state at the moment of the motion with other parameters, from the start with ``rates`` or those there."""
+        state = self._started(values)
+        if rates is not None:
+            state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
+        found = state_of(self.mechanism, state, self.core, **self.moment) if not self.stated else state
+        is_new = found.history is None and self.restricted  # what holds there shows as it begins to move
+        return replace(self._run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
 
     @cached_property
     def restricted(self) -> bool:
-        """Whether limits, joint friction or events at the start decide what moves, so that states must lie on runs."""
-        if any(event.get("opening") for event in self.spec.get("events", [])) or self._sticky:
+        """Whether limits, joint friction, events at the start or the moment decide what moves, so that states lie near that."""
+        events, joints = self.spec.get("events", []), self.spec["joints"]
+        if self.moment or any(event.get("opening") for event in events) or any(joint.get("friction") for joint in joints):
             return True
         return not all(limit.is_open for limit in self.core.instant(self.first).limits.values())
-
-    @cached_property
-    def _sticky(self) -> list[str]:
-        """The rates at which joints with friction slide."""
-        first = {j["name"]: j["coordinates"] for j in self.metadata["joints"]}
-        rough = [first.get(j["name"]) for j in self.spec["joints"] if j.get("friction")]
-        return [f"rate({quote(own[0])})" for own in rough if own]
 
     def _run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
 
-    def _on_a_run(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        """A state on a run from the model's start with random numbers and admissible rates, as long as nothing switches."""
-        state = self._started(values)
+    def _near_moment(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
+        """A state of the same mode a little after one at the moment, with random numbers, and mostly at a random place with random
+        rates, at which what is closed stays so; as long as nothing switches."""
         late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
-        if family.at_rest:
-            state = replace(state, u=np.zeros_like(state.u))
-        # A straight string without a length is as long as the start's place makes it, which its equations say in figures.
-        as_long = any(string["length"] is None and not string["over"] for string in self.spec["strings"])
-        if not (family.at_start or family.vanishing or state.u.any() or self._lies or as_long):
-            state = self._placed(rng, state)
-        if rng.random() < 0.7 and not (family.at_rest or family.at_start or self._lies):
-            state = self._moving(rng, state)
+        if family.at_start:
+            state = self._at_moment(values)
+        else:
+            own, p, random = self.own, self.core.bind(values), rng.random() < _ELSEWHERE
+            q = own.q + _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * (random and not family.vanishing)
+            rates, there = self._rates(rng, family), self._named(own.u)
+            rates = rates if random or family.at_rest else {name: there[name] for name in rates}
+            state, _ = self.core.assemble(p, own.t, guess=self._named(q), rates=rates, history=own.history)
+        if "before" in self.moment:
+            return self._sampled(state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
-        return self._sampled(motion, min(late, 0.9 * motion.end.t))
+        return self._sampled(motion.state(state.t + min(late, 0.9 * (motion.end.t - state.t))))
 
     def _since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        """A state on a run from the model's own start with random numbers, with the rates there or at rest, before
-        anything switches."""
-        state = self._started(values)
-        if family.since == "rest":
-            rates = self._rates(rng, replace(family, at_rest=True))
-            state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
+        """A state on a run from the model's own start with random numbers, with the rates there or at rest, from the moment on and
+        before anything switches."""
+        state = self._at_moment(values, self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None)
         motion = self._run(state, rng.uniform(0.05, 0.3) / self.rate, _EXACT)
         ends = [motion.end.t, *(change.t for change in motion.changes if change.t > state.t)]
-        return self._sampled(motion, state.t + 0.99 * (min(ends) - state.t))
+        return self._sampled(motion.state(state.t + 0.99 * (min(ends) - state.t)))
 
-    def _sampled(self, motion: Trajectory, t: float) -> State | None:
-        """The state of a run at a time, if all holds there as at the model's start, and it may judge."""
-        found = motion.state(t)
-        same = not self.restricted or _same(self._mode(found), self._own_mode)
+    def _sampled(self, found: State) -> State | None:
+        """A state, if all holds there as at the model's moment, and it may judge."""
+        same = not self.restricted or same_mode(self.core.free_bodies(found), self._loads)
         return found if same and self.core.instant(found).residual < _BALANCED else None
 
-    def _placed(self, rng: np.random.Generator, state: State) -> State:
-        """A random place near the start, at rest, where what is closed there is closed: bodies of other sizes touch elsewhere."""
-        q = state.q + _APART * self.sizes * rng.uniform(-1, 1, len(self.names))
-        closed = [i for i, held in enumerate(self._own_mode[: len(self.metadata["limits"])]) if held[0] not in ("open", "slack")]
-        for _ in range(_PLACES):
-            found, _ = self.core.assemble(state.p, state.t, guess=self._named(q))
-            gaps = self._gaps(found, found.q)[closed]
-            if not np.isfinite(gaps).all():
-                break
-            if np.max(np.abs(gaps), initial=0.0) < _TOUCHES * self.length:
-                return found if not found.u.any() else state
-            q = found.q - np.linalg.pinv(self._gap_slopes(found)[closed] * self.sizes) @ gaps * self.sizes
-        return state
-
-    def _moving(self, rng: np.random.Generator, state: State) -> State:
-        """Random rates that keep closed what is closed."""
-        found, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=self._rates(rng, ALL))
-        if not np.allclose(found.q, state.q, atol=1e-9 * self.length):
-            return state
-        closed = [i for i, limit in enumerate(self.core.instant(state.at(state.q)).limits.values()) if not limit.is_open]
-        u, rows = found.u - state.u, self._gap_slopes(state)[closed]
-        seen = np.linalg.pinv(rows) @ (rows @ u) if rows.size else 0.0
-        return replace(state, u=found.u - seen)
-
-    def _gaps(self, state: State, q: Array) -> Array:
-        """How far every limit is from closing, less than 0 where it is violated, NaN where it has no gap."""
-        return np.array([limit.gap for limit in self._untouched.instant(replace(state.at(q), history=None)).limits.values()])
-
-    def _gap_slopes(self, state: State) -> Array:
-        """Gradients of the gaps of all limits, a row each."""
-        return _slopes(lambda q: self._gaps(state, q), state.q, _STEP * self.sizes)
-
     @cached_property
-    def _untouched(self) -> CompiledModel:
-        """The model with nothing that its limits do."""
-        off = {kind: [{**limit, "engaged": False} for limit in self.spec[kind]] for kind in ("contacts", "strings", "stops")}
-        return CompiledModel.of({**self.spec, **off})
-
-    @cached_property
-    def _own_mode(self) -> tuple[Any, ...]:
-        return self._mode(self._run(self.first, 1e-3 / self.rate).end)
-
-    def _mode(self, state: State) -> tuple[Any, ...]:
-        """How every limit is held and to which side it slides, the sense of friction in every joint, at how many places contacts hold."""
-        limits = tuple(
-            (x.state, np.sign(round(np.nan_to_num(x.T), 12)) if x.state == "sliding" else 0)
-            for x in self.core.instant(state).limits.values()
-        )
-        sliding = self.core.evaluate(self._sticky, state)
-        slow = _SLOW * self.rate * min(self.length, 1.0)
-        return (*limits, *np.sign(np.where(np.abs(sliding) > slow, sliding, 0.0)), self._places(state) if self._lies else 0)
-
-    @cached_property
-    def _lies(self) -> bool:
-        """Whether a contact holds at several places, so that a turn would lift one: then random places and rates would end it."""
-        return self._places(self.first) > 0
-
-    def _places(self, state: State) -> int:
-        """At how many places contacts hold that hold at several."""
-        return sum(bool(_ONE_OF_SEVERAL.search(load.symbol)) for load in self.core.free_bodies(state).loads)
+    def _loads(self) -> FreeBodies:
+        """All loads at the moment."""
+        return self.core.free_bodies(self.own)
 
     # -- what the model says of itself before anything of it moves
 
@@ -363,8 +322,8 @@ class MotionSampler:
 
     def _started(self, parameters: Mapping[str, float]) -> State:
         """The start with other parameters. Raises ``MotionError`` and ``ModelProblem``."""
-        words = initial_state(self.start, self.core, parameters)
-        return self.core.assemble(words.pop("p"), 0.0, **words)[0]
+        words = initial_state(self.start, self.core, self.changes | parameters)
+        return self.core.assemble(words.pop("p"), self.begins, **words)[0]
 
     @cached_property
     def frictions(self) -> list[str]:
@@ -410,9 +369,10 @@ class MotionSampler:
 
     @cached_property
     def freedom(self) -> int:
-        """Rates that can be given at will."""
-        given = sum(motion["engaged"] and motion["level"] != "acceleration" for motion in self.spec["motions"])
-        return max(self.core.instant(self.first).rank.freedom - given, 0)
+        """Rates that can be given at will: as many as coordinates less what closes loops, touches, is locked or driven."""
+        free = [motion["name"] for motion in self.spec["motions"] if motion["level"] == "acceleration"]
+        rows = [[row.coefficients[name] for name in self.names] for row in self._loads.rows if row.name not in free]
+        return len(self.names) - len(independent(np.array(rows).reshape(len(rows), len(self.names))))
 
     @cached_property
     def loops(self) -> int:

@@ -26,16 +26,16 @@ _ONE_OF_SEVERAL = re.compile(r"\.[NT]\d+$")
 
 
 class PrintedSymbols:
-    """What printed equations of a model, as it is at a moment, call things; nothing where it does not start."""
+    """What printed equations of a model, as it is at the moment ``asked`` for, call things; nothing where it does not start."""
 
-    def __init__(self, mechanism: Builder, **moment: Any) -> None:
-        self.mechanism, self.moment = mechanism, moment
+    def __init__(self, mechanism: Builder, **asked: Any) -> None:
+        self.mechanism, self.asked = mechanism, asked
 
     @cached_property
     def _derived(self) -> SymbolicState | None:
         try:
-            return SymbolicState(self.mechanism.source(), self.mechanism.moment(**self.moment)[0])
-        except (MotionError, ModelProblem):
+            return SymbolicState(self.mechanism.source(), self.mechanism.moment(**self.asked)[0])
+        except (MotionError, ModelProblem, ValueError):
             return None
 
     @cached_property

@@ -94,6 +94,8 @@ class Verdict(PlainText):
     true: str = ""
     notes: tuple[str, ...] = ()
     """What the statement calls by a name that means something else in this model."""
+    moment: str = ""
+    """Of which moment it is, where a model has several: ``after cut``, ``t = 2 s``."""
 
     @property
     def ok(self) -> bool:
@@ -111,7 +113,7 @@ class Verdict(PlainText):
             lines.append(str(self.evidence))
         if self.untested:
             lines.append(f"nothing was established about {', '.join(f'`{term}`' for term in self.untested)}")
-        return [*lines, *self.notes]
+        return [*lines, *self.notes, *([f"of the model {self.moment}"] if self.moment else [])]
 
     def __str__(self) -> str:
         return "\n  ".join([self.kind.value, *self.details])

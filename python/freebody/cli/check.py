@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from freebody.cli.models import opened
-from freebody.cli.options import AsJson, Changes
+from freebody.cli.models import moment, opened
+from freebody.cli.options import After, AsJson, At, Before, Changes
 from freebody.cli.terminal import print_json
-from freebody.cli.user_errors import NOT_TRUE
+from freebody.cli.user_errors import NOT_TRUE, UserError
 
 if TYPE_CHECKING:
     from freebody.check import Verdict
@@ -25,17 +25,22 @@ def check(
         list[str] | None,
         typer.Option("--where", metavar="LETTER=MEANING", help="A symbol of your own, like 'phi=theta-alpha'; repeatable."),
     ] = None,
+    at: At = None,
+    before: Before = None,
+    after: After = None,
     changes: Changes = None,
     as_json: AsJson = False,
 ) -> None:
-    """Say whether equations and claims are true of every motion of a model, and correct the wrong ones."""
+    """Say whether equations and claims are true of every motion of a model, as it is at a moment, and correct the wrong ones."""
     from freebody.check import Checker
     from freebody.check import file as stated
     from freebody.check.symbols import declarations
 
-    found, fine = [], True
+    found, fine, asked = [], True, moment(at, before, after)
+    if asked and not statements:
+        raise UserError("a file of statements is of the start", "give equations: freebody check MODEL EQUATION --after EVENT")
     if statements:
-        checker, alone = Checker(opened(model, changes), declarations(where or [])), len(statements) == 1
+        checker, alone = Checker(opened(model, changes), declarations(where or []), **asked), len(statements) == 1
         for text in statements:
             verdict = checker.check(text) if alone else stated.judged_alone(checker, text)
             found.append(stated.as_json(verdict))

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import State
+from freebody.core import CompiledModel, State
 from freebody.model.start import evaluate
 from freebody.run.simulation import Run, simulate
 
@@ -21,41 +20,53 @@ _MOMENT = 1e-6
 """Length of a motion in which nothing but the events at its start happens, s."""
 
 
+class Unreached(ValueError):
+    """A moment to which a motion does not come."""
+
+
 def _at_start(mechanism: Builder) -> list[str]:
     """The events at the start of a motion, by name."""
     return [event["name"] for event in mechanism.lowered().spec["events"] if event.get("opening")]
 
 
-def opening(mechanism: Builder, start: State, notes: Sequence[str] = ()) -> Run | None:
+def opening(mechanism: Builder, start: State, source: CompiledModel) -> Run | None:
     """A moment of the motion from a state, at whose start the events there have happened; None where the model has no such event.
-    Raises ``ValueError`` where they let nothing move on."""
+    Raises ``Unreached`` where they let nothing move on."""
     if not _at_start(mechanism):
         return None
-    run = simulate(mechanism.source(notes), start, mechanism.run_plan(start.t + _MOMENT, {"step": _MOMENT}))
+    run = simulate(source, start, mechanism.run_plan(start.t + _MOMENT, {"step": _MOMENT}))
     if run.outcome.t == start.t:
-        raise ValueError(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
+        raise Unreached(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
     return run
 
 
-def state_of(mechanism: Builder, start: State, at: float | str | None, before: str | None, after: str | None) -> State:
+def state_of(
+    mechanism: Builder,
+    start: State,
+    source: CompiledModel,
+    at: float | str | None = None,
+    before: str | None = None,
+    after: str | None = None,
+) -> State:
     """The state of the motion from ``start`` at a time, after what happens then, or just before or after the first event or mode
-    change of a name; without any the start, after the events there. Raises ``ValueError`` for what the motion does not reach."""
+    change of a name; without any the start, after the events there. ``source`` is the mechanism compiled. Raises ``Unreached`` for
+    what the motion does not reach."""
     if sum(each is not None for each in (at, before, after)) > 1:
         raise ValueError("at, before and after are one moment: give one of them")
     t, named = start.t if at is None else evaluate(at, {}), before or after
     if t < start.t:
-        raise ValueError(f"the motion begins at {start.t:g} s: there is nothing at {t:g} s")
+        raise Unreached(f"the motion begins at {start.t:g} s: there is nothing at {t:g} s")
     happen = _at_start(mechanism)
     if happen and (before == START or before in happen):
         return replace(start, moment=f"before {' and '.join(happen)}")
     if t == start.t and (named in (None, START) or named in happen):
-        run = opening(mechanism, start)
+        run = opening(mechanism, start, source)
         return replace(run.motion.state(t), moment=f"after {' and '.join(happen)}") if run else start
-    run = simulate(mechanism.source(), start, mechanism.run_plan(None if named else t, {}))
+    run = simulate(source, start, mechanism.run_plan(None if named else t, {}))
     if named:
         t = time_of(run, named)
     elif run.outcome.t < t:
-        raise ValueError(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
+        raise Unreached(f"the motion ends at {run.outcome.t:g} s, before {t:g} s: {run.outcome.sentence}")
     stated = f"{'before' if before else 'after'} {named}, t = {t:g} s" if named else f"t = {t:g} s"
     if before and t == start.t:
         return replace(start, moment=stated)
@@ -63,9 +74,9 @@ def state_of(mechanism: Builder, start: State, at: float | str | None, before: s
 
 
 def time_of(run: Run, name: str) -> float:
-    """When an event, or a mode change of a part, of this name comes first, s. Raises ``ValueError`` where it does not come."""
+    """When an event, or a mode change of a part, of this name comes first, s. Raises ``Unreached`` where it does not come."""
     happened = [(event.t, event.name) for event in run.events] + [(change.t, part) for change in run.changes for part in change.of]
     if times := [t for t, what in happened if what == name]:
         return min(times)
     known = ", ".join(dict.fromkeys(what for _, what in sorted(happened))) or "nothing does"
-    raise ValueError(f"{name!r} does not happen until {run.outcome.t:g} s; what happens: {known}")
+    raise Unreached(f"{name!r} does not happen until {run.outcome.t:g} s; what happens: {known}")

@@ -82,7 +82,7 @@ def others(source: CompiledModel, state: State) -> list[State]:
             except MotionError:
                 continue
             held = np.abs(closing.rows(free) @ other.u).max(initial=0.0) < CLOSED_RATE * np.abs(scale).max(initial=1.0)
-            if held and alike(free, first) and _senses(free) == _senses(first) and np.isfinite(_places(free)).all():
+            if held and same_mode(free, first) and np.isfinite(_places(free)).all():
                 found.append(other)
     return found
 
@@ -91,6 +91,11 @@ def alike(one: FreeBodies, other: FreeBodies) -> bool:
     """Whether the same things act, and hold, in both."""
     (first, second) = ([(load.symbol, load.unknown, load.follows is None) for load in free.loads] for free in (one, other))
     return first == second and [row.name for row in one.rows] == [row.name for row in other.rows]
+
+
+def same_mode(one: FreeBodies, other: FreeBodies) -> bool:
+    """Whether the same things act and hold in both, slide in the same sense and bear on the same flank."""
+    return alike(one, other) and _senses(one) == _senses(other)
 
 
 def _senses(free: FreeBodies) -> list[bool]:

@@ -1,0 +1,79 @@
+"""Of which moment a statement is: what is cut, locked or engaged in the course of a motion stands in its equations from then on."""
+
+from __future__ import annotations
+
+import pytest
+
+from freebody.check import Checker, Kind
+from freebody.model import Mechanism
+
+T, W = Kind.TRUE, Kind.WRONG
+BAR = """
+parameters: {L: 1.2 m, m: 5 kg, h: 0.8 m}
+ground: {points: {C: [0, 0], D: [L, 0]}}
+bodies: {bar: {shape: rod, length: L, mass: m}}
+strings: {AC: {ends: [ground.C, bar.start]}, BD: {ends: [ground.D, bar.end]}}
+initial: {points: {bar.start: [0, -h], bar.end: [L, -h]}, at_rest: true}
+events: {cutting: {at: start, then: {cut: BD}}}
+"""
+ROD = """
+parameters: {l: 0.7 m, m: 2 kg, M: 1.5 kg}
+bodies: {rod: {shape: rod, length: l, mass: m}, bead: {shape: particle, mass: M}}
+joints:
+  O: {type: hinge, of: [ground.O, rod.start], coordinate: theta}
+  along: {type: slot, along: [rod.start, rod.end], point: bead.centre, coordinate: r}
+initial: {theta: -1.2, r: 0.3 m}
+events: {hold: {at: start, then: {lock: r}}, drop: {at: 0.2 s, then: {unlock: r}}}
+"""
+SPRING = """
+parameters: {k: 40 N/m, m: 2 kg, c: 0.3 m}
+bodies: {cart: {shape: particle, mass: m}}
+joints: {rail: {type: slot, along: {through: ground.O, angle: 0}, point: cart.centre, coordinate: x}}
+forces: {buffer: {type: spring, along: x - c, stiffness: k, engaged: false}}
+initial: {x: 0, rates: {x: 1}}
+events: {reached: {when: x - c, then: {engage: buffer}}}
+"""
+HELD = "(m l^2/3 + M r^2) θ'' = -(m l/2 + M r) g cos θ"
+FREE = "r'' = r θ'^2 - g sin θ"
+STATED = [
+    (BAR, "if at the start: AC.tension = m g/2", {"before": "cutting"}, T),
+    (BAR, "if at the start: AC.tension = m g/2", {"before": "start"}, T),
+    (BAR, "if at the start: AC.tension = m g/2", {"after": "cutting"}, W),
+    (BAR, "if at the start: AC.tension = m g/4", {"after": "cutting"}, T),
+    (BAR, "if at the start: AC.tension = m g/4", {}, T),
+    (BAR, "if at the start: BD.tension = AC.tension", {"before": "cutting"}, T),
+    (ROD, HELD, {}, T),
+    (ROD, HELD, {"before": "hold"}, W),
+    (ROD, HELD, {"before": "drop"}, T),
+    (ROD, HELD, {"after": "drop"}, W),
+    (ROD, FREE, {}, W),
+    (ROD, FREE, {"before": "hold"}, T),
+    (ROD, FREE, {"at": "0.1 s"}, W),
+    (ROD, FREE, {"at": 0.25}, T),
+    (SPRING, "m x'' = 0", {}, T),
+    (SPRING, "m x'' = 0", {"at": "0.2 s"}, T),
+    (SPRING, "m x'' = -k (x - c)", {"after": "reached"}, T),
+    (SPRING, "m x'' = k (x - c)", {"after": "reached"}, W),
+    (SPRING, "m x'' = -k (x - c)", {"before": "reached"}, W),
+    (SPRING, "m x'' = -k (x - c)", {"at": "0.5 s"}, T),
+    (SPRING, "m x'' = -k (x - c)", {"at": "0.5 s", "k": "900 N/m"}, T),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("model", "statement", "asked", "kind"), STATED)
+def test_a_statement_is_of_the_moment_that_is_asked_for(model: str, statement: str, asked: dict, kind: Kind) -> None:
+    mechanism = Mechanism.loads(f"freebody: 1\n{model}run: {{until: 1 s}}\n")
+    verdict = Checker(mechanism, **asked).check(statement, correcting=False)
+    assert verdict.kind is kind, str(verdict)
+    assert bool(verdict.moment) == (bool(asked) or model is not SPRING)
+    if kind is T:
+        assert mechanism.check(statement, **asked).ok
+
+
+@pytest.mark.parametrize("asked", [{"after": "nothing"}, {"at": -1}, {"at": 0.1, "before": "reached"}])
+def test_a_moment_that_there_is_not_is_refused(asked: dict) -> None:
+    mechanism = Mechanism.loads(f"freebody: 1\n{SPRING}run: {{until: 1 s}}\n")
+    with pytest.raises(ValueError):  # as in `solve`
+        mechanism.solve(**asked)
+    with pytest.raises(ValueError):
+        mechanism.check("m x'' = 0", **asked)
