@@ -97,8 +97,8 @@ def _momenta(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Momenta that stay constant, of parts of the whole or along any direction."""
     for each in momenta(derived):
         place, bodies = f"[{', '.join(_expression(x, {}) for x in each.place)}]", ", ".join(each.found.bodies)
-        meant = f"angular momentum of {bodies} about {place}, along k" if each.found.turns else f"momentum of {bodies} along {place}"
-        yield each.letter(derived).text, meant
+        of, where = ("angular momentum", f"about {place}, along k") if each.found.turns else ("momentum", f"along {place}")
+        yield each.letter(derived).text, f"{of} of {bodies} {where}"
 
 
 def _expression(tree: Tree, angles: Mapping[str, str]) -> str:
