@@ -20,7 +20,7 @@ pub fn cards() -> Value {
     let force = |card: Card| json!({"readings": units_of_force(&card), "card": card});
     let shapes = crate::shapes::SHAPES.iter().map(|(word, _, sizes)| json!({"type": word, "sizes": sizes}));
     let limit = |unit| units(LIMIT, unit);
-    let method = |m: &Method| {
+    let method = |m: &&Method| {
         json!({
             "name": m.name, "order": m.order, "fixed_step": m.estimate_order.is_none(), "symplectic": m.symplectic,
             "citation": m.citation,
@@ -33,7 +33,7 @@ pub fn cards() -> Value {
         "functions": FUNCTIONS,
         "readings": {"motion": units(MOTION, None), "contact": limit(Some("m")), "string": limit(Some("m")), "stop": limit(None)},
         "phrases": phrases(),
-        "methods": METHODS.map(method),
+        "methods": METHODS.iter().map(method).collect::<Vec<_>>(),
     })
 }
 

@@ -32,9 +32,9 @@ pub use run::{run, Options};
 pub use system::{After, Canonical, DynamicsError, EventSpec, Role, System};
 
 /// All methods; the first one is the default.
-pub const METHODS: [&Method; 5] = [&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
+pub const METHODS: &[&Method] = &[&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
 
 /// The method called `name`.
 pub fn method(name: &str) -> Option<&'static Method> {
-    METHODS.into_iter().find(|method| method.name == name)
+    METHODS.iter().copied().find(|method| method.name == name)
 }
