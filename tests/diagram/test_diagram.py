@@ -15,6 +15,7 @@ from freebody.views.diagram.names import letter
 from freebody.views.diagram.paper import round_below
 from freebody.views.diagram.rows import MARGIN
 from freebody.views.labels import Label, Obstacles, placed
+from freebody.views.scene import drawn
 
 GUN = "systems/S19.17/model.yaml"
 TRACK = r"N_{\text{track}}"
@@ -59,6 +60,28 @@ def test_a_spring_and_its_damper_have_letters():
     assert labels(second) == hook
     lines = [mark for mark in first.forces if mark.action.name == "spring"]
     assert np.hypot(*(lines[0].tail - lines[1].tail)) >= 6.0  # beside each other, though on one line
+
+
+ON_A_DOME = """
+freebody: 1
+ground: {curves: {dome: {x: "2*cos(s)", y: "WAY*2*sin(s)"}}}
+bodies: {wheel: {shape: disk, radius: 0.3, mass: 1}}
+joints: {touch: {type: cam, along: ground.dome, follower: {centre: wheel.G, radius: 0.3}, coordinates: [s, phi]}}
+initial: {s: WAY*90 deg, phi: 0}
+"""
+
+
+@pytest.mark.parametrize(("way", "side"), [("-1", 1), ("1", -1)])
+def test_a_follower_is_drawn_on_its_side_and_its_force_where_it_touches(way, side):
+    """On the left of its curve: outside of a dome that is gone over clockwise, below one that is gone over counter-clockwise. What is
+    hatched lies on the other side."""
+    [cut] = Mechanism.loads(ON_A_DOME.replace("WAY", way)).diagram().cuts
+    panel = cut.panels[0]
+    normal = next(mark for mark in cut.forces if mark.action.name == "touch")
+    assert normal.at == pytest.approx(panel.scenery.scale * np.array([0, 2]), abs=1e-6)
+    assert panel.scenery.centres["wheel"] == pytest.approx(panel.scenery.scale * np.array([0, 2 + side * 0.3]))
+    hatches = [stroke.points for stroke in drawn(panel.scenery.sketch).strokes() if stroke.style == "hatch"]
+    assert hatches and all(np.sign(np.hypot(*line[1]) - np.hypot(*line[0])) == -side for line in hatches)
 
 
 def test_a_group_has_neither_the_forces_within_nor_its_bodies_alone(gun):

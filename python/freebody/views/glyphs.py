@@ -116,14 +116,18 @@ def _slot(sketch: Sketch, name: str, fields: Fields) -> None:
 
 
 def _curve(sketch: Sketch, name: str, fields: Fields) -> None:
-    """The stretch of a curve that the motion runs along, and a little more at both ends, with the pin or follower on it."""
+    """The stretch of a curve that the motion runs along, and a little more at both ends, with the pin or follower on it; hatched on the
+    side away from a follower."""
     curve = next(c for c in sketch.spec["curves"] if c["name"] == fields["along"])
     if coordinates := next(j for j in sketch.metadata["joints"] if j["name"] == name)["coordinates"]:
         start, end = sketch.travel(coordinates[0])
         near = points_of_curve(sketch, curve, np.array([start, start + 1e-4]))
         margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
         points = points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
-        sketch.figures[curve["body"]].add(points, "rail", closed=False)
+        if "follower" in fields:
+            sketch.hatched(curve["body"], points)
+        else:
+            sketch.figures[curve["body"]].add(points, "rail", closed=False)
     if "follower" in fields:
         sketch.wheel(fields["follower"], "block")
     else:

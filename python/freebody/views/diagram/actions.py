@@ -109,10 +109,17 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
-    """Where a diagram shows a part: of a link at its own end, of a torque at the joint of its two bodies, else where it acts."""
-    if load.kind == "joint" and load.card.pulls:
+    """Where a diagram shows a part: of a link at its own end, of a follower where it touches its curve, of a torque at the joint of its
+    two bodies, else where it acts."""
+    if load.kind == "joint":
         joint = next(j for j in sketch.spec["joints"] if j["name"] == load.name)
-        return next(sketch.place(point) for point in joint["with"]["of"] if sketch.at[point][0] == part.body)
+        fields = joint["with"]
+        if load.card.pulls:
+            return next(sketch.place(point) for point in fields["of"] if sketch.at[point][0] == part.body)
+        if "follower" in fields:
+            centre, size = sketch.place(fields["follower"]["centre"]), np.hypot(*part.force)
+            away = np.array(part.force) / size if part.body == load.of[1] else -np.array(part.force) / size
+            return centre - sketch.number(fields["follower"]["radius"]) * away
     if load.kind in ("force", "motion", "lock") and not any(part.force):
         between = {j["name"] for j in sketch.metadata["joints"] if {j["first"], j["second"]} == set(load.of)}
         places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
