@@ -51,7 +51,7 @@ def main() -> None:
     linkage = freebody.load(HERE.parent / "examples" / "four_bar.yaml")
     run = linkage.simulate(until="1.074 s")
     with quiet():
-        # Letters stay text and names are fixed: a small file, the same each time.
+        # Symbols stay text and names are fixed: a small file, the same each time.
         matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "freebody"})
         figure = Figure(figsize=(9.6, 4.0), layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.45, 1))

@@ -15,7 +15,7 @@ from freebody.solve.perturbed_states import others
 
 NAMES = ("g", "t", "pi", "e", "i", "m", "N", "kg", "rad", "x", "T", "s", "l", "sin", "E_k", "alpha", "lambda", "λ", "θ", "m_rod",
          "I_rod", "upper arm", "b[1]", "d")  # fmt: skip
-"""Units, constants, functions, letters that are printed for other things, Greek ones, and names that must be quoted."""
+"""Units, constants, functions, symbols that are printed for other things, Greek ones, and names that must be quoted."""
 RESERVED = ("t", "pi")
 """Refused as names of coordinates and parameters."""
 RIGID = tuple(kind for kind, card in joints().items() if card.coordinates)

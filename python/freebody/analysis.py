@@ -214,7 +214,7 @@ class Moving:
         """Whether an equation, lines of them or a claim is true of every motion in which all is in place and holds as at a moment, by
         default the start, after the events there; see ``freebody.check.Checker``.
 
-        ``letters`` are own letters, like ``{"phi": "theta - alpha"}``; ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t``
+        ``letters`` are own symbols, like ``{"phi": "theta - alpha"}``; ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t``
         and changes, as in ``solve``. Raises ``StatementError``, ``ModelProblem``, and ``ValueError`` for a moment that there is not.
         """
         from freebody.check import Checker
@@ -249,7 +249,7 @@ class Moving:
         initial: Mapping[str, Any] | None = None,
         **changes: Any,
     ) -> Diagram:
-        """Free-body diagrams: symbolic, with letters in their positive sense, or ``to_scale``, with what acts.
+        """Free-body diagrams: symbolic, with symbols in their positive sense, or ``to_scale``, with what acts.
 
         ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
         by itself. Drawn is the moment that ``at``, ``before`` and ``after`` name, by default the start, with ``changes``, as in

@@ -13,8 +13,8 @@ import numpy as np
 from generated import GENERATED
 from independent import holds, says_the_same
 from mutants import mutant
-from other_letters import Other, others
-from rearranged import arranged, in_other_letters, rearranged
+from other_symbols import Other, others
+from rearranged import arranged, in_other_symbols, rearranged
 from textbook import BOOKS, Book
 
 from freebody.check import Checker, Kind
@@ -90,14 +90,14 @@ class Bench:
         return holds(equation, {n: known[n.key] for n in symbols_in(equation)})
 
     def same(self, one: Equation, other: Equation, rng: np.random.Generator) -> bool:
-        """Whether two say the same, by values of the model's own letters at places that are no true states."""
+        """Whether two say the same, by values of the model's own symbols at places that are no true states."""
         plain = [substitute(equation, self._own) for equation in (one, other)]
         found = dict.fromkeys(n for equation in plain for n in symbols_in(equation))
         return says_the_same(*plain, {n: rng.uniform(0.4, 1.6, _PLACES) for n in found})
 
     @cached_property
     def _own(self) -> dict[Sym, Node]:
-        return {letter: node for other in self.others for letter, node in other.own.items()}
+        return {symbol: node for other in self.others for symbol, node in other.own.items()}
 
     # -- what the check says
 
@@ -115,10 +115,10 @@ class Bench:
         return {other.name: other.said for other in self.others if other.name in names}
 
     def mutated(self, rng: np.random.Generator) -> Outcome | None:
-        """A correct equation with a slip, at times in another form and other letters; None where that is true as well."""
+        """A correct equation with a slip, at times in another form and other symbols; None where that is true as well."""
         before = self.equations[int(rng.integers(len(self.equations)))]
         if rng.random() < _ARRANGED:
-            before = in_other_letters(rng, arranged(rng, before, self.vocabulary), self.others)
+            before = in_other_symbols(rng, arranged(rng, before, self.vocabulary), self.others)
         case = self.checker.case(spell(before), self._said(before))
         (before,) = case.equations  # every part its own: a slip is made in one place
         made = mutant(rng, before, case.meaning.vocabulary)

@@ -38,8 +38,8 @@ def equations(mechanism: Mechanism, rng: np.random.Generator) -> list[str]:
 
 
 def numbers(mechanism: Mechanism) -> dict[str, str]:
-    """Letters that the core gives to masses and inertias that are plain numbers in the model, with these numbers."""
-    table = _ask(mechanism, []).letters
+    """Symbols that the core gives to masses and inertias that are plain numbers in the model, with these numbers."""
+    table = _ask(mechanism, []).symbols
     return {name: f"{e['value']!r} {e['unit']}" for name, e in table.items() if e["kind"] == "number" and name != "g"}
 
 
@@ -49,7 +49,7 @@ def _has_letters(line: str) -> bool:
 
 def _ask(mechanism: Mechanism, questions: list[dict[str, Any]]) -> SymbolicAnswers:
     state, _ = mechanism.start()
-    return mechanism.compile().letters(state, questions)
+    return mechanism.compile().symbolic_answers(state, questions)
 
 
 def _derived(mechanism: Mechanism, rng: np.random.Generator) -> Iterator[tuple[Tree, Tree]]:

@@ -62,8 +62,8 @@ def holds(equation: Equation, at: Values) -> bool:
 
 def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
     """Whether ``other`` holds just where ``one`` does, at places that are no true states: ``one`` is made to hold there by one
-    letter in which it is linear, one that does not make all its terms 0 where there is such."""
-    made = [values for letter in symbols_in(one) if (values := _solved(one, letter, at)) is not None]
+    symbol in which it is linear, one that does not make all its terms 0 where there is such."""
+    made = [values for symbol in symbols_in(one) if (values := _solved(one, symbol, at)) is not None]
     if not made:
         return False
     best = max(made, key=lambda values: float(np.min(sides(one, values)[1])))
@@ -71,14 +71,14 @@ def says_the_same(one: Equation, other: Equation, at: Values) -> bool:
     return bool(np.all(np.abs(off) <= _ROUND_OFF * size)) and not holds(other, at)
 
 
-def _solved(equation: Equation, letter: Sym, at: Values) -> Values | None:
-    """The places moved along one letter so that an equation holds; None where it is not linear in it."""
+def _solved(equation: Equation, symbol: Sym, at: Values) -> Values | None:
+    """The places moved along one symbol so that an equation holds; None where it is not linear in it."""
     with np.errstate(all="ignore"):
         a, b, c = (
-            np.subtract(*(valued(side, {**at, letter: at[letter] + step})[0] for side in (equation.left, equation.right)))
+            np.subtract(*(valued(side, {**at, symbol: at[symbol] + step})[0] for side in (equation.left, equation.right)))
             for step in (0.0, 1.0, 2.0)
         )
         slope, bend = b - a, c - 2 * b + a
         if not np.all(np.abs(slope) > 1e-6) or not np.all(np.abs(bend) < 1e-8 * np.abs(slope)):
             return None
-        return {**at, letter: at[letter] - a / slope}
+        return {**at, symbol: at[symbol] - a / slope}

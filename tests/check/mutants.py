@@ -72,7 +72,7 @@ def _function(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | No
     return _at(rng, e, calls, lambda n: Fn("cos" if n.name == "sin" else "sin", n.args))  # type: ignore[union-attr]
 
 
-def _letter(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
+def _symbol(rng: Random, e: Equation, vocabulary: Vocabulary) -> Equation | None:
     found = [n for n in walk(e) if isinstance(n, Sym) and vocabulary.alike(n)]
     return _at(rng, e, found, lambda n: _pick(rng, vocabulary.alike(n)))  # type: ignore[arg-type, return-value]
 
@@ -172,7 +172,7 @@ SLIPS: dict[str, Slip] = {
     "sign": _sign,
     "factor": _number,
     "function": _function,
-    "letter": _letter,
+    "letter": _symbol,
     "derivative": _derivative,
     "lost term": _lost_term,
     "term twice": _twice,

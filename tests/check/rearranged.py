@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace as with_
 
 import numpy as np
-from other_letters import Other
+from other_symbols import Other
 
 from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.vocabulary import Vocabulary
@@ -22,17 +22,17 @@ def number(value: float) -> Node:
 
 
 def rearranged(rng: Random, equations: list[Equation], vocabulary: Vocabulary, others: list[Other]) -> Equation:
-    """A consequence of equations: scaled, combined, multiplied out, moved about, in other letters and other coordinates."""
+    """A consequence of equations: scaled, combined, multiplied out, moved about, in other symbols and other coordinates."""
     equation = equations[int(rng.integers(len(equations)))]
     if len(equations) > 1 and rng.random() < 0.4:
         equation = _combined(rng, equation, equations[int(rng.integers(len(equations)))], vocabulary)
     for _ in range(int(rng.integers(1, 5))):
         equation = STEPS[int(rng.integers(len(STEPS)))](rng, equation, vocabulary)
-    return in_other_letters(rng, equation, others) if rng.random() < 0.5 else equation
+    return in_other_symbols(rng, equation, others) if rng.random() < 0.5 else equation
 
 
-def in_other_letters(rng: Random, equation: Equation, others: list[Other]) -> Equation:
-    """With one of its letters in terms of another."""
+def in_other_symbols(rng: Random, equation: Equation, others: list[Other]) -> Equation:
+    """With one of its symbols in terms of another."""
     found = set(symbols_in(equation))
     fitting = [other for other in others if not found.isdisjoint(other.replaced)]
     return substitute(equation, fitting[int(rng.integers(len(fitting)))].replaced) if fitting else equation

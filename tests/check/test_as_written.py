@@ -78,7 +78,7 @@ WRITTEN = [
     ("bead on a turning rod", "θ' = ω; R' = v; v' = R ω^2; ω' = (T - m2 R v ω)/(m1 l^2/3 + m2 R^2)", W),
     ("mass on a spring", "dx/dt == v; dv/dt == (F - c*v - k*x)/m", T),
     ("mass on a spring", "v = x'\nv' = (F - c v + k x)/m", W),
-    # a unit is a unit where m and s are letters: s̈ = g (sin 35° − 0.2 cos 35°) = 4.0196 m/s²
+    # a unit is a unit where m and s are symbols: s̈ = g (sin 35° − 0.2 cos 35°) = 4.0196 m/s²
     ("block that slides down a slope", "at start: s'' = 4.02 m/s^2", T),
     ("block that slides down a slope", "at start: s'' = 4.12 m/s^2", W),
     ("block that slides down a slope", "at start: s'' = 1/s", U),  # s is 0 there

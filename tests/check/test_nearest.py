@@ -1,4 +1,4 @@
-"""Where nothing corrections an equation, a true one with the same letters is told; it is put to the test like any other."""
+"""Where nothing corrects an equation, a true one with the same symbols is told; it is put to the test like any other."""
 
 from __future__ import annotations
 

@@ -80,7 +80,7 @@ def _stated(document: Document) -> Iterator[Block]:
 
 
 def _chosen(block: Equation) -> bool:
-    """Whether it only names something: whole matrices by letters, or a virtual motion, which is free."""
+    """Whether it only names something: whole matrices by symbols, or a virtual motion, which is free."""
     left, right = block.left, block.right
     return isinstance(left, Written) and (isinstance(right, Written | Matrices) or left.text.startswith("δ"))
 
@@ -101,6 +101,6 @@ def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: 
         assert checker.check(line).kind is Kind.TRUE, line
 
 
-def test_a_printed_letter_does_not_hide_one_of_the_model() -> None:
+def test_a_printed_symbol_does_not_hide_one_of_the_model() -> None:
     model = fb.Mechanism.loads(WORDS.replace("{k: 30 N/m}", "{k: 30 N/m, r_tip: 2 N}"))
     assert Checker(model).check("r_tip = 2 N").kind is not Kind.DIMENSIONS

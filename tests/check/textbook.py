@@ -1,4 +1,4 @@
-"""Models with the equations of motion that every textbook has of them, in the letters of the model."""
+"""Models with the equations of motion that every textbook has of them, in the symbols of the model."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Book:
-    """A model, its letters beyond coordinates and parameters, and equations that are true of it."""
+    """A model, its symbols beyond coordinates and parameters, and equations that are true of it."""
 
     name: str
     model: str

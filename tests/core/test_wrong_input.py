@@ -49,7 +49,7 @@ def test_states_that_are_none_are_refused_by_name(started, data):
         lambda: core.instant(state, data.draw(st.sampled_from(["minimal", "newton_euler", "constraints"]))),
         lambda: core.free_bodies(state),
         lambda: core.evaluate(["kinetic()"], state),
-        lambda: core.letters(state, [{"ask": "rows"}]),
+        lambda: core.symbolic_answers(state, [{"ask": "rows"}]),
         lambda: core.simulate(state, state.t + 1e-3, max_steps=50),
     ]
     call = data.draw(st.sampled_from(calls))

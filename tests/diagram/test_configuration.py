@@ -14,7 +14,7 @@ from freebody.core.cards import joints
 from freebody.equations.topics import topic
 from freebody.model import Mechanism
 from freebody.views.diagram.configuration import Configuration
-from freebody.views.diagram.names import letter
+from freebody.views.diagram.names import symbol
 from freebody.views.dimension_lines import dimension_lines
 from freebody.views.sketch import sketch_of_state
 
@@ -56,7 +56,7 @@ every_model = every(sorted(SYSTEMS))
 @every_model
 def test_every_coordinate_has_its_mark_and_it_can_be_seen(model):
     found = drawn(model)
-    assert [each.text for each in found.scenery.dimensions] == [letter(c["name"]) for c in found.source.metadata["coordinates"]]
+    assert [each.text for each in found.scenery.dimensions] == [symbol(c["name"]) for c in found.source.metadata["coordinates"]]
     for each in found.scenery.dimensions:
         assert np.hypot(*np.diff(each.arrow, axis=0).T).sum() >= 5.0
 
@@ -80,19 +80,19 @@ def test_every_body_is_placed_by_itself(model):
     bodies = found.source.spec["bodies"]
     marks = {each.text: each for each in found.scenery.dimensions}
     assert list(marks) == [
-        letter(f"{word}_{body['name']}") for body in bodies for word in ("x", "y", "phi")[: 2 if body["particle"] else 3]
+        symbol(f"{word}_{body['name']}") for body in bodies for word in ("x", "y", "phi")[: 2 if body["particle"] else 3]
     ]
     scale, sketch = found.scenery.scale, found.scenery.sketch
     for body in bodies:
         name = body["name"]
         place = sketch.place(f"{name}.G") - sketch.place("ground.O")
         for word, along, unit in zip("xy", place, np.eye(2), strict=True):
-            way = marks[letter(f"{word}_{name}")].arrow @ unit
+            way = marks[symbol(f"{word}_{name}")].arrow @ unit
             if abs(along) > sketch.size:
                 assert way[1] - way[0] == pytest.approx(scale * abs(along), rel=1e-9)
             assert way[1] > way[0]  # x and y grow with the axes, wherever the body is
         if not body["particle"]:
-            vertex, end = marks[letter(f"phi_{name}")].guides[1]
+            vertex, end = marks[symbol(f"phi_{name}")].guides[1]
             turn = sketch.poses[0, sketch.names.index(name), 2]
             assert (end - vertex) / np.hypot(*(end - vertex)) == pytest.approx([np.cos(turn), np.sin(turn)], abs=1e-9)
 
@@ -101,7 +101,7 @@ def test_every_body_is_placed_by_itself(model):
 def test_the_sketch_with_constraints_has_their_coordinates(model):
     made = mechanism(model).equations("constraints")
     stated = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
-    assert sorted(letter(name) for name in stated) == sorted(each.text for each in drawn(model, each_body=True).scenery.dimensions)
+    assert sorted(symbol(name) for name in stated) == sorted(each.text for each in drawn(model, each_body=True).scenery.dimensions)
     html = made.document.html()
     assert html.count("<svg") == 1 and "[Figure" not in html
 

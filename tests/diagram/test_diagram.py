@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 from freebody.cli import app
 from freebody.model import Mechanism
 from freebody.views.diagram.gallery import write_gallery
-from freebody.views.diagram.names import letter
+from freebody.views.diagram.names import symbol
 from freebody.views.diagram.paper import round_below
 from freebody.views.diagram.rows import MARGIN
 from freebody.views.labels import Label, Obstacles, placed
@@ -31,7 +31,7 @@ def labels(cut):
     return {mark.action.label for mark in cut.forces}
 
 
-def test_letters_are_short_and_those_of_the_model(gun):
+def test_symbols_are_short_and_those_of_the_model(gun):
     rod, collar = gun.diagram().cuts
     assert labels(rod) == {r"\mathrm{pivot}_x", r"\mathrm{pivot}_y", TRACK, "T"}
     assert labels(collar) == {TRACK}
@@ -43,10 +43,10 @@ def test_letters_are_short_and_those_of_the_model(gun):
     [("m2", "m_2"), ("mA", "m_A"), ("phi[3]", r"\phi_3"), ("m_rod", r"m_{\text{rod}}"), ("theta", r"\theta")],
 )
 def test_letters_of_names(name, shown):
-    assert letter(name) == shown
+    assert symbol(name) == shown
 
 
-def test_a_spring_and_its_damper_have_letters():
+def test_a_spring_and_its_damper_have_symbols():
     m = Mechanism("two carts", gravity=0)
     bodies = [m.particle(name, mass=1) for name in ("a", "b")]
     for body, x in zip(bodies, ("xa", "xb"), strict=True):

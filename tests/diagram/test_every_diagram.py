@@ -13,7 +13,7 @@ from store import WITHOUT_ANSWER, every, mechanism
 from store import diagram as drawn
 
 from freebody.core import FreeBodies, cards
-from freebody.equations import Letter, Letters, Sym, latex
+from freebody.equations import Nomenclature, Sym, SymbolEntry, latex
 from freebody.solve.symbols import Symbols
 from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.configuration import Configuration
@@ -108,12 +108,12 @@ def test_a_mass_that_is_zero_by_a_parameter_has_an_effective_side():
 
 
 @every_model
-def test_a_load_has_one_letter_on_diagrams_and_in_equations(model):
-    """LaTeX of its symbol printed with the letters of the model; a pair of loads has two letters."""
+def test_a_load_has_one_symbol_on_diagrams_and_in_equations(model):
+    """LaTeX of its symbol printed with the symbols of the model; a pair of loads has two symbols."""
     loads = {load.symbol: load for load in FreeBodies.read(free_bodies(model)).loads}
     source = mechanism(model).source()
     names = Symbols.of(source, loads.values(), {}).loads
-    letters = Letters({symbol: Letter(symbol, "unknown", written=name) for symbol, name in names.items()})
+    letters = Nomenclature({symbol: SymbolEntry(symbol, "unknown", written=name) for symbol, name in names.items()})
     printed = {symbol: latex(Sym(symbol), letters) for symbol in names}
     for cut in drawn(model).cuts:
         for mark in cut.forces:
@@ -267,7 +267,7 @@ def test_no_two_labels_overlap(model, of):
 
 @every_model
 def test_a_sheet_is_no_wider_than_its_column(model):
-    """160 mm, and for every body by itself also 85 mm, if the letters on one line leave room for the body; they are as large on both."""
+    """160 mm, and for every body by itself also 85 mm, if the symbols on one line leave room for the body; they are as large on both."""
     sheets = [drawn(model), drawn(model, "all"), drawn(model, None, True)]
     narrow = LONG_LETTERS.get(model, 85)
     for sheet, column in [*((each, 160) for each in sheets), (drawn(model, column=85.0), narrow)]:

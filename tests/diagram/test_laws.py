@@ -1,4 +1,4 @@
-"""What stands below a symbolic diagram: the law of every force that is more than a letter, in the sense of its arrow."""
+"""What stands below a symbolic diagram: the law of every force that is more than a symbol, in the sense of its arrow."""
 
 from dataclasses import replace
 from functools import cache
@@ -40,7 +40,7 @@ def drawn(source, state, free):
 
 @every(FORCED)
 def test_a_law_is_what_acts_along_its_arrow(model):
-    """Its letters put to numbers give the force, or the couple, of the load as data."""
+    """Its symbols put to numbers give the force, or the couple, of the load as data."""
     source, state, free = moved(model)
     laws, subject = Laws(source, state, free), SymbolicState(source, state)
     actions = drawn(source, state, free)
@@ -58,7 +58,7 @@ def test_a_law_is_what_acts_along_its_arrow(model):
 
 @every(FORCED)
 @pytest.mark.parametrize("column", [COLUMN, 241.0])
-def test_what_is_more_than_a_letter_is_told_and_can_be_printed(model, column):
+def test_what_is_more_than_a_symbol_is_told_and_can_be_printed(model, column):
     source, state, free = moved(model)
     parser = MathTextParser("path")
     for cut in diagram(source, state, free, column=column).cuts:

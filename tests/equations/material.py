@@ -1,13 +1,13 @@
-"""Letters and expressions that the tests of equations share."""
+"""Symbols and expressions that the tests of equations share."""
 
 from __future__ import annotations
 
 import random
 
-from freebody.equations import Add, Fn, Letters, Mul, Num, Pow, Sym, Tree
+from freebody.equations import Add, Fn, Mul, Nomenclature, Num, Pow, Sym, Tree
 from freebody.symbolic.tree import add, mul, number, power
 
-LETTERS = Letters.read(
+LETTERS = Nomenclature.read(
     {
         "theta1": {"kind": "coordinate", "unit": "rad", "doc": "angle of the upper rod"},
         "theta2": {"kind": "coordinate", "unit": "rad"},
@@ -53,12 +53,12 @@ def half(*of: Tree) -> Tree:
 
 
 def product(*factors: Tree | int | str) -> Tree:
-    """A product of trees, of whole numbers, and of letters by name."""
+    """A product of trees, of whole numbers, and of symbols by name."""
     return mul(*(number(f) if isinstance(f, int) else sym(f) if isinstance(f, str) else f for f in factors))
 
 
 def anything(draw: random.Random, depth: int = 4) -> Tree:
-    """A random expression that has a real value where all letters are positive."""
+    """A random expression that has a real value where all symbols are positive."""
     if depth == 0 or draw.random() < 0.15:
         letters = [s for name in ("theta1", "x", "arm.angle") for s in (Sym(name), Sym(name, 1), Sym(name, 2))]
         letters += [Sym(name) for name in ("m1", "m2", "m_rod", "l", "lambda", "g", "t", "pivot.x", "pi")]
@@ -80,8 +80,8 @@ def anything(draw: random.Random, depth: int = 4) -> Tree:
             return Fn(name, parts[: 2 if name == "atan2" else 1])
 
 
-def values(draw: random.Random, letters: Letters = LETTERS) -> dict[Sym, float]:
-    """Random positive values of all letters, their rates and accelerations."""
+def values(draw: random.Random, letters: Nomenclature = LETTERS) -> dict[Sym, float]:
+    """Random positive values of all symbols, their rates and accelerations."""
     found = {Sym(name): draw.uniform(0.4, 1.9) for name in letters}
     found |= {Sym(name, dots): draw.uniform(0.4, 1.9) for name in letters.of_kind("coordinate") for dots in (1, 2)}
     return found

@@ -65,7 +65,7 @@ def test_a_short_left_side_stands_beside_the_first_line():
 
 @pytest.mark.parametrize("seed", range(3))
 def test_widths_are_those_of_computer_modern(seed):
-    """Against the typesetting of another program, with the same letters."""
+    """Against the typesetting of another program, with the same symbols."""
     from matplotlib.mathtext import MathTextParser
 
     draw = random.Random(seed)

@@ -24,7 +24,7 @@ from freebody.equations import (
     Vector,
     Written,
     latex,
-    letters_table,
+    nomenclature_table,
     read,
 )
 from freebody.symbolic.alphabet import columns
@@ -64,7 +64,7 @@ DOCUMENT = Document(
         MatrixEquation([[LONG, ZERO], [ZERO, LONG]], [A1, A2], [ZERO, L], "Too wide for brackets"),
         Bullets(["energy", ["the mass ", M1]]),
         Table(("a", "b"), [("1|2", [TH1])], "Some numbers"),
-        letters_table(LETTERS),
+        nomenclature_table(LETTERS),
         Figure(Shown(), "A sketch", "sketch"),
     ],
     LETTERS,

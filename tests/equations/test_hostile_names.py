@@ -1,4 +1,4 @@
-"""One symbol, one meaning: models whose names are those that freebody would give itself, units, constants and Greek letters.
+"""One symbol, one meaning: models whose names are those that freebody would give itself, units, constants and Greek symbols.
 
 In every form of the equations, in generated code and in what the check reads, each name means what the model says."""
 
@@ -60,7 +60,7 @@ def model(seed: int) -> fb.Mechanism:
 
 
 def states(mechanism: fb.Mechanism, seed: int) -> Iterator[SimpleNamespace]:
-    """Random states with random parameters, and the values of all letters there as the core has them."""
+    """Random states with random parameters, and the values of all symbols there as the core has them."""
     rng, core, start = np.random.default_rng(seed), mechanism.compile(), mechanism.start()[0]
     names = [each["name"] for each in mechanism.source().metadata["parameters"]]
     for _ in range(3):
@@ -113,14 +113,14 @@ def test_what_is_printed_is_read_back_as_true(seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_no_two_letters_of_a_derivation_read_alike(seed: int) -> None:
-    """In text, in plain text and in LaTeX; and every name that is not the usual one is told where the letters are."""
+def test_no_two_symbols_of_a_derivation_read_alike(seed: int) -> None:
+    """In text, in plain text and in LaTeX; and every name that is not the usual one is told where the symbols are."""
     mechanism = model(seed)
     for form in FORMS:
         made = mechanism.equations(form)
         unit = [Sym(name) for name in made.letters]
         for write in (lambda d: d.text(), lambda d: d.text(ascii=True), lambda d: d.latex()):
-            read = [folded(write(Document((Equation(letter, Sym("zero")),), made.letters)).split("=")[0]) for letter in unit]
+            read = [folded(write(Document((Equation(symbol, Sym("zero")),), made.letters)).split("=")[0]) for symbol in unit]
             assert len(set(read)) == len(read), read
         shown = " ".join(made.text().split())
         assert all(str(said) in shown for said in made.letters.renamed.values())

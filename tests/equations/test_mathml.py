@@ -53,6 +53,8 @@ def test_both_say_the_same_signs():
     draw = random.Random(4)
     for tree in (anything(draw) for _ in range(100)):
         shown = formula(tree, LETTERS)
-        plain = re.sub(r"\\(theta|lambda|alpha|mu|pi)", lambda found: Name(found[1]).unicode(), latex(shown)).replace(r"\cdot", "·")
+        plain = re.sub(r"\\(theta|lambda|alpha|mu|pi)", lambda found: Name(found[1]).unicode(), latex(shown)).replace(
+            r"\cdot", "·"
+        )
         plain = re.sub(r"\\(left|right|mathrm|text|operatorname|t?frac|sqrt|d?dot|,)(?![a-z])|[{}^_\s\\]", "", plain)
         assert sorted(plain.replace("-", "−")) == sorted(re.sub(r"[˙¨\s]", "", said(mathml(shown))))

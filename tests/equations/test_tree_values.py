@@ -67,7 +67,7 @@ def test_sympy_has_the_same_values_and_goes_round(trees):
 
 
 def test_sympy_differentiates_coordinates_in_time():
-    """d/dt of ½ m ẋ² is m ẋ ẍ, with the letters that dynamicsymbols has."""
+    """d/dt of ½ m ẋ² is m ẋ ẍ, with the symbols that dynamicsymbols has."""
     from sympy.physics.mechanics import dynamicsymbols
 
     x = dynamicsymbols("x")

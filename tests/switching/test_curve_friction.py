@@ -186,7 +186,7 @@ def test_a_hoop_has_no_bearing():
         model(HOOP.replace("friction: mu", "friction: mu, bearing_radius: 0.1 m"))
 
 
-def test_the_letter_of_a_curve_hides_a_parameter_of_that_name():
+def test_the_symbol_of_a_curve_hides_a_parameter_of_that_name():
     """A bead on a parabola: at s, m (1 + y'²) s̈ = −m g y' with y' = 0.8 s."""
     text = """
 parameters: {m: 1 kg, s: 0.3 kg}

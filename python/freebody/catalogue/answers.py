@@ -15,15 +15,15 @@ from freebody.solve.figures import Known
 
 if TYPE_CHECKING:
     from freebody.catalogue.case import Case
-    from freebody.symbolic.letters import Letters
+    from freebody.symbolic.nomenclature import Nomenclature
     from freebody.symbolic.tree import Tree
 
 Figure = float | Sequence[float] | np.ndarray
 MOST_DIGITS = 16.0
 PLACES = 4
-"""Places of random letters at which an answer and its closed form are compared."""
+"""Places of random symbols at which an answer and its closed form are compared."""
 RANGE = (0.3, 1.4)
-"""Of the letters: angles stay below a right angle."""
+"""Of the symbols: angles stay below a right angle."""
 TOLERANCE = 1e-9
 _SEED = 9
 
@@ -66,7 +66,9 @@ class Answer:
     @property
     def row(self) -> list[float]:
         """The figures."""
-        return list(self.value) if isinstance(self.value, (list, tuple)) else np.atleast_1d(np.asarray(self.value, float)).tolist()
+        return (
+            list(self.value) if isinstance(self.value, (list, tuple)) else np.atleast_1d(np.asarray(self.value, float)).tolist()
+        )
 
     @property
     def known(self) -> list[float]:
@@ -135,9 +137,9 @@ def ask(label: str) -> Callable[[Callable[[Case], Iterable[Answer]]], Question]:
     return lambda answers: Question(label, answers)
 
 
-def formula(label: str, found: Tree, closed: str, against: str, letters: Letters | None = None) -> Answer:
+def formula(label: str, found: Tree, closed: str, against: str, nomenclature: Nomenclature | None = None) -> Answer:
     """A symbolic answer beside a closed form in the words of the model language, ``rate(theta)`` for a rate: both at random
-    values of all letters, of which neither knows anything."""
+    values of all symbols, of which neither knows anything."""
     from freebody.equations.language import read_text
     from freebody.symbolic.decimals import shown
     from freebody.symbolic.evaluate import evaluate
@@ -146,6 +148,6 @@ def formula(label: str, found: Tree, closed: str, against: str, letters: Letters
 
     true, draw = read_text(closed), random.Random(_SEED)
     every = sorted(symbols(found, true), key=str)
-    places = [{letter: draw.uniform(*RANGE) for letter in every} for _ in range(PLACES)]
+    places = [{symbol: draw.uniform(*RANGE) for symbol in every} for _ in range(PLACES)]
     value, check = ([float(evaluate(tree, place)) for place in places] for tree in (found, true))
-    return Answer(label, value, "", check, against, TOLERANCE, said=text(shown(found), letters))
+    return Answer(label, value, "", check, against, TOLERANCE, said=text(shown(found), nomenclature))

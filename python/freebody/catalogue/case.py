@@ -51,7 +51,7 @@ class Case:
             self.instants[name] = self.mechanism(file, **(parameters or {})).solve(**state)
         return self.instants[name]
 
-    def in_letters(
+    def symbolically(
         self, closed: Mapping[str, str], against: str, file: str = "model.yaml", of: str = "", **asked: Any
     ) -> Iterator[Answer]:
         """Accelerations, reactions and motors symbolically, beside closed forms; ``asked`` is what ``solve_in_letters`` takes. With
@@ -59,7 +59,7 @@ class Case:
         from freebody.symbolic.printers.text import text
 
         pairs = {key: key.partition(", ")[::2] for key in closed}
-        limits = {letter: to for _, what in pairs.values() if what for letter, to in [what.split(" → ")]}
+        limits = {symbol: to for _, what in pairs.values() if what for symbol, to in [what.split(" → ")]}
         wanted = list(dict.fromkeys(name for name, _ in pairs.values()))
         found = self.mechanism(file).solve_in_letters(wanted, limits=limits, **asked)
         for key, (name, what) in pairs.items():

@@ -44,14 +44,14 @@ class Checker:
         self.correcting = True
         self._runs: list[Any] = []  # the model's own, once it is asked for
 
-    def letters(self, declared: Declared | None = None) -> Symbols:
+    def symbols(self, declared: Declared | None = None) -> Symbols:
         """The symbols of the model with own ones. Raises ``ModelProblem``."""
         return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity, self.printed)
 
     def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, units: bool = True) -> Case:
         """A statement beside the motions that decide about it, read with ``units`` or without. Raises ``StatementError`` and
         ``ModelProblem``."""
-        known = self.letters(letters)
+        known = self.symbols(letters)
         program = known.read(text, units)
         meaning = StatementSymbols(known, program, self.sampler)
         given = hypothesis or self.hypothesis
@@ -106,16 +106,16 @@ def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
     case = checker.case(text, letters)
     if case.program.units and (found := _in_figures(checker.case(text, letters, units=False))):
         return found
-    if (error := misfit(case.program, case.meaning.letters.dimensions)) is None:
+    if (error := misfit(case.program, case.meaning.symbols.dimensions)) is None:
         verdict = judged(case)
     else:
         verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
-    return replace(verdict, notes=case.meaning.letters.notes(case.program))
+    return replace(verdict, notes=case.meaning.symbols.notes(case.program))
 
 
 def _in_figures(case: Case) -> Verdict | None:
     """The verdict where an equation is true whose dimensions fit if figures stand for measures in SI units."""
-    if misfit(case.program, case.meaning.letters.dimensions, figures=True):
+    if misfit(case.program, case.meaning.symbols.dimensions, figures=True):
         return None
     verdict = judged(replace(case, correcting=False))
     return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None

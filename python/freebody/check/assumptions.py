@@ -222,11 +222,11 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
 
 def _meant(expression: str, checker: Checker, declared: Declared) -> str:
     """An expression of the statement's symbols in the model language."""
-    return checker.letters({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
+    return checker.symbols({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
 
 
 def _parameter(name: str, checker: Checker, declared: Declared) -> str | None:
     """The free parameter of the model that a symbol stands for, or None."""
-    known = checker.letters(declared).meanings
+    known = checker.symbols(declared).meanings
     texts = known[name].texts if name in known else (name,)
     return texts[0] if len(texts) == 1 and texts[0] in checker.sampler.free_parameters else None

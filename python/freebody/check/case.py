@@ -45,18 +45,18 @@ _MANY = 12  # reactions, beyond which only those of the statement are thought of
 class StatementSymbols:
     """What the symbols of a program mean in a model. Raises ``StatementError`` at a symbol without a meaning."""
 
-    def __init__(self, letters: Symbols, program: Program, sampler: MotionSampler) -> None:
-        self.letters, self.sampler, self.figures = letters, sampler, False
-        self.required = letters.require(program)
+    def __init__(self, symbols: Symbols, program: Program, sampler: MotionSampler) -> None:
+        self.symbols, self.sampler, self.figures = symbols, sampler, False
+        self.required = symbols.require(program)
         self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
 
-    def texts(self, letter: Sym) -> tuple[str, ...]:
+    def texts(self, symbol: Sym) -> tuple[str, ...]:
         """The expressions of the model language that a symbol stands for."""
-        return self._one(letter).texts if letter.name in self.letters.meanings else ()
+        return self._one(symbol).texts if symbol.name in self.symbols.meanings else ()
 
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every symbol on true states, by ``Sym.key``; what is 0 on all of them but for round-off is 0."""
-        found = self.letters.values(self._valued, samples)
+        found = self.symbols.values(self._valued, samples)
         for n in self._valued:
             one = self._one(n)
             if one.kind not in ("parameter", "gravity"):
@@ -66,7 +66,7 @@ class StatementSymbols:
 
     def fits(self, equation: Equation) -> bool:
         """Whether its terms have one dimension, as far as that is known."""
-        return misfit(Program((equation,)), self.letters.dimensions, figures=self.figures) is None
+        return misfit(Program((equation,)), self.symbols.dimensions, figures=self.figures) is None
 
     def in_figures(self) -> StatementSymbols:
         """The same where figures stand for measures in SI units, so that they fit any dimension."""
@@ -74,15 +74,15 @@ class StatementSymbols:
         other.figures = True
         return other
 
-    def solved(self, letter: Sym) -> bool:
+    def solved(self, symbol: Sym) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
-        one = self.letters.meanings.get(letter.name)
-        return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(letter.dots)))
+        one = self.symbols.meanings.get(symbol.name)
+        return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(symbol.dots)))
 
-    def limit(self, letter: Sym) -> str | None:
+    def limit(self, symbol: Sym) -> str | None:
         """The contact, string or stop of which a symbol reads something."""
-        owners = (text.rpartition(".")[0] for text in self.texts(letter))
-        return next((name for name in owners if self.letters.named.owners.get(name) in ("contact", "string", "stop")), None)
+        owners = (text.rpartition(".")[0] for text in self.texts(symbol))
+        return next((name for name in owners if self.symbols.named.owners.get(name) in ("contact", "string", "stop")), None)
 
     @property
     def needs_past(self) -> bool:
@@ -110,9 +110,9 @@ class StatementSymbols:
         parameters = [n for n in self._parameters if not self._one(n).is_vector]
         coordinates = self._coordinates
         taken = {*parameters, *coordinates}
-        directions = map(Sym, self.letters.of_kind("declared", "direction"))
+        directions = map(Sym, self.symbols.of_kind("declared", "direction"))
         vectors = [n for n in (*self.used, *directions) if self._one(n).is_vector]
-        known = dict.fromkeys([*self.used, *map(Sym, self.letters.of_kind("declared"))])
+        known = dict.fromkeys([*self.used, *map(Sym, self.symbols.of_kind("declared"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
         groups = (parameters, coordinates, others, vectors)
@@ -124,22 +124,22 @@ class StatementSymbols:
         """The determined reactions of the model that are not said, in the components of their joints."""
         loads = self.sampler.core.free_bodies(self.sampler.first).loads
         named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
-        known = [n for n in named if n.name in self.letters.meanings and _meant(self._one(n).texts) not in said]
+        known = [n for n in named if n.name in self.symbols.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []
 
-    def _one(self, letter: Sym) -> Meaning:
-        return self.letters.meanings[letter.name]
+    def _one(self, symbol: Sym) -> Meaning:
+        return self.symbols.meanings[symbol.name]
 
-    def _dimension(self, letter: Sym) -> Known:
+    def _dimension(self, symbol: Sym) -> Known:
         """The dimension of a symbol, radians aside; a parameter that is a bare number is one."""
-        dimension, name = self._one(letter).dimension, self._one(letter).texts[0]
+        dimension, name = self._one(symbol).dimension, self._one(symbol).texts[0]
         if dimension is None:
             return NUMBER_ONLY if name in self.sampler.free_parameters else None
         return dimension._replace(angle=0)
 
     @cached_property
     def _parameters(self) -> list[Sym]:
-        there = self.letters.of_kind("parameter", "gravity")  # of them those that are more than numbers of the start
+        there = self.symbols.of_kind("parameter", "gravity")  # of them those that are more than numbers of the start
         used = (name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in there)
         own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
@@ -161,9 +161,9 @@ class StatementSymbols:
                 used += " " + parameter["value"]
         return used
 
-    def _is_fixed(self, letter: Sym) -> bool:
+    def _is_fixed(self, symbol: Sym) -> bool:
         """Whether it is made of parameters alone."""
-        words = {word for text in self._one(letter).texts for word in _WORD.findall(text)}
+        words = {word for text in self._one(symbol).texts for word in _WORD.findall(text)}
         return words <= {*(p["name"] for p in self.sampler.spec["parameters"]), "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property
@@ -172,14 +172,14 @@ class StatementSymbols:
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         own = [Sym(c["name"]) for c in self.sampler.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
-        own += [n for n in map(Sym, self.letters.of_kind("declared")) if self._moves(n)]
+        own += [n for n in map(Sym, self.symbols.of_kind("declared")) if self._moves(n)]
         missing = max(len(self.sampler.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]
 
-    def _moves(self, letter: Sym) -> bool:
+    def _moves(self, symbol: Sym) -> bool:
         """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""
-        one = self._one(letter)
-        if any(_BEYOND.search(text) for text in one.texts) or one.is_vector or self._is_fixed(letter):
+        one = self._one(symbol)
+        if any(_BEYOND.search(text) for text in one.texts) or one.is_vector or self._is_fixed(symbol):
             return False
         if one.kind not in ("coordinate", "declared", "gauge"):
             return False

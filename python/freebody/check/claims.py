@@ -159,7 +159,7 @@ def _independent(checker: Checker, declared: Declared, names: str, expression: s
 
 def _coefficients(checker: Checker, declared: Declared, names: str, unknowns: str, statement: str) -> Verdict:
     """The factors of unknowns in equations, when some coordinates or rates are changed and all else stays."""
-    case, known = checker.case(statement, declared), checker.letters(declared).names
+    case, known = checker.case(statement, declared), checker.symbols(declared).names
     wanted = [n for name in unknowns.split(",") if isinstance(n := parse_expression(name.strip(), known), Sym)]
     if not (wanted := [n for n in wanted if n.key in case.values()]):
         raise ModelProblem(f"`{unknowns}` has no factor: it stands in none of these equations", "name symbols that are in them")
@@ -195,20 +195,20 @@ def _shorter(checker: Checker, declared: Declared, statement: str, other: str) -
 
 def _changed_alone(checker: Checker, declared: Declared, names: str, case: Case) -> Iterator[tuple[str, Mapping[str, Array]]]:
     """Each coordinate or rate by its name, with the values of all symbols when it alone has changed."""
-    sampler, known = checker.sampler, checker.letters(declared).names
+    sampler, known = checker.sampler, checker.symbols(declared).names
     for name in (part.strip() for part in names.split(",")):
-        letter = parse_expression(name, known)
-        if not isinstance(letter, Sym) or letter.name not in sampler.names or letter.dots > 1 or sampler.loops:
-            raise ModelProblem(f"`{getattr(letter, 'key', letter)}` cannot be changed alone", "name a coordinate or its rate")
-        step = (sampler.rate if letter.dots else 1.0) * 0.7 * (np.array(sampler.names) == letter.name)
+        symbol = parse_expression(name, known)
+        if not isinstance(symbol, Sym) or symbol.name not in sampler.names or symbol.dots > 1 or sampler.loops:
+            raise ModelProblem(f"`{getattr(symbol, 'key', symbol)}` cannot be changed alone", "name a coordinate or its rate")
+        step = (sampler.rate if symbol.dots else 1.0) * 0.7 * (np.array(sampler.names) == symbol.name)
         states = [replace(state, history=None) for state in case.samples().states]
-        moved = [replace(s, u=s.u + step) if letter.dots else replace(s, q=s.q + step) for s in states]
+        moved = [replace(s, u=s.u + step) if symbol.dots else replace(s, q=s.q + step) for s in states]
         yield name, case.meaning.values(Samples(sampler.core, moved))
 
 
 def _follows(checker: Checker, declared: Declared, statement: str, premises: str) -> Verdict:
     """Whether an equation is true wherever others are, whatever the mechanics."""
-    known = checker.letters(declared)
+    known = checker.symbols(declared)
     then, given = known.read(statement), known.read(premises.replace(" and ", "\n")).equations
     conclusion, case = then.equations[0], checker.case(statement + "\n" + premises.replace(" and ", "\n"), declared)
     rng = np.random.default_rng(3)

@@ -94,7 +94,7 @@ Step = Callable[["_Search"], Iterator[_Found]]
 def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
     """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits make it true."""
     given, families = case.hypothesis, [(case.hypothesis, "")]
-    said = " ".join(text for letter in symbols_in(equation) for text in case.meaning.texts(Sym(letter.name)))
+    said = " ".join(text for symbol in symbols_in(equation) for text in case.meaning.texts(Sym(symbol.name)))
     unsaid = case.sampler.free_parameters.keys() - set(re.findall(r"\w+", said)) if given.zeros else ()
     zeros = [name for name, value in case.sampler.free_parameters.items() if value == 0 and name in unsaid]
     for names in (*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())):

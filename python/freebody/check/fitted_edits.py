@@ -40,7 +40,7 @@ class FittedEdits:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
         with np.errstate(all="ignore"):
             for required in required_terms(equation, self.values):
-                yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._letters(required))
+                yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
                 node = required.node  # a number, or a fraction of two
                 parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
                 found = _constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
@@ -58,7 +58,7 @@ class FittedEdits:
                 for term in self._matching(equation, required.needed) if required.addend else ():
                     yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
-    def _letters(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
+    def _symbols(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
         """Symbols of another kind for a symbol or a function, also squared, whatever their sign; for a parameter the sum or the
         difference of two, as an arm often is. With how far-fetched they are."""
         node, span, alike = (
@@ -262,13 +262,13 @@ def multiplied(node: Node, value: float) -> Node | None:
 def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None:
     """A term times a number and powers of symbols; factors that it has itself are taken off first."""
     own, below = list(node.factors) if isinstance(node, Mul) else [node], []
-    for letter, power in powers.items():
-        own += [letter] * power
+    for symbol, power in powers.items():
+        own += [symbol] * power
         for _ in range(-power):
-            if letter in own:
-                own.remove(letter)
+            if symbol in own:
+                own.remove(symbol)
             else:
-                below.append(letter)
+                below.append(symbol)
     return multiplied(Quotient(_product(own), _product(below)) if below else _product(own), number)
 
 

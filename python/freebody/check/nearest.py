@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from freebody.equations import Letters as Printed
+from freebody.equations import Nomenclature as Printed
 from freebody.equations import Tree, equation_text, read, symbols
 from freebody.equations.balances.system import Problem, groups, problem
 from freebody.equations.balances.virtual_motions import named_motions
@@ -53,9 +53,9 @@ def nearest(case: Case, equation: Equation) -> str:
     points = core.points(core.bind())
     asked = list(islice(_questions(given, points), _MOST))
     questions = [{**question, "terms": False, "momentum": False} for _, question in asked]
-    stated = core.letters(state, [{"ask": "rows"}, *questions])
-    said = _said(case, equation, stated.letters)
-    kinds = {name: entry["kind"] for name, entry in stated.letters.items()}
+    stated = core.symbolic_answers(state, [{"ask": "rows"}, *questions])
+    said = _said(case, equation, stated.symbols)
+    kinds = {name: entry["kind"] for name, entry in stated.symbols.items()}
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
     level = max((s.dots for s in said), default=0)
     found = []
@@ -71,7 +71,7 @@ def nearest(case: Case, equation: Equation) -> str:
     if not common:
         return ""
     best = min(common, key=lambda each: each.distance(said, wanted))
-    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in stated.letters.items()})
+    table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in stated.symbols.items()})
     stated = equation_text(best.left, best.right, table, width=_LONG)
     return f"{best.words} reads: {stated}" if len(stated) < _LONG else f"{best.words} is too long to be printed"
 
@@ -91,9 +91,9 @@ def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str,
 def _said(case: Case, equation: Equation, table: Mapping[str, Any]) -> frozenset[Sym]:
     """The symbols of the model that a statement holds."""
     found = set()
-    for letter in symbols_in(equation):
-        for text in case.meaning.texts(Sym(letter.name)):
-            dots = letter.dots + (2 if "accel(" in text else 1 if "rate(" in text else 0)
+    for symbol in symbols_in(equation):
+        for text in case.meaning.texts(Sym(symbol.name)):
+            dots = symbol.dots + (2 if "accel(" in text else 1 if "rate(" in text else 0)
             words = [word for word in _WORD.findall(text) if word in table]
             found |= {Sym(word, dots if table[word]["kind"] == "coordinate" else 0) for word in words}
     return frozenset(found)

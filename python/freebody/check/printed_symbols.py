@@ -74,9 +74,9 @@ def _bodies(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Places, velocities and accelerations of mass centres, and angles."""
     for body in derived.source.metadata["bodies"]:
         said, name = spell(body["name"]), body["name"]
-        read = {letter: f"[{part}x({said}.G), {part}y({said}.G)]" for letter, part in (("r", ""), ("v", "v"), ("a", "a"))}
+        read = {symbol: f"[{part}x({said}.G), {part}y({said}.G)]" for symbol, part in (("r", ""), ("v", "v"), ("a", "a"))}
         read |= {} if body["particle"] else {"alpha": f"alpha({said})"}
-        yield from ((derived.symbols.of_body(letter, name).unicode(), meant) for letter, meant in read.items())
+        yield from ((derived.symbols.of_body(symbol, name).unicode(), meant) for symbol, meant in read.items())
         plain = {"x": f"x({said}.G)", "y": f"y({said}.G)", "phi": f"angle({said})"}
         plain |= {"place_x": plain["x"], "place_y": plain["y"], "angle": plain["phi"]}
         yield from ((unicode_name(f"{stem}_{name}"), meant) for stem, meant in plain.items())

@@ -192,13 +192,13 @@ class Symbols:
         known = samples.values(list(texts))
         return {n.key: self._meaning(n).value(n.dots, known, samples.masses) for n in found}
 
-    def _meaning(self, letter: Sym) -> Meaning:
-        if letter.name in self.meanings:
-            return self.meanings[letter.name]
-        bare = letter.name.rstrip("'")
-        near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(letter.name, self.meanings))
+    def _meaning(self, symbol: Sym) -> Meaning:
+        if symbol.name in self.meanings:
+            return self.meanings[symbol.name]
+        bare = symbol.name.rstrip("'")
+        near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(symbol.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
-        raise ModelProblem(f"the symbol `{letter.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
+        raise ModelProblem(f"the symbol `{symbol.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
 
     # --- building ------------------------------------------------------------------------------
 

@@ -170,13 +170,13 @@ class Reader:
             return OfBodies("declared", moving, ENERGY, group, axis=axis)
         return OfBodies("declared", still, ENERGY.times(TIME), group, (moving,), axis)
 
-    def orbits(self, group: Sequence[str], point: str, letter: str, spin: str) -> tuple[str, ...]:
+    def orbits(self, group: Sequence[str], point: str, symbol: str, spin: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""
         out: list[str] = []
         x, y = [self.measured(part)[0] for part in _parts(point[1:-1])] if point[0] == "[" else (f"x({point})", f"y({point})")
         for body in group:
             g = f"{spell(body)}.G"
-            turn = f"(x({g}) - ({x}))*{letter}y({g}) - (y({g}) - ({y}))*{letter}x({g})"
+            turn = f"(x({g}) - ({x}))*{symbol}y({g}) - (y({g}) - ({y}))*{symbol}x({g})"
             turns = "0" if body in self.particles else self.measured(f"{spin}({spell(body)})")[0]
             out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)

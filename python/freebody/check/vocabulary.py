@@ -37,17 +37,17 @@ class Vocabulary:
         groups = (self.parameters, self.coordinates, self.others, self.vectors)
         return {n.name: dimension for group in groups for n, dimension in group.items() if dimension is not None}
 
-    def dimension(self, letter: Sym) -> Known:
+    def dimension(self, symbol: Sym) -> Known:
         """The dimension of a symbol with its dots; None where it is not known."""
-        found = self.dimensions.get(letter.name)
-        return None if found is None else found.times(TIME, -letter.dots)
+        found = self.dimensions.get(symbol.name)
+        return None if found is None else found.times(TIME, -symbol.dots)
 
-    def alike(self, letter: Sym) -> list[Sym]:
+    def alike(self, symbol: Sym) -> list[Sym]:
         """Other symbols of the same kind that one may write by mistake."""
-        plain, vectors = Sym(letter.name), {} if letter.dots else self.vectors
+        plain, vectors = Sym(symbol.name), {} if symbol.dots else self.vectors
         groups = (vectors, self.coordinates, self.parameters, self.others)
         group = next((group for group in groups if plain in group), {})
-        return [Sym(n.name, letter.dots) for n in group if n != plain and group[n] == group[plain]]
+        return [Sym(n.name, symbol.dots) for n in group if n != plain and group[n] == group[plain]]
 
     # -- factors
 
@@ -95,8 +95,8 @@ class Vocabulary:
             yield (Sym(q.name, 2),), self.dimension(Sym(q.name, 2))
         for a, b in combinations_with_replacement([Sym(q.name, 1) for q in self.coordinates], 2):
             yield (_square(a),) if a == b else (a, b), _joined([self.dimension(a), self.dimension(b)])
-        for letter in dict.fromkeys((*self.others, *moving)):
-            yield (letter,), self.dimension(letter)
+        for symbol in dict.fromkeys((*self.others, *moving)):
+            yield (symbol,), self.dimension(symbol)
         for q in self.coordinates:
             yield (Sym(q.name, 1),), self.dimension(Sym(q.name, 1))
 

@@ -23,7 +23,7 @@ def check(
     ] = None,
     where: Annotated[
         list[str] | None,
-        typer.Option("--where", metavar="LETTER=MEANING", help="A symbol of your own, like 'phi=theta-alpha'; repeatable."),
+        typer.Option("--where", metavar="SYMBOL=MEANING", help="A symbol of your own, like 'phi=theta-alpha'; repeatable."),
     ] = None,
     at: At = None,
     before: Before = None,

@@ -158,8 +158,8 @@ def _names(systems: Systems) -> str:
     counts = ", ".join(f"{word}S = {len(names)}" for word, names in named.items())
     lines = [f"enum {{ {counts} }};"]
     for word, names in named.items():
-        lines.append(_array(f"const char *const {word}_NAMES", [(json.dumps(name), systems.letters[name].doc) for name in names]))
-    values = [(repr(float(value)), f"{name} [{systems.letters[name].unit}]") for name, value in systems.values.items()]
+        lines.append(_array(f"const char *const {word}_NAMES", [(json.dumps(name), systems.nomenclature[name].doc) for name in names]))
+    values = [(repr(float(value)), f"{name} [{systems.nomenclature[name].unit}]") for name, value in systems.values.items()]
     return "\n".join([*lines, _array("const double DEFAULTS", values or [("0.0", "no parameters")])])
 
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from freebody.codegen.languages import LANGUAGES
 from freebody.codegen.source import Language, Writer
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import ascii_name
 from freebody.symbolic.tree import PI, Entries, Sym, Tree, symbols
 
@@ -27,10 +27,10 @@ _HELP = {
 }  # fmt: skip
 
 
-def generate(functions: Mapping[str, Entries], letters: Letters, language: str = "python") -> str:
+def generate(functions: Mapping[str, Entries], nomenclature: Nomenclature, language: str = "python") -> str:
     """Source code with one function for every name.
 
-    A function takes ``q, u, p, t``: coordinates, their rates, parameters and constants as arrays in the order of the letters,
+    A function takes ``q, u, p, t``: coordinates, their rates, parameters and constants as arrays in the order of the symbols,
     and time; behind them ``a`` (accelerations) and ``r`` (unknowns) if any of the functions needs those. In Python it returns a
     number or an array of the shape of the entries, with the shape of array arguments ``q[i]`` behind it. In C it is
     ``void name(const double *q, …, double *out)``, rows first, or returns a ``double``."""
@@ -41,18 +41,18 @@ def generate(functions: Mapping[str, Entries], letters: Letters, language: str =
         if not re.fullmatch(r"[A-Za-z_]\w*", name) or name in _RESERVED:
             raise ValueError(f"{name!r} cannot be the name of a function; letters, digits and underscores can")
     flat = {name: _flatten(entries) for name, entries in functions.items()}
-    used, given = symbols(*(tree for trees, _ in flat.values() for tree in trees)), _arguments(letters)
-    places = {letter: "t" if x == "t" else f"{x}[{i}]" for x, members in given.items() for i, letter in enumerate(members)}
-    for letter in sorted(used - places.keys() - {Sym(PI)}, key=str):
-        raise ValueError(f"{letter.name!r} differentiated {letter.dots} times is no argument; say what it is in the letters")
+    used, given = symbols(*(tree for trees, _ in flat.values() for tree in trees)), _arguments(nomenclature)
+    places = {symbol: "t" if x == "t" else f"{x}[{i}]" for x, members in given.items() for i, symbol in enumerate(members)}
+    for symbol in sorted(used - places.keys() - {Sym(PI)}, key=str):
+        raise ValueError(f"{symbol.name!r} differentiated {symbol.dots} times is no argument; say what it is in the nomenclature")
     arrays = [x for x, members in given.items() if x in "qupt" or used & set(members)]
     made = [_function(name, trees, shape, places, arrays, spelling) for name, (trees, shape) in flat.items()]
-    return spelling.file(_header(letters, arrays), made)
+    return spelling.file(_header(nomenclature, arrays), made)
 
 
-def _arguments(letters: Letters) -> dict[str, list[Sym]]:
-    """The letters that stand in each array, in their order."""
-    q, p, t, r = (letters.of_kind(*kinds) for kinds in (("coordinate",), ("parameter", "constant"), ("time",), ("unknown",)))
+def _arguments(nomenclature: Nomenclature) -> dict[str, list[Sym]]:
+    """The symbols that stand in each array, in their order."""
+    q, p, t, r = (nomenclature.of_kind(*kinds) for kinds in (("coordinate",), ("parameter", "constant"), ("time",), ("unknown",)))
     names = {"q": (q, 0), "u": (q, 1), "p": ([name for name in p if name != PI], 0), "t": (t, 0), "a": (q, 2), "r": (r, 0)}
     return {array: [Sym(name, dots) for name in held] for array, (held, dots) in names.items()}
 
@@ -68,15 +68,15 @@ def _flatten(entries: Entries) -> tuple[list[Tree], tuple[int, ...]]:
     return [tree for trees, _ in parts for tree in trees], (len(parts), *parts[0][1])
 
 
-def _header(letters: Letters, arrays: Sequence[str]) -> list[str]:
-    given, lines = _arguments(letters), []
+def _header(nomenclature: Nomenclature, arrays: Sequence[str]) -> list[str]:
+    given, lines = _arguments(nomenclature), []
     for array in arrays:
         lines.append(f"{array}: {_HELP[array]}")
         for place, symbol in enumerate(given[array] if array in "qpr" else ()):
-            letter = letters[symbol.name]
-            unit = f" [{letter.unit}]" if letter.unit else ""
-            lines.append(f"    {array}[{place}] {letter.name}{unit}{f': {letter.doc}' if letter.doc else ''}")
-    return lines + [str(said) for name, said in letters.renamed.items() if name in letters]
+            symbol = nomenclature[symbol.name]
+            unit = f" [{symbol.unit}]" if symbol.unit else ""
+            lines.append(f"    {array}[{place}] {symbol.name}{unit}{f': {symbol.doc}' if symbol.doc else ''}")
+    return lines + [str(said) for name, said in nomenclature.renamed.items() if name in nomenclature]
 
 
 def _function(
@@ -88,16 +88,16 @@ def _function(
     spelling: Language,
 ) -> str:
     used, named = symbols(*trees), dict[Sym, str]()
-    for letter in (each for each in places if each in used):
-        named[letter] = "t" if places[letter] == "t" else _identifier(letter, set(named.values()))
+    for symbol in (each for each in places if each in used):
+        named[symbol] = "t" if places[symbol] == "t" else _identifier(symbol, set(named.values()))
     writer = Writer(spelling, named)
     results = writer.write(trees)
-    loaded = [(name, places[letter]) for letter, name in named.items() if name != places[letter]]
+    loaded = [(name, places[symbol]) for symbol, name in named.items() if name != places[symbol]]
     return spelling.function(name, arrays, loaded + writer.steps, results, shape)
 
 
-def _identifier(letter: Sym, taken: set[str]) -> str:
-    made = re.sub(r"\W", "_", ascii_name(letter.name), flags=re.ASCII) + ("", "_dot", "_ddot")[letter.dots]
+def _identifier(symbol: Sym, taken: set[str]) -> str:
+    made = re.sub(r"\W", "_", ascii_name(symbol.name), flags=re.ASCII) + ("", "_dot", "_ddot")[symbol.dots]
     made = f"_{made}" if made[0].isdigit() else made
     # s1, s2 … are the names of shared subexpressions.
     while made in taken or made in _RESERVED or re.fullmatch(r"s\d+", made):

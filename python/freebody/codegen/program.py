@@ -21,4 +21,4 @@ def program(source: CompiledModel, state: State, language: str = "python") -> st
         raise CannotGenerate(
             "loops and motions ask more of the accelerations than their loads can give; release a joint or a motion"
         )
-    return generate(found.functions(), found.letters, language) + LANGUAGES[language].solvers(found)
+    return generate(found.functions(), found.nomenclature, language) + LANGUAGES[language].solvers(found)

@@ -88,6 +88,6 @@ def _tuple(word: str, systems: Systems, names: tuple[str, ...]) -> str:
 
 
 def _comment(systems: Systems, name: str) -> str:
-    letter = systems.letters[name]
-    words = " ".join(word for word in (f"[{letter.unit}]" if letter.unit else "", letter.doc) if word)
+    symbol = systems.nomenclature[name]
+    words = " ".join(word for word in (f"[{symbol.unit}]" if symbol.unit else "", symbol.doc) if word)
     return f"  # {words}" if words else ""

@@ -21,7 +21,7 @@ class CannotGenerate(ValueError):
 
 
 def check(source: CompiledModel, free: FreeBodies) -> None:
-    """Raises ``CannotGenerate`` for what switches or has no letters, and where reactions are not determined."""
+    """Raises ``CannotGenerate`` for what switches or has no symbols, and where reactions are not determined."""
     spec = source.spec
     if not source.metadata["coordinates"]:
         raise CannotGenerate("the mechanism has no coordinates, so there is nothing to generate; solve() gives its reactions")

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from freebody.core import CompiledModel, State
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.letters import Letters
 from freebody.symbolic.linear import Linear, linear_in
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.tree import ZERO, Sym, Tree, negative, read
 
 Matrix = tuple[tuple[Tree, ...], ...]
@@ -24,7 +24,7 @@ class Systems:
     ``balances`` force along x and y, and moment about the mass centre, body by body. ``values`` are those of the parameters."""
 
     name: str
-    letters: Letters
+    nomenclature: Nomenclature
     values: Mapping[str, float]
     moving: tuple[Linear, ...]
     rows: tuple[Linear, ...]
@@ -33,12 +33,12 @@ class Systems:
     @property
     def coordinates(self) -> tuple[str, ...]:
         """Names, in the order of the state."""
-        return tuple(self.letters.of_kind("coordinate"))
+        return tuple(self.nomenclature.of_kind("coordinate"))
 
     @property
     def loads(self) -> tuple[str, ...]:
         """Names of what is unknown besides the accelerations: all reactions, and what motions take."""
-        return tuple(self.letters.of_kind("unknown"))
+        return tuple(self.nomenclature.of_kind("unknown"))
 
     @property
     def multipliers(self) -> tuple[str, ...]:
@@ -73,15 +73,17 @@ def systems(source: CompiledModel, state: State) -> Systems:
     """The equations of a mechanism near a state. Raises ``MotionError``."""
     subject = SymbolicState(source, state)
     given = {item["name"]: item["value"] for item in source.spec["parameters"]}
-    docs = {name: _formula(value, given) for name, value in given.items()}  # and of loads without the symbol, which stands beside it
-    stated = {name: replace(x, doc=docs.get(name, x.doc.removesuffix(f" ({name})"))) for name, x in subject.letters.items()}
-    letters = Letters(stated, subject.letters.renamed)
-    unknowns = {*(Sym(name, 2) for name in subject.names), *map(Sym, letters.of_kind("unknown"))}
+    docs = {
+        name: _formula(value, given) for name, value in given.items()
+    }  # and of loads without the symbol, which stands beside it
+    stated = {name: replace(x, doc=docs.get(name, x.doc.removesuffix(f" ({name})"))) for name, x in subject.nomenclature.items()}
+    nomenclature = Nomenclature(stated, subject.nomenclature.renamed)
+    unknowns = {*(Sym(name, 2) for name in subject.names), *map(Sym, nomenclature.of_kind("unknown"))}
     moving = subject.ask([{"ask": "lagrange"}])[0]["equations"]
     return Systems(
         source.name,
-        letters,
-        {name: subject.values[Sym(name)] for name in letters.of_kind("parameter", "constant")},
+        nomenclature,
+        {name: subject.values[Sym(name)] for name in nomenclature.of_kind("parameter", "constant")},
         tuple(linear_in(read(each["residual"]), unknowns) for each in moving),
         tuple(row.linear for row in subject.rows),
         tuple(balance.linear for balance in subject.of_bodies()),
@@ -89,7 +91,7 @@ def systems(source: CompiledModel, state: State) -> Systems:
 
 
 def _matrix(equations: Sequence[Linear], unknowns: Sequence[Sym]) -> Matrix:
-    return tuple(tuple(equation.coefficients.get(letter, ZERO) for letter in unknowns) for equation in equations)
+    return tuple(tuple(equation.coefficients.get(symbol, ZERO) for symbol in unknowns) for equation in equations)
 
 
 def _formula(value: str | float, names: Collection[str]) -> str:

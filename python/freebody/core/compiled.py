@@ -121,14 +121,14 @@ class CompiledModel:
         """All that acts on each body."""
         return FreeBodies.read(self.mechanism.free_bodies(state.arrays))
 
-    def letters(
+    def symbolic_answers(
         self,
         state: State,
         questions: Sequence[Mapping[str, Any]],
         at_rest: bool = False,
         numbers: Mapping[str, float] | None = None,
     ) -> SymbolicAnswers:
-        """What is asked of a state symbolically; crates/freebody/src/symbolic/query.rs lists the questions. Letters among
+        """What is asked of a state symbolically; crates/freebody/src/symbolic/query.rs lists the questions. Symbols among
         ``numbers`` are these numbers."""
         setting = {"at_rest": at_rest, "numbers": dict(numbers or {})}
         return SymbolicAnswers.read(self.mechanism.letters(state.arrays, setting, list(questions)))

@@ -68,11 +68,11 @@ class Solution:
 
 @dataclass(frozen=True)
 class SymbolicAnswers:
-    """What the core answers symbolically: one answer for each question, trees as nested lists; ``letters``: kind, value and unit of
-    every letter by name; ``laws``: of loads that follow from others by a law that is not linear."""
+    """What the core answers symbolically: one answer for each question, trees as nested lists; ``symbols``: kind, value and unit of
+    every symbol by name; ``laws``: of loads that follow from others by a law that is not linear."""
 
     answers: list[Any]
-    letters: Mapping[str, dict[str, Any]]
+    symbols: Mapping[str, dict[str, Any]]
     laws: Sequence[Mapping[str, Any]]
 
     @classmethod

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 from freebody.symbolic.formula import Formula
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
@@ -152,7 +152,7 @@ def listed(sides: Iterable[Side]) -> list[str | Side]:
     return [piece for i, side in enumerate(sides) for piece in ([", ", side] if i else [side])]
 
 
-def letters_table(letters: Letters) -> Table:
-    """What the letters mean, for the head of a derivation."""
-    rows = [([Sym(letter.name)], letter.doc, letter.unit) for letter in letters.values()]
+def nomenclature_table(nomenclature: Nomenclature) -> Table:
+    """What the symbols mean, for the head of a derivation."""
+    rows = [([Sym(entry.name)], entry.doc, entry.unit) for entry in nomenclature.values()]
     return Table(("symbol", "what it is", "unit"), rows)

@@ -12,17 +12,17 @@ from freebody.document.rendering import FORMATS
 from freebody.document.rendering.html import page
 from freebody.document.rendering.text import Text
 from freebody.formats import write
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Tree
 
 
 @dataclass(frozen=True)
 class Document:
-    """Blocks in order, and what the letters in them mean."""
+    """Blocks in order, and what the symbols in them mean."""
 
     blocks: Sequence[Block]
-    letters: Letters = field(default_factory=Letters)
+    letters: Nomenclature = field(default_factory=Nomenclature)
 
     def printed(self, kind: str, beside: str = "") -> str:
         """In an output format, by the ending of its files; figures are files whose names begin with ``beside``, words where that is
@@ -54,13 +54,13 @@ class Document:
         return self.printed("html")
 
     def json(self) -> str:
-        """Every block with its kind and fields, trees as JSON and printed, and the letters."""
+        """Every block with its kind and fields, trees as JSON and printed, and the symbols."""
         return self.printed("json")
 
     def sympy(self, *, time: bool = True) -> list[Any]:
         """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
 
-        With ``time`` coordinates are functions of t, else letters, rates and accelerations are symbols."""
+        With ``time`` coordinates are functions of t, else plain symbols, as rates and accelerations are."""
         def matrix(rows: Sequence[Sequence[Tree]]) -> Any:
             return sympy.Matrix([[to_sympy(entry, self.letters, time=time) for entry in row] for row in rows])
 

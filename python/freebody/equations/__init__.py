@@ -15,13 +15,13 @@ from freebody.document.blocks import (
     Table,
     Vector,
     Written,
-    letters_table,
+    nomenclature_table,
 )
 from freebody.document.document import Document
 from freebody.equations.solve import Singular, TooLarge, coefficients, limit, linear_system, solve, solve_equations, substitute
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, stability
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.printers.text import equation_text, text
 from freebody.symbolic.printers.typeset import equation_latex, latex, matrix_latex
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
@@ -36,16 +36,16 @@ __all__ = [
     "Figure",
     "Fn",
     "Heading",
-    "Letter",
-    "Letters",
     "MatrixEquation",
     "Mul",
+    "Nomenclature",
     "Num",
     "Paragraph",
     "Pow",
     "Singular",
     "Stability",
     "Sym",
+    "SymbolEntry",
     "Table",
     "TooLarge",
     "Tree",
@@ -60,10 +60,10 @@ __all__ = [
     "from_sympy",
     "generate",
     "latex",
-    "letters_table",
     "limit",
     "linear_system",
     "matrix_latex",
+    "nomenclature_table",
     "read",
     "solve",
     "solve_equations",

@@ -56,7 +56,7 @@ _SEED = 5
 
 @dataclass(frozen=True)
 class Answers(Document):
-    """What was ``wanted``, by name the letters, as trees, ``values[name]``, SI; ``limits[name, letter]`` where limits were asked for; ``named`` letters of theirs,
+    """What was ``wanted``, by name the symbols, as trees, ``values[name]``, SI; ``limits[name, symbol]`` where limits were asked for; ``named`` symbols of theirs,
     each by those before; ``print`` shows the
     equations that give it. ``checked``: at how many states it was held against the numbers."""
 
@@ -95,7 +95,7 @@ def solve_in_letters(
 
     ``wanted``: coordinates (their accelerations), components of reactions (``pivot.Fx``), motions; all accelerations by default.
     ``at_rest``: all rates are 0, as just after release. ``set``: coordinates and parameters as quantities, ``"45 deg"``, or
-    parameters as other parameters, ``{"m2": "m1"}``. ``limits``: letters and what they go to, ``{"m2": "inf", "m1": 0}``.
+    parameters as other parameters, ``{"m2": "m1"}``. ``limits``: symbols and what they go to, ``{"m2": "inf", "m1": 0}``.
     What switches (contacts, arms of laws) is as it is at that start. Every answer is held against numbers at the start and at
     states near by. Raises ``TooLarge``, ``Unconfirmed``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
     chosen = given(mechanism, set or {}, limits or {})
@@ -114,8 +114,8 @@ def solve_in_letters(
 
 
 def _require_limits(subject: SymbolicState, chosen: Substitutions, limits: Mapping[str, Any]) -> None:
-    """Raises ``ValueError`` for a limit of what is no letter or set, or to what is negative."""
-    known = subject.letters.of_kind("parameter", "constant", "coordinate", "time")
+    """Raises ``ValueError`` for a limit of what is no symbol or set, or to what is negative."""
+    known = subject.nomenclature.of_kind("parameter", "constant", "coordinate", "time")
     for name, to in limits.items():
         if name not in known:
             raise ValueError(f"{name!r} has no limit, as it is no symbol; there are {', '.join(known)}")
@@ -139,7 +139,7 @@ def _ways(subject: SymbolicState, chosen: Substitutions, limits: Collection[str]
     ratios_too = [(chosen, True)] if subject.rows and not limits else []
     at_start = [(replace(chosen, trees=natural | dict(chosen.trees), at_start=frozenset(natural)), False)] if natural else []
     yield from at_start + ratios_too if subject.source.metadata["limits"] else ratios_too + at_start
-    lengths = [n for n in subject.letters.geometric() if n not in settled]
+    lengths = [n for n in subject.nomenclature.geometric() if n not in settled]
     if lengths:
         measured = chosen.and_numbers(subject.with_numbers(lengths).numbers or {})
         yield measured, False
@@ -155,7 +155,7 @@ def _answers(
     patience: float,
     with_ratios: bool,
 ) -> Answers:
-    letters, wanted = subject.letters, {name: _letter(subject, name) for name in names}
+    nomenclature, wanted = subject.nomenclature, {name: _symbol(subject, name) for name in names}
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
     states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
     held = held_still(subject, chosen, states)
@@ -177,15 +177,15 @@ def _answers(
             made += _stated(subject, system, chosen, labels, solution)
             found |= solution
     values = {name: ratio.acceleration(x.name) if ratio and x.dots else found[x] for name, x in wanted.items()}
-    named = ratio.letters() if ratio else {}
+    named = ratio.definitions() if ratio else {}
     checked = _check(subject, chosen, {x: values[name] for name, x in wanted.items()}, named)
-    at = {(n, x): limit(tree, x, _target(to), letters) for n, tree in values.items() for x, to in limits.items()}
+    at = {(n, x): limit(tree, x, _target(to), nomenclature) for n, tree in values.items() for x, to in limits.items()}
     made += [Heading("Limits")] if at else []
-    for letter, to in limits.items():
-        goes = [Sym(letter), f" → {'∞' if str(to) == 'inf' else to}"]
-        made += [Equation(x, shown(at[n, letter]), "" if i else goes) for i, (n, x) in enumerate(wanted.items())]
-    stated = tuple(lettered(block, letters) for block in made)
-    return Answers(stated, letters, values=values, wanted=wanted, named=named, limits=at, checked=checked)
+    for symbol, to in limits.items():
+        goes = [Sym(symbol), f" → {'∞' if str(to) == 'inf' else to}"]
+        made += [Equation(x, shown(at[n, symbol]), "" if i else goes) for i, (n, x) in enumerate(wanted.items())]
+    stated = tuple(lettered(block, nomenclature) for block in made)
+    return Answers(stated, nomenclature, values=values, wanted=wanted, named=named, limits=at, checked=checked)
 
 
 def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
@@ -217,7 +217,7 @@ def _held(subject: SymbolicState, held: Substitutions) -> list[Block]:
 def _stated(
     subject: SymbolicState, system: SufficientSet, chosen: Substitutions, labels: dict[str, str], solution: Mapping[Sym, Tree]
 ) -> list[Block]:
-    """The balances that were not told before, numbered on; what is closed; what letters are by others, as parameters that are defined
+    """The balances that were not told before, numbered on; what is closed; what symbols are by others, as parameters that are defined
     so and what follows from what is closed; and the solution."""
     made: list[Block] = []
     for stated in system.stated:
@@ -238,8 +238,8 @@ def _stated(
 
 
 def _solved(subject: SymbolicState, system: SufficientSet, chosen: Substitutions, patience: float) -> dict[Sym, Tree]:
-    letters, measured, n = subject.letters, chosen.measured, len(system.linear)
-    unknowns = sorted(system.unknowns, key=lambda x: (x.dots == 0, letters.place(x.name)))
+    nomenclature, measured, n = subject.nomenclature, chosen.measured, len(system.linear)
+    unknowns = sorted(system.unknowns, key=lambda x: (x.dots == 0, nomenclature.place(x.name)))
     rows = [[*(each.coefficients.get(x, ZERO) for x in unknowns), negative(each.rest)] for each in system.linear]
     if n > (MOST_MEASURED if measured else MOST_EQUATIONS):
         raise TooLarge(f"it takes {n} equations together, too many for a symbolic answer; ask for numbers")
@@ -249,13 +249,13 @@ def _solved(subject: SymbolicState, system: SufficientSet, chosen: Substitutions
     if not measured:
         known = distances(chosen.put(row.value) for row in subject.rows if row.value is not None and row.kind != "motion")
         rows = [[with_plain_roots(entry, known, subject.values) for entry in row] for row in rows]
-    found = solve([row[:-1] for row in rows], [row[-1] for row in rows], letters, patience=patience)
+    found = solve([row[:-1] for row in rows], [row[-1] for row in rows], nomenclature, patience=patience)
     solution = zip(unknowns, found, strict=True)
     return {x: with_positive_divisors(tree, subject.values) for x, tree in solution if x in system.gives}
 
 
 def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
-    """A fraction whose divisors are positive at given values of the letters."""
+    """A fraction whose divisors are positive at given values of the symbols."""
     if isinstance(tree, Add):
         return Add(tuple(with_positive_divisors(term, values) for term in tree.terms))
     if not isinstance(tree, Mul):
@@ -266,8 +266,8 @@ def with_positive_divisors(tree: Tree, values: Mapping[Sym, float]) -> Tree:
     return mul(MINUS_ONE, made) if len(turned) % 2 else made
 
 
-def _letter(subject: SymbolicState, name: str) -> Sym:
-    """The letter of something wanted."""
+def _symbol(subject: SymbolicState, name: str) -> Sym:
+    """The symbol of something wanted."""
     plain = name.removeprefix("accel(").removesuffix(")")
     if plain in subject.names:
         return Sym(plain, 2)

@@ -35,19 +35,19 @@ def followed(
 
 
 def solved(given: Sequence[Tree], free: Collection[str], dots: int, values: Mapping[Sym, float]) -> dict[Sym, Tree]:
-    """Letters of coordinates, or of their rates, in which expressions that vanish are linear, by the others; one of each."""
+    """Symbols of coordinates, or of their rates, in which expressions that vanish are linear, by the others; one of each."""
     found: dict[Sym, Tree] = {}
     for value in given:
         rest = replace(value, found)
         if operations(rest) > MOST_OPERATIONS or (one := _one(to_sympy(rest), free, dots, values)) is None:
             continue
-        letter, tree = one
-        found = {x: replace(known, {letter: tree}) for x, known in found.items()} | {letter: tree}
+        symbol, tree = one
+        found = {x: replace(known, {symbol: tree}) for x, known in found.items()} | {symbol: tree}
     return found
 
 
 def _one(value: Any, free: Collection[str], dots: int, values: Mapping[Sym, float]) -> tuple[Sym, Tree] | None:
-    """The letter with the plainest factor that depends on no place and no rate, and what it is."""
+    """The symbol with the plainest factor that depends on no place and no rate, and what it is."""
     moving = {sympy.Symbol(name + "'" * n) for name in free for n in (0, 1)}
     asked = sorted(value.free_symbols & {sympy.Symbol(name + "'" * dots) for name in free}, key=str)
     factors = {x: value.diff(x) for x in asked}
@@ -67,7 +67,7 @@ def _shortly(tree: Tree) -> Tree:
 
 def held_still(subject: SymbolicState, chosen: Substitutions, states: Sequence[FreeBodies]) -> Substitutions:
     """The coordinates that nothing lets move, at all ``states``, as ``still``, and their places where these do not depend on any
-    letter but those ``chosen``; and what ``follow`` from others."""
+    symbol but those ``chosen``; and what ``follow`` from others."""
     names = subject.names
     fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Substitutions({}, still=frozenset(names)))]
     free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
@@ -98,7 +98,7 @@ def _is_fixed(row: Row, rest: Substitutions) -> bool:
 def _closing(
     closed: Sequence[Tree], places: Mapping[str, Tree], moving: Sequence[str], numbers: Mapping[Sym, float]
 ) -> Mapping[str, Tree]:
-    """Of these places those with which everything that they are in vanishes, whatever the letters are, or tells what is moving."""
+    """Of these places those with which everything that they are in vanishes, whatever the symbols are, or tells what is moving."""
     there = Substitutions(places)
     values = [there.put(value) for value in closed]
     found = solved(values, moving, 0, numbers)

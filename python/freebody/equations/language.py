@@ -63,8 +63,8 @@ def _tree(of: Node) -> Tree:
             return power(add(*(power(_tree(side), 2) for side in sides)), "1/2")
         case Fn("tan", (angle,)):
             return over(Fn("sin", (_tree(angle),)), Fn("cos", (_tree(angle),)))
-        case Fn(name, (Sym(letter),)) if name in _DOTS:
-            return Sym(letter, _DOTS[name])
+        case Fn(name, (Sym(symbol),)) if name in _DOTS:
+            return Sym(symbol, _DOTS[name])
         case Fn(name, arguments) if name in _SAME:
             return Fn(name, tuple(map(_tree, arguments)))
     raise NoForm("the expression has no symbolic form")
@@ -72,7 +72,7 @@ def _tree(of: Node) -> Tree:
 
 def definitions(source: CompiledModel, free: Collection[str]) -> dict[str, Tree]:
     """Every parameter that is defined by others, by those that are not or are ``free``; one without a symbolic form, as a least
-    of two, stays a letter."""
+    of two, stays a symbol."""
     found: dict[str, Tree] = {}
     for parameter in source.spec["parameters"]:
         name, value = parameter["name"], parameter["value"]

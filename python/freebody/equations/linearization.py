@@ -62,8 +62,8 @@ class Held:
 
 
 def linearised(subject: SymbolicState, put: Mapping[str, Tree]) -> Linearised:
-    """The linear equations at the state of a subject, some letters being as ``put``. Loads of loops and motions stay letters."""
-    stated = replace(subject, at_rest=False).ask([{"ask": "linear", "at": {}}])[0]  # rates must be letters for their slopes
+    """The linear equations at the state of a subject, some symbols being as ``put``. Loads of loops and motions stay symbols."""
+    stated = replace(subject, at_rest=False).ask([{"ask": "linear", "at": {}}])[0]  # rates must be symbols for their slopes
     names = tuple(subject.names)
     words = zip(*(stated[word] for word in ("M", "C", "K", "left")), strict=True)
     rows = [[_put(read(entry), put) for entry in (*m, *c, *k, left)] for m, c, k, left in words]
@@ -80,7 +80,7 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     In x = N z + O(z²) the second order takes no part: it meets the balances, which hold at rest with the reactions λ of rest. These
     stand in K with the slopes of their directions, −Σ λ ∂²g/∂q². With Lᵀ B = 0 for the directions B of the reactions (L = N where
     they do no work) the equations are Lᵀ (M N z̈ + C N ż + K N z) = 0. Raises ``TooLarge``, ``Singular``."""
-    names, letters = found.coordinates, subject.letters
+    names, nomenclature = found.coordinates, subject.nomenclature
     laws = [
         row
         for row in replace(subject, at_rest=False).rows
@@ -104,7 +104,7 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     def perturbations(inner: Matrix, outer: Matrix, follows: Sequence[int], chosen: Sequence[int]) -> Matrix:
         """N of J N = 0, a row for each coordinate, from the columns of J that follow and those chosen."""
         columns = [[negative(row[c]) for row in outer] for c in range(len(chosen))]
-        solved = [solve(inner, column, letters, patience=PATIENCE) if inner else [] for column in columns]
+        solved = [solve(inner, column, nomenclature, patience=PATIENCE) if inner else [] for column in columns]
         return [[column[follows.index(i)] if i in follows else ONE if chosen[c] == i else ZERO for c, column in enumerate(solved)]
                 for i in range(len(names))]  # fmt: skip
 
@@ -112,7 +112,7 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     inner = _part(loading, bearing, acting)
     turned, others = ([list(column) for column in zip(*part, strict=True)] for part in (inner, _part(loading, bare, acting)))
     tests = perturbations(turned, others, bearing, bare)
-    rests = solve(inner, [parts[i].rest for i in bearing], letters, patience=PATIENCE)
+    rests = solve(inner, [parts[i].rest for i in bearing], nomenclature, patience=PATIENCE)
     reactions = dict.fromkeys(loads, ZERO) | dict(zip([loads[i] for i in acting], rests, strict=True))
     stiffness = [[_put(entry, {x.name: tree for x, tree in reactions.items()}) for entry in row] for row in found.stiffness]
     balances = [_between(tests, matrix, ways, subject) if bare else [] for matrix in (found.mass, found.damping, stiffness)]
@@ -125,10 +125,10 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     return Held([slopes[i] for i in asked], follow, reactions, undecided, equations, tuple(law.name for law in laws))
 
 
-def _slope(row: Row, letter: Sym, put: Mapping[str, Tree]) -> Tree:
-    """How what a row asks changes by a letter, at rest."""
+def _slope(row: Row, symbol: Sym, put: Mapping[str, Tree]) -> Tree:
+    """How what a row asks changes by a symbol, at rest."""
     expression = to_sympy(with_exact_numbers(row.acceleration))
-    slope = expression.diff(sympy.Symbol(letter.name + "'" * letter.dots))
+    slope = expression.diff(sympy.Symbol(symbol.name + "'" * symbol.dots))
     still = {x: 0 for x in slope.free_symbols if x.name.endswith("'")}
     return _put(from_sympy(slope.subs(still)), put)
 
@@ -179,7 +179,7 @@ def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: SymbolicState
     a, m, b = (sympy.Matrix([[to_sympy(entry) for entry in row] for row in part]) for part in (left, matrix, right))
     product = a.T * m * b
     if all(entry.count_ops() <= MOST_OPERATIONS for entry in product):
-        made = [[presented(entry, subject.letters, patience=PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
+        made = [[presented(entry, subject.nomenclature, patience=PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
         if all(operations(entry) <= READABLE for row in made for entry in row):
             return made
     raise TooLarge("the linear equations of what is left free are too long symbolically")

@@ -8,7 +8,7 @@ from typing import Any
 
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import is_measured, ratio, rational
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Sym, Tree, add, minus, mul, symbols
@@ -35,12 +35,16 @@ class Singular(ValueError):
 
 
 def solve(
-    matrix: Sequence[Sequence[Tree]], right: Sequence[Tree], letters: Letters | None = None, *, patience: float = PATIENCE
+    matrix: Sequence[Sequence[Tree]],
+    right: Sequence[Tree],
+    nomenclature: Nomenclature | None = None,
+    *,
+    patience: float = PATIENCE,
 ) -> list[Tree]:
     """The solution x of A x = b symbolically, each entry in the shortest form found.
 
     ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
-    values of the letters is ``Singular``. The solution is held against the system at random values."""
+    values of the symbols is ``Singular``. The solution is held against the system at random values."""
     if any(len(row) != len(right) for row in (matrix, *matrix)):
         raise ValueError("A x = b needs as many equations as unknowns")
 
@@ -50,18 +54,22 @@ def solve(
     if len(right) > MOST_UNKNOWNS and not numeric:
         many = f"{len(right)} unknowns are too many for a symbolic answer (at most {MOST_UNKNOWNS})"
         raise TooLarge(f"{many}; ask for numbers, or for a smaller set of equations")
-    found = _solved_measured(a, b) if numeric else [presented(entry, letters, patience=patience) for entry in _solved(a, b)]
+    found = _solved_measured(a, b) if numeric else [presented(entry, nomenclature, patience=patience) for entry in _solved(a, b)]
     if not all(equal(add(*map(mul, row, found)), entry) for row, entry in zip(matrix, right, strict=True)):
         raise Unconfirmed("the symbolic answer does not satisfy the equations at random values; take the numbers instead")
     return found
 
 
 def solve_equations(
-    equations: Sequence[tuple[Tree, Tree]], unknowns: Sequence[Sym], letters: Letters | None = None, *, patience: float = PATIENCE
+    equations: Sequence[tuple[Tree, Tree]],
+    unknowns: Sequence[Sym],
+    nomenclature: Nomenclature | None = None,
+    *,
+    patience: float = PATIENCE,
 ) -> dict[Sym, Tree]:
     """The unknowns from equations left = right that are linear in them."""
     matrix, right = linear_system(equations, unknowns)
-    return dict(zip(unknowns, solve(matrix, right, letters, patience=patience), strict=True))
+    return dict(zip(unknowns, solve(matrix, right, nomenclature, patience=patience), strict=True))
 
 
 def linear_system(equations: Sequence[tuple[Tree, Tree]], unknowns: Sequence[Sym]) -> tuple[list[list[Tree]], list[Tree]]:
@@ -72,39 +80,39 @@ def linear_system(equations: Sequence[tuple[Tree, Tree]], unknowns: Sequence[Sym
 
 def coefficients(tree: Tree, unknowns: Sequence[Sym]) -> tuple[list[Tree], Tree]:
     """The factors of the unknowns in a linear expression, and what is left without them."""
-    letters = [to_sympy(unknown) for unknown in unknowns]
+    names = [to_sympy(unknown) for unknown in unknowns]
     expanded = sympy.expand(to_sympy(tree))
-    factors = [expanded.diff(letter) for letter in letters]
+    factors = [expanded.diff(name) for name in names]
     for unknown, factor in zip(unknowns, factors, strict=True):
-        if factor.free_symbols & set(letters):
+        if factor.free_symbols & set(names):
             raise ValueError(f"the expression is not linear in {unknown.name}; ask for numbers, or linearise it first")
-    rest = expanded.subs(dict.fromkeys(letters, 0))
+    rest = expanded.subs(dict.fromkeys(names, 0))
     return [from_sympy(sympy.factor_terms(factor)) for factor in factors], from_sympy(rest)
 
 
-def limit(tree: Tree, letter: str, to: float | Fraction = 0, letters: Letters | None = None) -> Tree:
-    """The limit as a letter goes to a value (from above) or to infinity, the other letters being positive.
+def limit(tree: Tree, symbol: str, to: float | Fraction = 0, nomenclature: Nomenclature | None = None) -> Tree:
+    """The limit as a symbol goes to a value (from above) or to infinity, the other symbols being positive.
 
     An infinite limit is the number ``inf``."""
     names = {symbol.name for symbol in symbols(tree) if not symbol.dots}
     expression = to_sympy(tree, positive=names, real=True)
     target = sympy.oo if to == float("inf") else -sympy.oo if to == -float("inf") else sympy.nsimplify(to)
-    found = sympy.limit(expression, sympy.Symbol(letter, positive=True), target, "+")
+    found = sympy.limit(expression, sympy.Symbol(symbol, positive=True), target, "+")
     if found.has(sympy.AccumBounds):
-        raise ValueError(f"there is no limit for {letter} to {to}: it goes to and fro without end; put a number for {letter}")
+        raise ValueError(f"there is no limit for {symbol} to {to}: it goes to and fro without end; put a number for {symbol}")
     if isinstance(found, sympy.Limit) or found.has(sympy.nan):
-        raise ValueError(f"no symbolic limit was found for {letter} to {to}; set some symbols to numbers")
-    return from_sympy(found) if found.is_infinite else presented(found, letters, patience=PATIENCE)
+        raise ValueError(f"no symbolic limit was found for {symbol} to {to}; set some symbols to numbers")
+    return from_sympy(found) if found.is_infinite else presented(found, nomenclature, patience=PATIENCE)
 
 
-def substitute(tree: Tree, values: Mapping[str, Tree], letters: Letters | None = None) -> Tree:
-    """The expression at given values of letters, in the shortest form found: θ = π/4, m₂ = m₁."""
+def substitute(tree: Tree, values: Mapping[str, Tree], nomenclature: Nomenclature | None = None) -> Tree:
+    """The expression at given values of symbols, in the shortest form found: θ = π/4, m₂ = m₁."""
     chosen = {sympy.Symbol(name): to_sympy(value) for name, value in values.items()}
-    return presented(to_sympy(tree).subs(chosen, simultaneous=True), letters, patience=PATIENCE)
+    return presented(to_sympy(tree).subs(chosen, simultaneous=True), nomenclature, patience=PATIENCE)
 
 
 def _solved(a: Any, b: Any) -> list[Any]:
-    """By exact elimination over the rational functions of the letters, sines and cosines."""
+    """By exact elimination over the rational functions of the symbols, sines and cosines."""
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
         raise TooLarge("the equations are too long for a symbolic answer; set some symbols to numbers")
     shared, (a, b) = _plain(a, b)
@@ -133,7 +141,7 @@ def _solved_measured(a: Any, b: Any) -> list[Tree]:
 
 
 def _plain(*matrices: Any) -> tuple[dict, list[Any]]:
-    """Functions and roots replaced by letters of their own, so that the entries are rational."""
+    """Functions and roots replaced by symbols of their own, so that the entries are rational."""
     atoms = {atom for matrix in matrices for atom in matrix.atoms(sympy.Function, sympy.Pow)}
     found = {atom for atom in atoms if not (atom.is_Pow and atom.exp.is_Integer)}
     outer = sorted(found, key=lambda f: (-f.count_ops(), str(f)))

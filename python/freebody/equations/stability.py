@@ -9,7 +9,7 @@ from typing import Any
 
 from freebody.equations.solve import TooLarge
 from freebody.symbolic.decimals import is_measured
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul, number, power
@@ -23,7 +23,7 @@ MOST_ROWS = 4
 
 @dataclass(frozen=True)
 class Eigenvalue:
-    """real + i·imaginary, ``count`` times. ``imaginary`` is zero where the value is real, or where the letters decide whether
+    """real + i·imaginary, ``count`` times. ``imaginary`` is zero where the value is real, or where the symbols decide whether
     a root in ``real`` is of something positive."""
 
     real: Tree
@@ -43,12 +43,12 @@ class Stability:
     never: bool = False
 
 
-def characteristic(matrix: Sequence[Sequence[Tree]], letters: Letters | None = None) -> list[Tree]:
+def characteristic(matrix: Sequence[Sequence[Tree]], nomenclature: Nomenclature | None = None) -> list[Tree]:
     """The coefficients of det(s I − A), that of the highest power, 1, first."""
-    return [presented(factor, letters, patience=PATIENCE) for factor in _polynomial(matrix, ()).all_coeffs()]
+    return [presented(factor, nomenclature, patience=PATIENCE) for factor in _polynomial(matrix, ()).all_coeffs()]
 
 
-def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[tuple[list[Tree], int]]:
+def factors(polynomial: Sequence[Tree], nomenclature: Nomenclature | None = None) -> list[tuple[list[Tree], int]]:
     """The factors of a polynomial, each by its coefficients, the first being 1, and how often it is there; roots of 0 first.
 
     With measured numbers only the roots of 0 are taken out."""
@@ -63,13 +63,13 @@ def factors(polynomial: Sequence[Tree], letters: Letters | None = None) -> list[
     s = sympy.Dummy("s")
     above, _ = sympy.fraction(sympy.together(sympy.Poly(expressions, s).as_expr()))
     found = [(sympy.Poly(factor, s), count) for factor, count in sympy.factor_list(above)[1] if factor.has(s)]
-    return made + [([presented(c / p.LC(), letters, patience=PATIENCE) for c in p.all_coeffs()], count) for p, count in found]
+    return made + [([presented(c / p.LC(), nomenclature, patience=PATIENCE) for c in p.all_coeffs()], count) for p, count in found]
 
 
 def eigenvalues(
-    matrix: Sequence[Sequence[Tree]], letters: Letters | None = None, *, positive: Collection[str] = ()
+    matrix: Sequence[Sequence[Tree]], nomenclature: Nomenclature | None = None, *, positive: Collection[str] = ()
 ) -> list[Eigenvalue]:
-    """The symbolic eigenvalues, all letters being real and those named ``positive`` positive.
+    """The symbolic eigenvalues, all symbols being real and those named ``positive`` positive.
 
     At most 4 rows, and of cubic and quartic polynomials only those that factor or have only even powers; else ``TooLarge``."""
     polynomial = _polynomial(matrix, positive)
@@ -78,18 +78,18 @@ def eigenvalues(
     found = sympy.roots(polynomial, cubics=False, quartics=False)
     if sum(found.values()) != polynomial.degree():
         raise TooLarge("these eigenvalues have no short symbolic form; put numbers, or ask for the stability conditions")
-    made = [_eigenvalue(root, count, letters) for root, count in found.items()]
+    made = [_eigenvalue(root, count, nomenclature) for root, count in found.items()]
     return sorted(made, key=lambda value: (str(value.imaginary), str(value.real)))
 
 
 def stability(
-    coefficients: Sequence[Tree], letters: Letters | None = None, *, positive: Collection[str] = (), symmetric: bool = False
+    coefficients: Sequence[Tree], nomenclature: Nomenclature | None = None, *, positive: Collection[str] = (), symmetric: bool = False
 ) -> Stability:
     """When all roots of a polynomial (highest power first, its coefficient positive, order 1 to 4) lie to the left: Routh–Hurwitz.
 
     A polynomial with only even powers has no damping; then it is when all roots are imaginary and distinct. Where it comes from
     ``symmetric`` matrices M and K alone s² is real and equal roots have directions of their own, so they need not be distinct.
-    Conditions that hold because the letters named ``positive`` are so are left out. Gantmacher, *Theory of Matrices* II, XV §6."""
+    Conditions that hold because the symbols named ``positive`` are so are left out. Gantmacher, *Theory of Matrices* II, XV §6."""
     order = len(coefficients) - 1
     if not 1 <= order <= MOST_ROWS:
         raise TooLarge(f"symbolic stability conditions are for polynomials of order 1 to {MOST_ROWS}, not {order}")
@@ -98,7 +98,7 @@ def stability(
     left = _conditions(a, even)[: 2 if even and symmetric else None]
     kept = [found for condition in left if (found := _reduced(condition)) is not None]
     never = any(condition.is_nonpositive for condition in kept)
-    shown = tuple(dict.fromkeys(presented(condition, letters, patience=PATIENCE) for condition in kept))
+    shown = tuple(dict.fromkeys(presented(condition, nomenclature, patience=PATIENCE) for condition in kept))
     return Stability("oscillates" if even else "decays", shown, never)
 
 
@@ -140,11 +140,11 @@ def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> 
     return sympy.Poly([sympy.factor(factor) for factor in polynomial.all_coeffs()], polynomial.gen)
 
 
-def _eigenvalue(root: Any, count: int, letters: Letters | None) -> Eigenvalue:
+def _eigenvalue(root: Any, count: int, nomenclature: Nomenclature | None) -> Eigenvalue:
     real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
         real, imaginary = _apart(root)
-    parts = (_one_root(presented(sympy.radsimp(sympy.simplify(part)), letters, patience=PATIENCE)) for part in (real, imaginary))
+    parts = (_one_root(presented(sympy.radsimp(sympy.simplify(part)), nomenclature, patience=PATIENCE)) for part in (real, imaginary))
     return Eigenvalue(*parts, count)
 
 
@@ -164,11 +164,11 @@ def _one_root(tree: Tree) -> Tree:
     roots = [f for f in tree.factors if isinstance(f, Pow) and abs(f.exponent) == _HALF]
     under = mul(*(power(f.base, 2 * f.exponent) for f in roots))
     size, rest = _front(mul(*(f for f in tree.factors if f not in roots)))
-    inner, letters = _front(under)
+    inner, nomenclature = _front(under)
     if not roots or (len(roots) == 1 and inner == 1):
         return tree
     sign = 1 if size > 0 else -1
-    return mul(number(sign), rest, power(mul(number(size**2 * inner), letters), _HALF))
+    return mul(number(sign), rest, power(mul(number(size**2 * inner), nomenclature), _HALF))
 
 
 def _front(tree: Tree) -> tuple[Fraction, Tree]:

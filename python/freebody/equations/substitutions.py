@@ -1,4 +1,4 @@
-"""What a question sets: letters to exact numbers, ``45 deg`` is π/4, or to other letters."""
+"""What a question sets: symbols to exact numbers, ``45 deg`` is π/4, or to other symbols."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from freebody.solve.perturbed_states import alike
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import exact, shown, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.letters import is_heavy
+from freebody.symbolic.nomenclature import is_heavy
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import PI, ZERO, Sym, Tree, mul, number, replace, symbols
@@ -35,9 +35,9 @@ _NEAR = 0.15
 
 @dataclass(frozen=True)
 class Substitutions:
-    """Letters with what they are set to; ``measured``: lengths and angles among them, because letters would fill pages.
+    """Symbols with what they are set to; ``measured``: lengths and angles among them, because symbols would fill pages.
     ``still``: coordinates whose rates and accelerations are 0. ``defined``: parameters by those that define them. ``follow``:
-    coordinates and rates by the others on which they depend. ``at_start``: letters set to where they start."""
+    coordinates and rates by the others on which they depend. ``at_start``: symbols set to where they start."""
 
     trees: Mapping[str, Tree]
     measured: bool = False
@@ -46,12 +46,12 @@ class Substitutions:
     follow: Mapping[Sym, Tree] = field(default_factory=dict)
     at_start: frozenset[str] = frozenset()
 
-    def is_still(self, letter: Sym) -> bool:
-        """Whether a letter is the rate or acceleration of a coordinate that stands still."""
-        return letter.dots > 0 and letter.name in self.still
+    def is_still(self, symbol: Sym) -> bool:
+        """Whether a symbol is the rate or acceleration of a coordinate that stands still."""
+        return symbol.dots > 0 and symbol.name in self.still
 
     def put(self, tree: Tree) -> Tree:
-        """An expression with the letters replaced, and plain numbers exact."""
+        """An expression with the symbols replaced, and plain numbers exact."""
         new = {Sym(name): value for name, value in self.trees.items()}
         new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
         new |= self.follow
@@ -60,12 +60,12 @@ class Substitutions:
         return from_sympy(to_sympy(replace(made, new))) if made != given or symbols(made) & new.keys() else made
 
     def settled(self) -> dict[str, Tree]:
-        """What is set, and what is defined, by letters that are neither."""
+        """What is set, and what is defined, by symbols that are neither."""
         set_to = {Sym(name): tree for name, tree in self.trees.items()}
         return dict(self.trees) | {name: replace(tree, set_to) for name, tree in self.defined.items()}
 
     def and_numbers(self, numbers: Mapping[str, float]) -> Substitutions:
-        """With more letters set, to measured numbers."""
+        """With more symbols set, to measured numbers."""
         return replaced(self, trees={name: exact(value) for name, value in numbers.items()} | dict(self.trees), measured=True)
 
     def and_held(self, held: Substitutions) -> Substitutions:
@@ -83,7 +83,7 @@ class Substitutions:
         return mechanism.moment(initial=initial, **changes, **moment)[0]
 
     def near(self, subject: SymbolicState, rng: np.random.Generator) -> State | None:
-        """Another state, at rest if the subject is, in which the same letters are set, and what moves does so in the same sense;
+        """Another state, at rest if the subject is, in which the same symbols are set, and what moves does so in the same sense;
         None where it cannot be assembled."""
         source, state, names = subject.source, subject.state, subject.names
         p = self.parameters_near(subject, state, rng)
@@ -133,19 +133,19 @@ class Substitutions:
 
 def given(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()) -> Substitutions:
     """What is set, exactly, and lengths and angles that the model defines by others, but what is ``free``. Raises ``ValueError`` where it is no
-    quantity and no letter."""
+    quantity and no symbol."""
     source = mechanism.source()
     units = {p["name"]: p["unit"] for p in source.metadata["parameters"]}
-    letters, known = [*units], [*units, *(c["name"] for c in source.metadata["coordinates"])]
+    parameters, known = [*units], [*units, *(c["name"] for c in source.metadata["coordinates"])]
     for name in set:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")
     defined = {name: tree for name, tree in definitions(source, {*set, *free}).items() if not is_heavy(units[name])}
     named = {Sym(name): tree for name, tree in defined.items()}
-    return Substitutions({name: replace(_exact(value, letters), named) for name, value in set.items()}, defined=defined)
+    return Substitutions({name: replace(_exact(value, parameters), named) for name, value in set.items()}, defined=defined)
 
 
-def _exact(value: Any, letters: list[str]) -> Tree:
+def _exact(value: Any, parameters: list[str]) -> Tree:
     from freebody.model.errors import ModelProblem
 
     if isinstance(value, int | float | Fraction) and not isinstance(value, bool):
@@ -154,9 +154,9 @@ def _exact(value: Any, letters: list[str]) -> Tree:
         return mul(number(Fraction(found[1]) / 180), Sym(PI))
     if _NUMBER.fullmatch(str(value)):
         return number(Fraction(str(value).strip()))
-    if str(value).strip() in letters:
+    if str(value).strip() in parameters:
         return Sym(str(value).strip())
     try:
         return exact(quantity(str(value), {}))
     except ModelProblem as problem:
-        raise ValueError(f"{str(value)!r} is no quantity and none of {', '.join(letters)}: {problem.what}") from None
+        raise ValueError(f"{str(value)!r} is no quantity and none of {', '.join(parameters)}: {problem.what}") from None

@@ -22,7 +22,7 @@ from freebody.symbolic.linear import Linear
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
 _ASIDE = 0.1
-"""How far letters are from those of the state where it is asked what they determine, so that nothing is so by chance."""
+"""How far symbols are from those of the state where it is asked what they determine, so that nothing is so by chance."""
 _SEED = 11
 
 
@@ -63,16 +63,16 @@ class Search:
         raise refusal
 
     def _tries(self, wanted: Sym) -> Iterator[list[Stated]]:
-        """The smallest set; that of points and directions that have letters; all balances of the coordinates, and more."""
-        for in_letters in (False, True):
-            least = smallest_set(wanted.name, self.states, self.subject.points, in_letters=in_letters)
+        """The smallest set; that of points and directions that have symbols; all balances of the coordinates, and more."""
+        for symbolically in (False, True):
+            least = smallest_set(wanted.name, self.states, self.subject.points, symbolically=symbolically)
             if least.equations and (stated := from_search(self.subject, list(least.equations))):
                 yield stated
         stated = of_coordinates(self.subject)
         if wanted.dots or any(wanted in s.balance.linear.coefficients for s in stated):
             yield stated
         else:
-            more = smallest_set(wanted.name, self.states, self.subject.points, known_motion=True, in_letters=True).equations
+            more = smallest_set(wanted.name, self.states, self.subject.points, known_motion=True, symbolically=True).equations
             yield stated + (from_search(self.subject, list(more)) or [])
 
     def _closed(self, stated: Sequence[Stated], wanted: Sym, known: Mapping[Sym, Tree], titles: Collection[str]) -> SufficientSet:
@@ -110,7 +110,7 @@ class Search:
         return Linear({x: tree for x, tree in found.items() if x not in known and not is_zero(tree)}, rest)
 
     def _gives(self, made: Sequence[tuple[Stated | Row, Linear]], wanted: Sym) -> bool:
-        """Whether equations determine an unknown, whatever the letters are."""
+        """Whether equations determine an unknown, whatever the symbols are."""
         unknowns = _unknowns(made)
         return wanted in unknowns and holds(self._numbers(made, unknowns), unknowns.index(wanted))
 

@@ -27,14 +27,14 @@ Put = Callable[[Tree], Tree]
 MOST_TOGETHER = 3
 """Coordinates that are solved for together."""
 _SHORT = 2
-"""Operations up to which a ratio has no letter of its own."""
+"""Operations up to which a ratio has no symbol of its own."""
 _NOTHING = 1e-9
 """Factor of a coordinate, SI, below which a row does not tell it."""
 
 
 @dataclass
 class Ratios:
-    """By the coordinate ``free``: ``named`` letters, k of rates and c of accelerations, each by those before; ``rates`` and ``rests``
+    """By the coordinate ``free``: ``named`` symbols, k of rates and c of accelerations, each by those before; ``rates`` and ``rests``
     of every coordinate by them; the ``inertia`` that is felt at it, and its ``load``. Where a motion has ``prescribed`` its
     acceleration, what it takes is ``driving``."""
 
@@ -48,12 +48,12 @@ class Ratios:
     driving: dict[Sym, Tree] = field(default_factory=dict)
 
     def moving(self, tree: Tree) -> Tree:
-        """An expression with the rates that have no letter of their own by that of the free coordinate."""
+        """An expression with the rates that have no symbol of their own by that of the free coordinate."""
         plain = {Sym(n, 1): mul(k, Sym(self.free, 1)) for n, k in self.rates.items() if k not in self.named}
         return from_sympy(to_sympy(replace(tree, plain))) if symbols(tree) & plain.keys() else tree
 
-    def letters(self) -> dict[Sym, Tree]:
-        """The named letters and all accelerations, each by those before."""
+    def definitions(self) -> dict[Sym, Tree]:
+        """The named symbols and all accelerations, each by those before."""
         others = {Sym(name, 2): self.acceleration(name) for name in self.rates if name != self.free}
         return self.named | {Sym(self.free, 2): self.acceleration(self.free)} | others
 
@@ -104,19 +104,19 @@ def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, 
 
 
 def _tell(found: Ratios, subject: SymbolicState, block: Sequence[Linear], of: Sequence[str]) -> None:
-    """Some coordinates by those before: k_ψ and c_ψ, or a longer stem if the model has such letters."""
+    """Some coordinates by those before: k_ψ and c_ψ, or a longer stem if the model has such symbols."""
     matrix = [[_plain(row.coefficients.get(Sym(name, 2), ZERO)) for name in of] for row in block]
     for stem, stated in (("k", found.rates), ("c", found.rests)):
         right = []
         for row in block:
             known = [mul(tree, stated[x.name]) for x, tree in row.coefficients.items() if x.name in stated]
             right.append(negative(_plain(add(*known, *([found.moving(row.rest)] if stated is found.rests else [])))))
-        for name, tree in zip(of, solve(matrix, right, subject.letters, patience=PATIENCE / 5), strict=True):
+        for name, tree in zip(of, solve(matrix, right, subject.nomenclature, patience=PATIENCE / 5), strict=True):
             word = stem
-            while (letter := f"{word}_{name}") in subject.letters:
+            while (symbol := f"{word}_{name}") in subject.nomenclature:
                 word += word
-            stated[name] = tree if operations(tree) <= _SHORT else Sym(letter)
-            found.named |= {} if operations(tree) <= _SHORT else {Sym(letter): tree}
+            stated[name] = tree if operations(tree) <= _SHORT else Sym(symbol)
+            found.named |= {} if operations(tree) <= _SHORT else {Sym(symbol): tree}
 
 
 def _plain(tree: Tree) -> Tree:
@@ -135,7 +135,7 @@ def _sum_up(found: Ratios, subject: SymbolicState, put: Put) -> None:
     gone = dict.fromkeys(holding, ZERO)
     gone |= {Sym(name, 1): ZERO for name in names if subject.at_rest}
     accelerations = [Sym(name, 2) for name in names]
-    stated = equations(replaced(subject, at_rest=False))[2]  # the rates are letters of the kinetic energy
+    stated = equations(replaced(subject, at_rest=False))[2]  # the rates are symbols of the kinetic energy
     _require_no_work(found, subject, [linear_in(each.residual, holding) for each in stated], put)
     rows = [coefficients(found.moving(replace(put(each.residual), gone)), accelerations) for each in stated]
     k, c = ([part[name] for name in names] for part in (found.rates, found.rests))
@@ -161,7 +161,7 @@ def _require_no_work(found: Ratios, subject: SymbolicState, equations: Sequence[
 
 
 def _by_loads(tree: Tree, subject: SymbolicState) -> Tree:
-    return presented(_plain(tree), subject.letters, by_loads=True, patience=PATIENCE / 5)
+    return presented(_plain(tree), subject.nomenclature, by_loads=True, patience=PATIENCE / 5)
 
 
 def blocks(found: Ratios, wanted: Sequence[str], shown: Put) -> list[Block]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 _NAME = "blow"
-_LETTERS = ("J", "J0", "J_blow")
+_SYMBOLS = ("J", "J0", "J_blow")
 _ROUND_OFF = 1e-12
 """Of the impulse over the mass of all bodies, below which a rate is what is left of 0."""
 _STILL = 1e-9
@@ -30,7 +30,7 @@ _STILL = 1e-9
 
 @dataclass(frozen=True)
 class AppliedImpulse(Impulsive):
-    """The impulse ``letter``, a parameter of ``source`` (N for N·s), on a ``whole`` model at rest.
+    """The impulse ``symbol``, a parameter of ``source`` (N for N·s), on a ``whole`` model at rest.
 
     ``before`` is its state without the impulse; ``source`` is the model without weights, springs, dampers, motors and friction of joints; its force ``blow`` is the impulse."""
 
@@ -38,12 +38,12 @@ class AppliedImpulse(Impulsive):
     source: CompiledModel
     state: State
     before: State
-    letter: str
+    symbol: str
 
     @property
     def given(self) -> Mapping[str, str]:
-        """The letter of the impulse, by the name of its load."""
-        return {_NAME: self.letter}
+        """The symbol of the impulse, by the name of its load."""
+        return {_NAME: self.symbol}
 
     @cached_property
     def free(self) -> FreeBodies:
@@ -54,7 +54,7 @@ class AppliedImpulse(Impulsive):
     def size(self) -> float:
         """The impulse in numbers, N·s."""
         places = [each["name"] for each in self.source.metadata["parameters"]]
-        return float(self.state.p[places.index(self.letter)])
+        return float(self.state.p[places.index(self.symbol)])
 
     @property
     def finite(self) -> list[Load]:
@@ -78,13 +78,13 @@ class AppliedImpulse(Impulsive):
         before, after = Snapshot(q, dict.fromkeys(names, 0.0)), Snapshot(q, {name: jumps[name] for name in names})
         return Change(self.state.t, "struck", (), -energy, impulses=stated, before=before, after=after)
 
-    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
+    def symbolic_answers(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it symbolically."""
-        return self.source.letters(self.state, questions)
+        return self.source.symbolic_answers(self.state, questions)
 
     def rows_before(self) -> list[Any]:
         """What holds the model at rest, symbolically."""
-        return self.whole.letters(self.before, [{"ask": "rows"}]).answers[0]
+        return self.whole.symbolic_answers(self.before, [{"ask": "rows"}]).answers[0]
 
 
 def strike(
@@ -102,16 +102,16 @@ def strike(
     state = replace(state, u=np.zeros_like(state.u))
     size = quantity("impulse", impulse, "N*s")
     taken = {c["name"] for kind in ("parameters", "coordinates") for c in mechanism.source().metadata[kind]}
-    letter = next(name for name in _LETTERS if name not in taken)
+    symbol = next(name for name in _SYMBOLS if name not in taken)
     model = mechanism.copy()
-    model.parameter(letter, size)
-    model.force(name=_NAME, at=point, value=letter, direction=direction, frame=frame)
+    model.parameter(symbol, size)
+    model.force(name=_NAME, at=point, value=symbol, direction=direction, frame=frame)
     lowered = model.lowered()
     core = CompiledModel.of(_bare(lowered.spec))
     source = replace(mechanism.source(), mechanism=core.mechanism, spec=lowered.spec)
     p = dict(zip((each["name"] for each in mechanism.source().metadata["parameters"]), state.p, strict=True))
     values = np.array([p.get(each["name"], size) for each in source.metadata["parameters"]])
-    return AppliedImpulse(mechanism.source(), source, replace(state, p=values), state, letter)
+    return AppliedImpulse(mechanism.source(), source, replace(state, p=values), state, symbol)
 
 
 def _bare(spec: Mapping[str, Any]) -> dict[str, Any]:

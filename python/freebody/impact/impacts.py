@@ -39,7 +39,7 @@ class Impulsive(ABC):
     """All loads during the impact: those of what was struck for a unit of each."""
 
     @abstractmethod
-    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
+    def symbolic_answers(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it symbolically, with the rates before it."""
 
     @abstractmethod
@@ -48,7 +48,7 @@ class Impulsive(ABC):
 
     @property
     def given(self) -> Mapping[str, str]:
-        """The letters of impulses that are given from outside, by the names of their loads."""
+        """The symbols of impulses that are given from outside, by the names of their loads."""
         return {}
 
     def grows(self, load: Load) -> bool:
@@ -144,9 +144,9 @@ class Impact(Impulsive):
         # What strikes at several places moves there as no constraint allows; where impulses act does not depend on it.
         return self.source.free_bodies(replace(self.state, u=np.zeros_like(self.state.u)))
 
-    def letters(self, questions: Sequence[Question]) -> SymbolicAnswers:
+    def symbolic_answers(self, questions: Sequence[Question]) -> SymbolicAnswers:
         """What the core tells of it symbolically, with the rates before it."""
-        return self.source.letters(self.state, questions)
+        return self.source.symbolic_answers(self.state, questions)
 
     def rows_before(self) -> list[Any]:
         """What held just before, symbolically; nothing where that is not known, as at the start."""
@@ -154,7 +154,7 @@ class Impact(Impulsive):
         since = max((each.t for each in self.run.changes if each.t < t), default=float(self.run.t[0]))
         if not since < t:
             return []
-        return self.source.letters(self.run.motion.state(t - _JUST_BEFORE * (t - since)), [{"ask": "rows"}]).answers[0]
+        return self.source.symbolic_answers(self.run.motion.state(t - _JUST_BEFORE * (t - since)), [{"ask": "rows"}]).answers[0]
 
 
 def impacts(run: Run) -> Iterator[Impact]:

@@ -40,7 +40,7 @@ class ImpulsiveState(SymbolicState):
         """How impulses are written, by the symbols of their forces: J with the symbol of the force below, ``J_N_floor``."""
         made = {symbol: Name("J", (force.stem, *force.below), force.owner) for symbol, force in self.symbols.loads.items()}
         given = {load.symbol: self.blow.given[load.name] for load in self.blow.acting if load.name in self.blow.given}
-        return made | {symbol: Name.parse(letter) for symbol, letter in given.items()}
+        return made | {symbol: Name.parse(name) for symbol, name in given.items()}
 
     def _ask(self, questions: Sequence[Mapping[str, Any]]) -> SymbolicAnswers:
-        return self.blow.letters(questions)
+        return self.blow.symbolic_answers(questions)

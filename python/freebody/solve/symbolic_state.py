@@ -12,8 +12,8 @@ import numpy as np
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
 from freebody.solve.perturbed_states import extent, nearby
 from freebody.solve.symbols import Symbols, load_words
-from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.linear import Linear
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
 
@@ -100,14 +100,14 @@ class Balance:
     residual: Tree
     linear: Linear
 
-    def without(self, loads: Collection[int], letters: Collection[str]) -> Balance:
-        """The same with some loads left out, by place and letter: they vanish wherever loops and contacts are closed, though not
-        identically in the letters."""
+    def without(self, loads: Collection[int], nomenclature: Collection[str]) -> Balance:
+        """The same with some loads left out, by place and symbol: they vanish wherever loops and contacts are closed, though not
+        identically in the symbols."""
         if not any(each.load in loads and not each.absent for each in self.contributions):
             return self
         kept = tuple(replace(each, tree=ZERO) if each.load in loads else each for each in self.contributions)
         left = add(*(each.tree for each in kept if not each.internal))
-        linear = Linear({x: c for x, c in self.linear.coefficients.items() if x.dots or x.name not in letters}, self.linear.rest)
+        linear = Linear({x: c for x, c in self.linear.coefficients.items() if x.dots or x.name not in nomenclature}, self.linear.rest)
         return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
 
     def with_trees(self, put: Callable[[Tree], Tree]) -> Balance:
@@ -212,8 +212,8 @@ class SymbolicState:
 
     @cached_property
     def neighbours(self) -> list[FreeBodies]:
-        """The free bodies at the state and at others near by, with other parameters, as far as these are letters: so what drops out
-        of a balance there does so whatever the letters are."""
+        """The free bodies at the state and at others near by, with other parameters, as far as these are symbols: so what drops out
+        of a balance there does so whatever the symbols are."""
         rng, fixed = np.random.default_rng(_SEED), self.numbers or {}
         names, given = [p["name"] for p in self.source.metadata["parameters"]], self.state.p.tolist()
         parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
@@ -236,8 +236,8 @@ class SymbolicState:
 
     @cached_property
     def table(self) -> dict[str, dict[str, Any]]:
-        """The letters as the core lists them: kind, unit and value by name."""
-        return self._ask([]).letters
+        """The symbols as the core lists them: kind, unit and value by name."""
+        return self._ask([]).symbols
 
     @cached_property
     def laws(self) -> list[tuple[Sym, Tree]]:
@@ -250,23 +250,23 @@ class SymbolicState:
         return Symbols.of(self.source, self.free.loads, self.table)
 
     @cached_property
-    def letters(self) -> Letters:
-        """All letters in the order of the model: coordinates, parameters, what the model leaves without a name, unknowns, time."""
+    def nomenclature(self) -> Nomenclature:
+        """All symbols in the order of the model: coordinates, parameters, what the model leaves without a name, unknowns, time."""
         table, written = self.table, self.symbols.names
         given = [p["name"] for p in self.source.metadata["parameters"] if p["name"] in table]
-        made = [Letter(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in self.coordinates]
-        made += [Letter(name, "parameter", table[name]["unit"]) for name in given]
-        made += [Letter(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"]
+        made = [SymbolEntry(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in self.coordinates]
+        made += [SymbolEntry(name, "parameter", table[name]["unit"]) for name in given]
+        made += [SymbolEntry(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"]
         made = [x if written[x.name] == Name.parse(x.name) else replace(x, written=written[x.name]) for x in made]
         for load in self.free.loads:
             if load.unknown and not load.follows:
                 unit, doc = "N*m" if load.card.couple else "", f"{load_words(load)} ({load.symbol})"
-                made.append(Letter(load.symbol, "unknown", unit, doc, self.symbols.loads[load.symbol]))
-        return Letters({x.name: x for x in (*made, Letter("t", "time", "s", "time"))}, self.symbols.renamed)
+                made.append(SymbolEntry(load.symbol, "unknown", unit, doc, self.symbols.loads[load.symbol]))
+        return Nomenclature({x.name: x for x in (*made, SymbolEntry("t", "time", "s", "time"))}, self.symbols.renamed)
 
     @cached_property
     def values(self) -> dict[Sym, float]:
-        """The numbers of all letters at the state."""
+        """The numbers of all symbols at the state."""
         found = {Sym(name): entry["value"] for name, entry in self.table.items()}
         found |= {Sym(load.symbol): load.value for load in self.free.loads if load.unknown}
         for dots, numbers in enumerate((self.state.q, self.state.u)):
@@ -321,4 +321,4 @@ class SymbolicState:
         return replace(self.state, q=self.state.q + _ASIDE * units * (1 + np.arange(len(units)) % 7 / 3))
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        return self.source.letters(self._beside, questions, self.at_rest, self.numbers)
+        return self.source.symbolic_answers(self._beside, questions, self.at_rest, self.numbers)

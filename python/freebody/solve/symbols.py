@@ -1,7 +1,7 @@
-"""The letter of everything in a model, each with one meaning: the same on its diagrams, in its equations and in what is checked.
+"""The symbol of everything in a model, each with one meaning: the same on its diagrams, in its equations and in what is checked.
 
 A component of a pin's force is ``pivot_x``; a normal force ``N_track``, friction ``F_floor``, a tension ``T_rope``, a couple
-``M_weld``, any other force ``F_drive``, what damps beside a spring ``F_damper``. Masses, inertias and gravity have the letters of
+``M_weld``, any other force ``F_drive``, what damps beside a spring ``F_damper``. Masses, inertias and gravity have the symbols of
 the model, else ``m_rod``, ``I_rod``, g.
 """
 
@@ -23,7 +23,7 @@ _OF_BODIES = {
     "m": ("mass", "mass"), "I": ("inertia about the mass centre", "inertia"), "r": ("position", "position"), "v": ("velocity", "velocity"),
     "a": ("acceleration", "acceleration"), "alpha": ("angular acceleration", "angular"),
 }  # fmt: skip
-"""What a letter of a body is, and its stem where the usual one is taken."""
+"""What a symbol of a body is, and its stem where the usual one is taken."""
 PLAIN = re.compile(r"[^\W\d]\w*")
 """A name that is not quoted."""
 
@@ -41,10 +41,10 @@ class Symbols:
 
     @classmethod
     def of(cls, source: CompiledModel, loads: Iterable[Load], table: Mapping[str, Mapping[str, Any]]) -> Symbols:
-        """Those of a model with some loads; ``table`` are the letters as the core lists them.
+        """Those of a model with some loads; ``table`` are the symbols as the core lists them.
 
-        Functions go first, then what the user names, then time and numbers, then loads. A force whose law is one letter, or whose
-        name is, has that letter."""
+        Functions go first, then what the user names, then time and numbers, then loads. A force whose law is one symbol, or whose
+        name is, has that symbol."""
         wanted = {each["name"]: (f"the coordinate {each['name']}", [each["name"]]) for each in source.metadata["coordinates"]}
         wanted |= {each["name"]: (f"the parameter {each['name']}", [each["name"]]) for each in source.metadata["parameters"]}
         wanted |= {"t": ("time", ["t"]), "pi": ("the number π", ["pi"])}
@@ -58,17 +58,17 @@ class Symbols:
         return cls(names, own, taken, {symbol: taken.renamed[what] for symbol, what in stated.items() if what in taken.renamed})
 
     def quantity(self, usual: str, what: str) -> Name:
-        """A letter of the whole mechanism: ``E_k``, or ``kinetic_energy`` where the model has the former for something else."""
+        """A symbol of the whole mechanism: ``E_k``, or ``kinetic_energy`` where the model has the former for something else."""
         return self.taken.give(what, Name.parse(usual), Name(what))
 
     def of_body(self, stem: str, body: str) -> Name:
-        """A letter of a body: ``m_rod``, or ``mass_rod`` where the model has the former for something else."""
+        """A symbol of a body: ``m_rod``, or ``mass_rod`` where the model has the former for something else."""
         what, long = _OF_BODIES[stem]
         return self.taken.give(f"{what} of {body}", Name.parse(f"{stem}_{body}"), Name.parse(f"{long}_{body}"))
 
 
 def _of_loads(source: CompiledModel, loads: Iterable[Load], taken: Taken) -> dict[str, Name]:
-    """The letter of every load but weights. Two that would have the same are written by their symbols."""
+    """The symbol of every load but weights. Two that would have the same are written by their symbols."""
     forces = {force["name"]: force for force in source.spec.get("forces", [])}
     laws = {load: forces.get(load.name) if load.kind == "force" else None for load in loads if load.kind != "weight"}
     made = {load.symbol: _name(load, law) for load, law in laws.items()}
@@ -104,7 +104,7 @@ def _between(load: Load, bodies: Collection[str]) -> str:
 
 
 def coefficient(source: CompiledModel, name: str) -> str:
-    """The letter that the model has for the friction of a contact or joint, if it has one."""
+    """The symbol that the model has for the friction of a contact or joint, if it has one."""
     spec = source.spec
     stated = next(each for each in spec["contacts"] + spec["joints"] if each["name"] == name)
     value = (stated | stated.get("with", {})).get("friction")
@@ -128,7 +128,7 @@ def _name(load: Load, force: _Law) -> Name:
 
 
 def _given(force: _Law) -> Name | None:
-    """The letter that a force has of its own: that of its law, or its name."""
+    """The symbol that a force has of its own: that of its law, or its name."""
     if force is None:
         return None
     value = force["with"].get("value")

@@ -34,7 +34,7 @@ def factored(tree: Tree) -> Tree:
 
 
 def common_number(trees: Sequence[Tree]) -> Tree:
-    """What is without letters, but not a mere number, and a factor of all: cos(π/9) of x cos(π/9) and 3 cos(π/9), with the number that
+    """What is without symbols, but not a mere number, and a factor of all: cos(π/9) of x cos(π/9) and 3 cos(π/9), with the number that
     is common besides; 1 where there is nothing of the kind."""
     terms = [_split(term) for tree in trees for term in (tree.terms if isinstance(tree, Add) else (tree,))]
     shared = {f: e for f, e in _common(terms).items() if all(x == Sym(PI) for x in symbols(f))} if terms else {}
@@ -81,10 +81,10 @@ def divided(tree: Tree, factor: Tree) -> Tree:
 
 
 def equal(first: Tree, second: Tree) -> bool:
-    """Whether two expressions agree at random values of their letters; places where one has no value are passed over."""
-    draw, letters, compared = random.Random(7), sorted(symbols(first, second), key=str), 0
+    """Whether two expressions agree at random values of their symbols; places where one has no value are passed over."""
+    draw, occurring, compared = random.Random(7), sorted(symbols(first, second), key=str), 0
     for _ in range(4 * _SAMPLES):
-        values = {letter: draw.uniform(0.3, 1.9) for letter in letters}
+        values = {symbol: draw.uniform(0.3, 1.9) for symbol in occurring}
         try:
             with np.errstate(all="ignore"):
                 a, b = (complex(evaluate(tree, values)) for tree in (first, second))

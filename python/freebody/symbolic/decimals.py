@@ -1,4 +1,4 @@
-"""Expressions of letters and measured numbers: multiplied out, without round-off, and how they are shown."""
+"""Expressions of symbols and measured numbers: multiplied out, without round-off, and how they are shown."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def measured(expression: Any) -> Tree:
 
 
 def ratio(above: Any, below: Any) -> Tree:
-    """One polynomial over another, both of SymPy, without the letters that all terms of both have."""
+    """One polynomial over another, both of SymPy, without the symbols that all terms of both have."""
     tops, bottoms = _terms(above), _terms(below)
     if not tops:
         return ZERO

@@ -1,4 +1,4 @@
-"""Derivatives of expressions, by time or by one letter, by the rules of the calculus."""
+"""Derivatives of expressions, by time or by one symbol, by the rules of the calculus."""
 
 from __future__ import annotations
 
@@ -29,23 +29,23 @@ _ZERO, _ONE, _TWO = Num(0.0, "0"), Num(1.0, "1"), Num(2.0, "2")
 _MOST = 400  # parts, beyond which an equation is no longer one that a person wrote
 
 
-def derivative(node: Node, letter: Callable[[Sym], Node]) -> Node:
-    """Its derivative, where ``letter`` has that of each letter. Raises ``StatementError`` at what has none."""
-    return _Rules(letter).of(node)
+def derivative(node: Node, symbol: Callable[[Sym], Node]) -> Node:
+    """Its derivative, where ``symbol`` has that of each symbol. Raises ``StatementError`` at what has none."""
+    return _Rules(symbol).of(node)
 
 
 def rate(node: Node, still: Collection[str] = ()) -> Node:
-    """What a person wrote, differentiated by time. Letters in ``still`` do not change; the others get one dot more, and ``t`` has the rate 1.
+    """What a person wrote, differentiated by time. Symbols in ``still`` do not change; the others get one dot more, and ``t`` has the rate 1.
 
     Raises ``StatementError`` at what has no derivative.
     """
     one_more = lambda n: _ZERO if n.name in still else Sym(n.name, n.dots + 1, span=n.span)
-    return _short(node, derivative(node, lambda letter: _ONE if letter == Sym("t") else one_more(letter)))
+    return _short(node, derivative(node, lambda symbol: _ONE if symbol == Sym("t") else one_more(symbol)))
 
 
 def partial(node: Node, by: Sym) -> Node:
-    """Its change with one letter, all others held. Raises ``StatementError`` at what has no derivative."""
-    return _short(node, derivative(node, lambda letter: _ONE if letter == by else _ZERO))
+    """Its change with one symbol, all others held. Raises ``StatementError`` at what has no derivative."""
+    return _short(node, derivative(node, lambda symbol: _ONE if symbol == by else _ZERO))
 
 
 def _short(node: Node, found: Node) -> Node:
@@ -55,15 +55,15 @@ def _short(node: Node, found: Node) -> Node:
 
 
 class _Rules:
-    def __init__(self, letter: Callable[[Sym], Node]) -> None:
-        self.letter = letter
+    def __init__(self, symbol: Callable[[Sym], Node]) -> None:
+        self.symbol = symbol
 
     def of(self, node: Node) -> Node:
         match node:
             case Num() | Unit():
                 return _ZERO
             case Sym():
-                return self.letter(node)
+                return self.symbol(node)
             case Negative(of=of):
                 return _negative(self.of(of))
             case Add(terms=terms):
@@ -93,7 +93,7 @@ class _Rules:
 
     def stands(self, node: Node) -> bool:
         """Whether it does not change."""
-        return all(self.letter(n) == _ZERO for n in walk(node) if isinstance(n, Sym))
+        return all(self.symbol(n) == _ZERO for n in walk(node) if isinstance(n, Sym))
 
     def each(self, factors: Sequence[Node], product: Callable[[list[Node]], Node]) -> Node:
         """Each factor in turn."""

@@ -49,46 +49,46 @@ ARGUMENTS = {"atan2": 2, "hypot": 2, "min": 2, "max": 2}
 def evaluate(tree: Node, values: Mapping[Sym, Any], tables: Mapping[str, Callable[..., Any]] | None = None) -> Any:
     """The value of an expression of numbers: a number, or an array if the values are arrays (they are broadcast).
 
-    ``tables`` has the tables of the model by name. A letter or a table without a value is a ``KeyError`` that names it."""
+    ``tables`` has the tables of the model by name. A symbol or a table without a value is a ``KeyError`` that names it."""
 
-    def letter(each: Sym) -> Any:
+    def symbol(each: Sym) -> Any:
         if each in values:
             return values[each]
         if each == Sym(PI):
             return math.pi
         raise KeyError(f"no value for {each.name!r} differentiated {each.dots} times")
 
-    return value(tree, letter, float, {**FUNCTIONS, **(tables or {})})
+    return value(tree, symbol, float, {**FUNCTIONS, **(tables or {})})
 
 
 def sampled(tree: Node, values: Mapping[str, Array]) -> Array:
     """The value of an expression of numbers, vectors and matrices; ``values`` by ``Sym.key``, all over the same K samples.
 
-    Raises ``StatementError`` at a letter without a value and where kinds do not go together.
+    Raises ``StatementError`` at a symbol without a value and where kinds do not go together.
     """
     count = len(next(iter(values.values()))) if values else 1
 
-    def letter(each: Sym) -> Array:
+    def symbol(each: Sym) -> Array:
         if each.key not in values:
             raise StatementError(f"`{each.key}` has no meaning here", each.span, "declare it in terms of the model's symbols")
         return np.asarray(values[each.key], dtype=float)
 
     with np.errstate(all="ignore"):
-        return value(tree, letter, lambda x: np.full(count, float(x)), FUNCTIONS)
+        return value(tree, symbol, lambda x: np.full(count, float(x)), FUNCTIONS)
 
 
 def value(
-    tree: Node, letter: Callable[[Sym], Any], number: Callable[[Any], Any], functions: Mapping[str, Callable[..., Any]]
+    tree: Node, symbol: Callable[[Sym], Any], number: Callable[[Any], Any], functions: Mapping[str, Callable[..., Any]]
 ) -> Any:
-    """The value of an expression, where letters, numbers and functions are what these say.
+    """The value of an expression, where symbols, numbers and functions are what these say.
 
     Raises ``StatementError`` where kinds do not go together, ``KeyError`` at a function that has no meaning."""
-    of = lambda node: value(node, letter, number, functions)
+    of = lambda node: value(node, symbol, number, functions)
     match tree:
         case Num(x) | Unit(x):
             return number(x)
         case Sym():
-            return letter(tree)
+            return symbol(tree)
         case Add(terms):
             return _sum([(term, of(term)) for term in terms if not is_zero(term)] or [(tree, number(0))])
         case Mul(factors):

@@ -27,7 +27,7 @@ class Linear:
 
 
 def linear_in(tree: Tree, unknowns: Collection[Sym]) -> Linear:
-    """An expression that is linear in some letters, by its coefficients; ``ValueError`` if it is not."""
+    """An expression that is linear in some symbols, by its coefficients; ``ValueError`` if it is not."""
     wanted = set(unknowns)
     if not symbols(tree) & wanted:
         return Linear({}, tree)

@@ -24,7 +24,7 @@ from typing import Any
 
 from freebody.symbolic.algebra import equal, factored, pythagorean
 from freebody.symbolic.decimals import is_measured, measured
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import MINUS_ONE, Add, Fn, Mul, Node, Num, Sym, Tree, add, mul, symbols, walk
@@ -39,7 +39,7 @@ _MOST_WAYS = 8  # of choosing sin² or cos² angle by angle
 
 def presented(
     expression: Any,
-    letters: Letters | None = None,
+    nomenclature: Nomenclature | None = None,
     *,
     multiplied_out: bool = False,
     unknowns: Sequence[Sym] | None = None,
@@ -53,13 +53,15 @@ def presented(
     factor of each product of masses and loads for itself."""
     if patience is not None:
         given = to_sympy(expression) if isinstance(expression, Node) else expression
-        return _by_loads(given, letters or Letters(), patience) if by_loads else _shortest(given, letters, patience)
+        return (
+            _by_loads(given, nomenclature or Nomenclature(), patience) if by_loads else _shortest(given, nomenclature, patience)
+        )
     tree = pythagorean(from_sympy(to_sympy(expression).expand())) if multiplied_out else expression
     return factored(tree) if unknowns is None else _by_unknowns(tree, unknowns)
 
 
 def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
-    """A sum that is linear in some letters, with one factor for each of them; as it is if it is not linear."""
+    """A sum that is linear in some symbols, with one factor for each of them; as it is if it is not linear."""
     coefficients: dict[Sym, list[Tree]] = {x: [] for x in unknowns}
     rest: list[Tree] = []
     if not isinstance(tree, Add):
@@ -80,47 +82,47 @@ def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     return add(*(mul(factored(add(*held)), x) for x, held in coefficients.items() if held), *rest)
 
 
-def _by_loads(expression: Any, letters: Letters, patience: float) -> Tree:
+def _by_loads(expression: Any, nomenclature: Nomenclature, patience: float) -> Tree:
     """A sum by masses and loads."""
-    light = letters.geometric()
-    heavy = {sympy.Symbol(name) for name in letters.of_kind("parameter", "constant") if name not in light}
+    light = nomenclature.geometric()
+    heavy = {sympy.Symbol(name) for name in nomenclature.of_kind("parameter", "constant") if name not in light}
     parts: dict[Any, Any] = {}
     for term in sympy.Add.make_args(sympy.expand(expression)):
         key = sympy.Mul(*(factor for factor in sympy.Mul.make_args(term) if factor in heavy))
         parts[key] = parts.get(key, 0) + term / key
-    return add(*(mul(from_sympy(key), _shortest(factor, letters, patience)) for key, factor in parts.items()))
+    return add(*(mul(from_sympy(key), _shortest(factor, nomenclature, patience)) for key, factor in parts.items()))
 
 
-def _shortest(expression: Any, letters: Letters | None, patience: float) -> Tree:
+def _shortest(expression: Any, nomenclature: Nomenclature | None, patience: float) -> Tree:
     """The shortest of the forms; one with measured numbers is only multiplied out."""
     if is_measured(expression):
         return measured(expression)
     until = time.monotonic() + patience
     best = given = from_sympy(expression)
-    cost = length(best, letters)
-    for form in _forms(expression, letters):
+    cost = length(best, nomenclature)
+    for form in _forms(expression, nomenclature):
         tree = from_sympy(form)
-        if (found := length(tree, letters)) < cost and equal(tree, given):
+        if (found := length(tree, nomenclature)) < cost and equal(tree, given):
             best, cost = tree, found
         if time.monotonic() > until:
             break
     return best
 
 
-def length(tree: Tree, letters: Letters | None = None) -> tuple[int, int]:
+def length(tree: Tree, nomenclature: Nomenclature | None = None) -> tuple[int, int]:
     """How long an expression reads: its printed signs, multiples of angles being dear, then its brackets."""
-    shown = text(tree, letters or Letters())
+    shown = text(tree, nomenclature or Nomenclature())
     inside = [[part for part in walk(node.args[0]) if part != MINUS_ONE] for node in walk(tree) if isinstance(node, Fn)]
     multiples = sum(any(isinstance(part, Num) for part in parts) for parts in inside)
     return len(re.sub(r"[\s()\u0307\u0308]", "", shown)) + _MULTIPLE_ANGLE * multiples, shown.count("(")
 
 
-def _forms(expression: Any, letters: Letters | None) -> Iterator[Any]:
+def _forms(expression: Any, nomenclature: Nomenclature | None) -> Iterator[Any]:
     together = sympy.factor(sympy.cancel(sympy.together(expression)))
     yield together
     ways = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in sympy.fraction(together)]
     above, below = (
-        min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), letters), default=0) for forms in ways
+        min((form for form in forms if form != 0), key=lambda f: length(from_sympy(f), nomenclature), default=0) for forms in ways
     )
     if below != 0:
         yield above / below
@@ -155,7 +157,7 @@ def _without_squares(part: Any, rules: list[tuple[Any, Any]]) -> Any:
 
 def _collected(part: Any) -> list[Any]:
     """As factors; and by what moves: m₁ g sin θ + m₂ g sin θ is (m₁ + m₂) g sin θ."""
-    moving = [*part.atoms(sympy.sin, sympy.cos), *(letter for letter in part.free_symbols if letter.name.endswith("'"))]
+    moving = [*part.atoms(sympy.sin, sympy.cos), *(symbol for symbol in part.free_symbols if symbol.name.endswith("'"))]
     spread = sympy.expand(part)
     order = sorted(moving, key=str)
     collected = sympy.collect(spread, order, lambda factor: sympy.collect(factor, order, sympy.factor))

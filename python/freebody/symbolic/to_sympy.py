@@ -8,7 +8,7 @@ from fractions import Fraction
 from importlib import import_module
 from typing import Any
 
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree
 
 _TO = {"abs": "Abs", "ln": "log"}
@@ -27,24 +27,29 @@ sympy: Any = _Later()
 
 
 def to_sympy(
-    tree: Tree, letters: Letters | None = None, *, time: bool = False, positive: Collection[str] = (), real: bool = False
+    tree: Tree,
+    nomenclature: Nomenclature | None = None,
+    *,
+    time: bool = False,
+    positive: Collection[str] = (),
+    real: bool = False,
 ) -> sympy.Expr:
     """The tree as a SymPy expression.
 
     With ``time`` a coordinate is ``Function("theta")(t)`` and its rate a ``Derivative``, as ``dynamicsymbols`` makes them;
-    which letters are coordinates the ``letters`` say. Without, ``theta'`` and ``theta''`` are symbols of their own.
-    ``positive`` names letters that are assumed to be positive; ``real`` assumes all letters to be real."""
-    t, kinds, assumed = sympy.Symbol("t"), letters or Letters(), {"real": True} if real else {}
+    which symbols are coordinates the ``nomenclature`` says. Without, ``theta'`` and ``theta''`` are symbols of their own.
+    ``positive`` names symbols that are assumed to be positive; ``real`` assumes all symbols to be real."""
+    t, kinds, assumed = sympy.Symbol("t"), nomenclature or Nomenclature(), {"real": True} if real else {}
 
-    def symbol(letter: Sym) -> Any:
-        kind = kinds.kind(letter.name)
-        if time and (letter.dots or kind == "coordinate"):
-            function = sympy.Function(letter.name)(t)
-            return function.diff(t, letter.dots) if letter.dots else function
-        if letter == Sym(PI) or (time and kind == "time"):
-            return sympy.pi if letter == Sym(PI) else t
-        is_positive = letter.name in positive and not letter.dots
-        return sympy.Symbol(letter.name + "'" * letter.dots, **({"positive": True} if is_positive else assumed))
+    def symbol(each: Sym) -> Any:
+        kind = kinds.kind(each.name)
+        if time and (each.dots or kind == "coordinate"):
+            function = sympy.Function(each.name)(t)
+            return function.diff(t, each.dots) if each.dots else function
+        if each == Sym(PI) or (time and kind == "time"):
+            return sympy.pi if each == Sym(PI) else t
+        is_positive = each.name in positive and not each.dots
+        return sympy.Symbol(each.name + "'" * each.dots, **({"positive": True} if is_positive else assumed))
 
     def of(node: Tree) -> Any:
         match node:

@@ -14,7 +14,7 @@ from typing import Any, TypeAlias, TypeVar
 Span = tuple[int, int]
 """Start and end in a text, in characters."""
 PI = "pi"
-"""The one letter whose value is known."""
+"""The one symbol whose value is known."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Num(Node):
 
 @dataclass(frozen=True)
 class Sym(Node):
-    """A letter, differentiated ``dots`` times with respect to time."""
+    """A symbol, differentiated ``dots`` times with respect to time."""
 
     name: str
     dots: int = 0
@@ -236,10 +236,10 @@ def exchange(tree: N, old: Node, new: Node) -> N:
 
 
 def substitute(tree: N, expressions: Mapping[Sym, Node]) -> N:
-    """The same with an expression in the place of each of these letters, otherwise as it was written."""
+    """The same with an expression in the place of each of these symbols, otherwise as it was written."""
     found = [n for n in walk(tree) if isinstance(n, Sym) and n in expressions]
-    for letter in found:
-        tree = exchange(tree, letter, expressions[letter])
+    for symbol in found:
+        tree = exchange(tree, symbol, expressions[symbol])
     return tree
 
 
@@ -292,7 +292,7 @@ def operations(tree: Tree) -> int:
 
 
 def symbols(*trees: Tree) -> set[Sym]:
-    """All letters that occur, rates and accelerations for themselves."""
+    """All symbols that occur, rates and accelerations for themselves."""
     found, seen, waiting = set(), set(), list(trees)
     while waiting:
         node = waiting.pop()
@@ -305,7 +305,7 @@ def symbols(*trees: Tree) -> set[Sym]:
 
 
 def replace(tree: Tree, new: Mapping[Sym, Tree]) -> Tree:
-    """The tree with letters replaced."""
+    """The tree with symbols replaced."""
     return rebuilt(tree, lambda part: new.get(part) if isinstance(part, Sym) else None)
 
 

@@ -122,7 +122,7 @@ def test_primes_belong_to_names_where_one_is_declared():
 
 
 @pytest.mark.parametrize("text", ["½ m l² a = 0", "(1/2) m l² a = 0", "½ m l^2 a = 0"])
-def test_a_known_letter_squared_behind_a_number_is_no_unit(text):
+def test_a_known_symbol_squared_behind_a_number_is_no_unit(text):
     assert spell(parse(text, ["m", "l", "a"])) == "1/2*m*l^2*a = 0"
 
 
@@ -153,7 +153,7 @@ def test_assignments_are_written_out():
     assert [spell(e) for e in inlined(program)] == ["(I1 + m2*R^2)*omega = T"]
 
 
-def test_a_known_letter_on_the_left_is_stated_not_assigned():
+def test_a_known_symbol_on_the_left_is_stated_not_assigned():
     program = parse("a = 2\nF = m a", ["a", "m", "F"])
     assert not program.assignments
 

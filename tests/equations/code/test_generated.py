@@ -157,7 +157,7 @@ def test_defaults_are_those_of_the_model_and_of_changes():
 
 
 def test_what_is_zero_in_the_model_is_free_in_code():
-    """S19.19 has no gravity, but a letter for it: with it the guide carries both weights of the resting motor and its load."""
+    """S19.19 has no gravity, but a symbol for it: with it the guide carries both weights of the resting motor and its load."""
     python = in_python("systems/S19.19/model.yaml")
     assert python.PARAMETERS["g"] == 0.0
     values = python.PARAMETERS | {"g": 2.0, "T": 0.0}

@@ -1,4 +1,4 @@
-"""What the tests of derivations evaluate: all letters at a state, the rate of an expression, other parameters."""
+"""What the tests of derivations evaluate: all symbols at a state, the rate of an expression, other parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ smooth, and round-off leaves less than that."""
 
 
 def numbers(subject: SymbolicState) -> dict[Sym, float]:
-    """The numbers of all letters, places of bodies among them, as the form with constraints has them."""
+    """The numbers of all symbols, places of bodies among them, as the form with constraints has them."""
     found = dict(subject.values)
     for body in subject.free.bodies.values():
         for k, word in enumerate("xy"):
@@ -30,7 +30,7 @@ def numbers(subject: SymbolicState) -> dict[Sym, float]:
 
 
 def rate(tree: Tree, subject: SymbolicState, values: Mapping[Sym, float] | None = None) -> float:
-    """d/dt of an expression of coordinates and rates along the true motion; all other letters, time too, stay as they are."""
+    """d/dt of an expression of coordinates and rates along the true motion; all other symbols, time too, stay as they are."""
     values, names = values or numbers(subject), subject.names
     bodies = subject.free.bodies.values()
     rates = [*(abs(values[Sym(n, 1)]) for n in names), *(abs(body.omega) for body in bodies)]

@@ -55,10 +55,10 @@ def test_forms_count_their_equations():
     assert len(most.parts) == 3 + 2 + 3 and most.content.system.is_square
 
 
-def test_letters_set_to_numbers_are_gone():
+def test_symbols_set_to_numbers_are_gone():
     found = of(GUN, at_rest=True, fixed={"l": "2 m"})
-    assert {letter.dots for tree in found.equations for letter in symbols(tree)} == {0, 2}
-    assert "l" not in {letter.name for tree in found.equations for letter in symbols(tree)}
+    assert {symbol.dots for tree in found.equations for symbol in symbols(tree)} == {0, 2}
+    assert "l" not in {symbol.name for tree in found.equations for symbol in symbols(tree)}
 
 
 @pytest.mark.parametrize("wanted", ["pivot.Fx", "track.Fn", "theta"])
@@ -119,7 +119,7 @@ SUMS = [
 @pytest.mark.parametrize("data", SUMS)
 def test_factors_in_front_leave_the_value(data):
     tree, rng = read(data), np.random.default_rng(1)
-    values = {letter: rng.uniform(0.5, 2) for letter in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
+    values = {symbol: rng.uniform(0.5, 2) for symbol in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
     for made in (presented(tree), presented(tree, unknowns=[Sym("x", 2)])):
         assert evaluate(made, values) == pytest.approx(evaluate(tree, values), rel=1e-14)
 
@@ -127,7 +127,7 @@ def test_factors_in_front_leave_the_value(data):
 @pytest.mark.parametrize("data", SUMS)
 def test_what_stands_above_and_below_cancels(data):
     tree, rng = read(data), np.random.default_rng(1)
-    values = {letter: rng.uniform(0.5, 2) for letter in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
+    values = {symbol: rng.uniform(0.5, 2) for symbol in (Sym("a"), Sym("b"), Sym("l"), Sym("x", 2))}
     below = mul(Sym("a"), power(Sym("l"), 2))
     made = quotient(mul(Sym("a"), tree), below)
     assert evaluate(made, values) == pytest.approx(evaluate(tree, values) / evaluate(Sym("l"), values) ** 2, rel=1e-14)

@@ -132,6 +132,6 @@ def test_a_central_force_keeps_the_moment_of_momentum_about_its_centre_until_the
     assert told(MODELS["19.3.1/model"].read_text()) == {("particle", "ground.O")}
 
 
-def test_every_reason_is_said_in_the_letters_of_the_equations():
+def test_every_reason_is_said_in_the_symbols_of_the_equations():
     said = fb.Mechanism.loads(SLOPE).equations().text()
     assert "rail.Fn" not in said and "N_rail" in said

@@ -54,5 +54,5 @@ def test_two_blocks_on_a_cable_have_the_sum_of_their_balances():
     """Of m₁ ẍ₁ = T and m₂ ÿ₂ = T − m₂ g with ẍ₁ = −ÿ₂ the tension drops out: (m₁ + m₂) ẍ₁ = m₂ g."""
     (power,) = virtual_power(subject("19.3.21/model"))
     assert not power.reactions
-    assert {letter.dots for letter in power.linear.coefficients} == {2}
+    assert {symbol.dots for symbol in power.linear.coefficients} == {2}
     assert all(Sym(name) not in power.linear.coefficients for name in ("cable.tension",))

@@ -14,7 +14,7 @@ from freebody.symbolic.tree import Add, Fn, Sym, Tree, add, children, mul, numbe
 
 SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")
 EXAMPLES = SYSTEMS.parents[2] / "examples"
-STRUCK = [SYSTEMS / f"{name}.yaml" for name in ("19.3.22/latch", "19.3.30/model", "19.3.30/hinged")] + [
+COLLIDING = [SYSTEMS / f"{name}.yaml" for name in ("19.3.22/latch", "19.3.30/model", "19.3.30/hinged")] + [
     EXAMPLES / "tossed_box.yaml"
 ]
 
@@ -61,7 +61,7 @@ def test_no_squares_of_sine_and_cosine_are_added(name, kind):
     assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]
 
 
-@pytest.mark.parametrize("path", STRUCK, ids=lambda path: f"{path.parent.name}/{path.stem}")
+@pytest.mark.parametrize("path", COLLIDING, ids=lambda path: f"{path.parent.name}/{path.stem}")
 def test_none_are_added_where_a_blow_is_told(path):
     made = topic(fb.load(path), "impact")
     assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]

@@ -216,8 +216,8 @@ def test_a_motion_that_stands_still_holds_its_coordinate() -> None:
         topic(fb.Mechanism.loads(HELD.replace("HAND", "v*t")), "linear")
 
 
-def test_in_letters_or_with_lengths_in_numbers() -> None:
-    """A slider-crank at its dead point is short enough for letters; a four-bar keeps its mass and g."""
+def test_symbolically_or_with_lengths_in_numbers() -> None:
+    """A slider-crank at its dead point is short enough for symbols; a four-bar keeps its mass and g."""
     mechanism, state = slider_crank(theta="-90 deg")
     assert "ξ₃ = r ξ₁" in topic(mechanism, "linear", state).text()
     mechanism, state = four_bar()

@@ -33,7 +33,7 @@ def number(answers: Answers, wanted: str, known: dict[Sym, float]) -> float:
 
 def agree(mechanism: fb.Mechanism, instant: Instant, answers: Answers) -> None:
     """Answers are the accelerations of an instant."""
-    state, table = instant.state, mechanism.source().letters(instant.state, []).letters
+    state, table = instant.state, mechanism.source().symbolic_answers(instant.state, []).symbols
     names = [coordinate["name"] for coordinate in mechanism.source().metadata["coordinates"]]
     known = {Sym(name): entry["value"] for name, entry in table.items()} | {Sym("t"): state.t}
     for dots, values in enumerate((state.q, state.u)):

@@ -60,7 +60,7 @@ def test_a_cart_that_rubs_stays_where_it_comes_to_rest() -> None:
     assert "Apart from that, small perturbations of x, θ decay if - c > 0 Masses" in stated
 
 
-def test_matrices_do_not_take_letters_of_the_model() -> None:
+def test_matrices_do_not_take_symbols_of_the_model() -> None:
     """The mass M of the cart stands in the matrix 𝐌, the coordinate x in the vector 𝐱."""
     mechanism = fb.Mechanism.loads(CART)
     stated = topic(mechanism, "linear").text()

@@ -153,7 +153,7 @@ def test_a_guide_that_rubs() -> None:
     assert [str(answers).count(f"({i})") for i in (1, 2, 3)] == [1, 1, 0]
 
 
-def test_angles_of_lines_stay_letters() -> None:
+def test_angles_of_lines_stay_symbols() -> None:
     """A mass on a face at γ of a cart that is driven up a ramp: N = m (g cos γ − a₀ sin(γ − ramp)), by the balance across the face."""
     from models import system
 

@@ -179,7 +179,7 @@ def test_elimination(name: str) -> None:
             assert value(subject, tree, constants) == pytest.approx(subject.values[x], rel=1e-9)
         for tree in found.equations.values():
             assert value(subject, tree, constants) == pytest.approx(0.0, abs=1e-8)
-            assert not {letter.name for letter in symbols(tree)} & set(found.momenta)
+            assert not {symbol.name for symbol in symbols(tree)} & set(found.momenta)
 
 
 @pytest.mark.parametrize("name", ["19.3.1", "19.3.3", "19.3.17", "S19.17", "19.3.25"])
@@ -193,7 +193,7 @@ def test_polar_form_of_a_particle(name: str) -> None:
         r, (x, y), (vx, vy), (ax, ay) = np.hypot(*body.G), body.G, body.v, body.a
         out, across = (x * vx + y * vy) / r, (x * vy - y * vx) / r
         a_out, a_across = (x * ax + y * ay) / r, (x * ay - y * ax) / r
-        below = [letter for letter in made.letters if letter in ("r", "phi", "r_polar", "phi_polar")][-2:]
+        below = [symbol for symbol in made.letters if symbol in ("r", "phi", "r_polar", "phi_polar")][-2:]
         polar = {Sym(below[0]): r, Sym(below[0], 1): out, Sym(below[0], 2): a_out + across**2 / r}
         polar |= {Sym(below[1]): np.arctan2(y, x), Sym(below[1], 1): across / r}
         polar[Sym(below[1], 2)] = (a_across - 2 * out * across / r) / r

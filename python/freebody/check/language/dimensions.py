@@ -76,7 +76,7 @@ class _OfStatements(Rules):
     def term(self, node: Node) -> Shape:
         """Figures alone, with or without directions, fit any."""
         found = self.of(node)
-        bare = all(letter.name in _DIRECTIONS and not letter.dots for letter in symbols_in(node))
+        bare = all(symbol.name in _DIRECTIONS and not symbol.dots for symbol in symbols_in(node))
         return None if bare and isinstance(found, Dimension) and found.is_number else found
 
     def leaf(self, node: Num | Sym | Unit) -> Known:

@@ -162,7 +162,7 @@ class Line:
             case "number":
                 return Num(float(token.text), token.text, span=token.span)
             case "letter":
-                return self.letter(token)
+                return self.symbol(token)
             case "function":
                 return self.call(token)
             case "(" | "{":
@@ -178,7 +178,7 @@ class Line:
         self.expect("|")
         return Fn("abs", (inside,), span=self.span(token))
 
-    def letter(self, token: Token) -> Node:
+    def symbol(self, token: Token) -> Node:
         """A symbol; written as a function of time, θ(t), it is the same."""
         if [t.text for t in self.row[self.at : self.at + 3]] == ["(", "t", ")"] and self.now.attached:
             self.at += 3

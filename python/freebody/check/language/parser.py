@@ -126,16 +126,16 @@ def _rates(lines: Sequence[Assignment | Equation], names: Names) -> list[Assignm
     out: list[Assignment] = []
     asked = [n for line in lines for n in walk(line) if isinstance(n, Sym)]
     while asked:
-        letter = asked.pop()
-        below = Sym(letter.name, letter.dots - 1)
-        if letter in given or not letter.dots or Sym(letter.name) not in given:
+        symbol = asked.pop()
+        below = Sym(symbol.name, symbol.dots - 1)
+        if symbol in given or not symbol.dots or Sym(symbol.name) not in given:
             continue
         if below not in given:
-            asked += [letter, below]
+            asked += [symbol, below]
             continue
-        given[letter] = Assignment(letter, rate(given[below].expression, names.still), span=given[below].span)
-        out.append(given[letter])
-        asked += [n for n in walk(given[letter].expression) if isinstance(n, Sym)]
+        given[symbol] = Assignment(symbol, rate(given[below].expression, names.still), span=given[below].span)
+        out.append(given[symbol])
+        asked += [n for n in walk(given[symbol].expression) if isinstance(n, Sym)]
     return out
 
 

@@ -42,7 +42,7 @@ def _plain(node: Node, least: int) -> str:
         case Unit(text=text):
             return text
         case Sym():
-            return _letter(node)
+            return _symbol(node)
         case Add(terms=terms):
             return signed(terms, lambda term: _plain(term, _DOT))
         case Negative(of=of):
@@ -90,9 +90,9 @@ def _times(factors: Sequence[Node]) -> str:
     return out
 
 
-def _letter(letter: Sym) -> str:
+def _symbol(symbol: Sym) -> str:
     """``thetaddot``; a name with signs in it has its dots on top: Ḣ/E, cart.ẋ."""
-    if re.fullmatch(r"\w+'*", letter.name):
-        return letter.key
-    at = letter.name.rfind(".") + 2 if "." in letter.name[:-1] else 1
-    return unicodedata.normalize("NFC", letter.name[:at] + _MARKS[letter.dots] + letter.name[at:])
+    if re.fullmatch(r"\w+'*", symbol.name):
+        return symbol.key
+    at = symbol.name.rfind(".") + 2 if "." in symbol.name[:-1] else 1
+    return unicodedata.normalize("NFC", symbol.name[:at] + _MARKS[symbol.dots] + symbol.name[at:])

@@ -31,9 +31,9 @@ _FRACTION = re.compile(r"\{d(?:\^?\{?(\d|²)\}?)?([A-Za-z][\w']*)?\}\{dt(?:\^?\{
 
 @dataclass(frozen=True)
 class Token:
-    """A piece of a statement. ``kind``: number, letter, function, raised, line, end, or the sign itself.
+    """A piece of a statement. ``kind``: number, symbol, function, raised, line, end, or the sign itself.
 
-    ``text``: the name, digits or sign; ``dots``: time derivatives of a letter; ``attached``: no blank before it.
+    ``text``: the name, digits or sign; ``dots``: time derivatives of a symbol; ``attached``: no blank before it.
     """
 
     kind: str
@@ -45,13 +45,13 @@ class Token:
 
 @dataclass(frozen=True)
 class Names:
-    """The letters that are known, by which rows of characters are read: ``mg`` is m·g where m and g are known."""
+    """The symbols that are known, by which rows of characters are read: ``mg`` is m·g where m and g are known."""
 
     known: tuple[str, ...] = ()
     still: frozenset[str] = frozenset()
     """Those that do not change with time."""
     units: bool = False
-    """Whether what may be a unit behind a number is one, known letter or not."""
+    """Whether what may be a unit behind a number is one, known symbol or not."""
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
@@ -252,7 +252,7 @@ class _Reader:
         return out
 
     def bare(self, start: int, end: int) -> _Piece:
-        """An unknown letter; the word ``dot`` behind it is still a derivative."""
+        """An unknown symbol; the word ``dot`` behind it is still a derivative."""
         spelling, count = self.spelling(start, end), self.marks(start, end)
         if not spelling.strip("'"):
             raise StatementError("a mark without a symbol before it", self.row[start].span)

@@ -14,7 +14,7 @@ from freebody.document.rendering.markup import TypesetMarkup
 from freebody.document.rendering.text import words_text
 from freebody.document.templates import template
 from freebody.symbolic.formula import Formula
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.mathml import broken, mathml
 
 
@@ -54,10 +54,10 @@ class Html(TypesetMarkup):
         return self._blocks.figure(self.kind(figure.picture.inline()), caption)
 
 
-def page(blocks: Sequence[Block], letters: Letters, around: str = "page.html") -> str:
+def page(blocks: Sequence[Block], nomenclature: Nomenclature, around: str = "page.html") -> str:
     """A whole page, which needs nothing from elsewhere, or a ``fragment.html`` of one."""
-    titles = (words_text(block.words, letters) for block in blocks if isinstance(block, Heading))
-    return template(__package__, around).render(title=next(titles, "Equations"), body=Html(letters).render(blocks))
+    titles = (words_text(block.words, nomenclature) for block in blocks if isinstance(block, Heading))
+    return template(__package__, around).render(title=next(titles, "Equations"), body=Html(nomenclature).render(blocks))
 
 
-FORMAT = Format("html", "html", "A page for a browser.", lambda blocks, letters, beside: page(blocks, letters))
+FORMAT = Format("html", "html", "A page for a browser.", lambda blocks, nomenclature, beside: page(blocks, nomenclature))

@@ -53,7 +53,7 @@ class Latex(TypesetMarkup):
 
     def item(self, words: Words) -> str:
         """A sentence of which a long formula stands below."""
-        shown = (each if isinstance(each, str) else side_formula(each, self.letters) for each in pieces(words))
+        shown = (each if isinstance(each, str) else side_formula(each, self.nomenclature) for each in pieces(words))
         return "".join(
             self.plain(each) if isinstance(each, str) else self.inline(each) if width(each) <= _INLINE else _below(each)
             for each in shown
@@ -103,5 +103,5 @@ def _sign(sign: str, mark: str) -> str | None:
 
 
 FORMAT = Format(
-    "tex", "latex", "A fragment of LaTeX.", lambda blocks, letters, beside: Latex(letters, beside).render(blocks), figures=".pdf"
+    "tex", "latex", "A fragment of LaTeX.", lambda blocks, nomenclature, beside: Latex(nomenclature, beside).render(blocks), figures=".pdf"
 )

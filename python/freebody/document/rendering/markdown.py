@@ -41,5 +41,9 @@ class Markdown(TypesetMarkup):
 
 
 FORMAT = Format(
-    "md", "markdown", "Markdown.", lambda blocks, letters, beside: Markdown(letters, beside).render(blocks), figures=".svg"
+    "md",
+    "markdown",
+    "Markdown.",
+    lambda blocks, nomenclature, beside: Markdown(nomenclature, beside).render(blocks),
+    figures=".svg",
 )

@@ -26,18 +26,18 @@ from freebody.document.blocks import (
 )
 from freebody.document.rendering.matrices import Named, fitted, has_matrices
 from freebody.symbolic.formula import GAP, Formula, joined
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.line_breaking import ROOM, equation
 from freebody.symbolic.printers.typeset import Typesetter, matrix
 
 
-def side_formula(side: Side, letters: Letters) -> Formula:
+def side_formula(side: Side, nomenclature: Nomenclature) -> Formula:
     """One side of an equation, or mathematics in a sentence, set in type."""
     if isinstance(side, Written):
         return side.formula
     if isinstance(side, Matrices):
-        return joined(((matrix(each.rows, letters),) for each in side.factors), (GAP,))
-    printer = Typesetter(letters)
+        return joined(((matrix(each.rows, nomenclature),) for each in side.factors), (GAP,))
+    printer = Typesetter(nomenclature)
     return printer.vector(side.components) if isinstance(side, Vector) else printer.expression(side)
 
 
@@ -45,7 +45,7 @@ def side_formula(side: Side, letters: Letters) -> Formula:
 class Markup(ABC):
     """A document being written. ``beside``: how the names of figures' files begin; empty where there are none."""
 
-    letters: Letters
+    nomenclature: Nomenclature
     beside: str = ""
     named: Named = field(default_factory=Named)
     kind: ClassVar[type[str]] = str
@@ -67,8 +67,8 @@ class Markup(ABC):
             case Paragraph(words):
                 return self.paragraph(self.words(words))
             case Equation() | MatrixEquation() if has_matrices(block):
-                made, letters = fitted(block, self.letters, self.across)
-                writer = replace(self, letters=letters)
+                made, nomenclature = fitted(block, self.nomenclature, self.across)
+                writer = replace(self, nomenclature=nomenclature)
                 return self.kind(self.gap).join(map(writer.stated, self.named.news(made)))
             case Equation():
                 return self.stated(block)
@@ -137,10 +137,10 @@ class TypesetMarkup(Markup):
     """Width of a line in em."""
 
     def math(self, side: Side) -> str:
-        return self.inline(side_formula(side, self.letters))
+        return self.inline(side_formula(side, self.nomenclature))
 
     def equation(self, block: Equation) -> str:
-        left, right = (side_formula(side, self.letters) for side in (block.left, block.right))
+        left, right = (side_formula(side, self.nomenclature) for side in (block.left, block.right))
         return self.display(equation(left, right, math.inf if has_matrices(block) else self.room), block.label)
 
     @abstractmethod

@@ -22,7 +22,7 @@ from freebody.document.blocks import (
 )
 from freebody.symbolic.alphabet import columns
 from freebody.symbolic.formula import EQUALS, joined
-from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Sym, Tree, is_zero
@@ -36,22 +36,22 @@ _EDGES, _GAP = 4, 2
 """Columns for a pair of brackets, and between two columns."""
 
 
-def fitted(block: Equation | MatrixEquation, letters: Letters, room: int) -> tuple[list[Block], Letters]:
-    """An equation of matrices as blocks in which none takes more than ``room`` columns, and the letters with the new names.
+def fitted(block: Equation | MatrixEquation, nomenclature: Nomenclature, room: int) -> tuple[list[Block], Nomenclature]:
+    """An equation of matrices as blocks in which none takes more than ``room`` columns, and the symbols with the new names.
 
     Where even names are too many the entries that are not 0 are told, and nothing else."""
     left, right = _sides(block)
     whole = Equation(left, right, block.name, block.label, block.note)
-    if _across(left, right, letters) <= room:
-        return [whole], letters
+    if _across(left, right, nomenclature) <= room:
+        return [whole], nomenclature
     for longest in _STEPS:
-        named = _Named(longest, letters, {})
+        named = _Named(longest, nomenclature, {})
         sides = named.side(left), named.side(right)
-        known = Letters({**letters, **named.letters})
+        known = Nomenclature({**nomenclature, **named.entries})
         if _across(*sides, known) <= room:
             stated = [Equation(name, tree) for (_, tree), name in named.found.items()]
             return [replace(whole, left=sides[0], right=sides[1]), *stated], known
-    return [Paragraph(_absent(whole)), *_entries(left), *_entries(right)], letters
+    return [Paragraph(_absent(whole)), *_entries(left), *_entries(right)], nomenclature
 
 
 @dataclass(frozen=True)
@@ -79,16 +79,16 @@ def has_matrices(block: Block) -> bool:
 
 @dataclass
 class _Named:
-    """Names for the entries that are longer than so many columns; a letter that is taken is doubled."""
+    """Names for the entries that are longer than so many columns; a symbol that is taken is doubled."""
 
     longest: int
-    known: Letters
+    known: Nomenclature
     found: dict[tuple[str, Tree], Sym]
 
     @property
-    def letters(self) -> dict[str, Letter]:
+    def entries(self) -> dict[str, SymbolEntry]:
         parts = ((name.name, *name.name.split(".")) for name in self.found.values())
-        return {name: Letter(name, "constant", written=Name(stem, ("".join(place),))) for name, stem, *place in parts}
+        return {name: SymbolEntry(name, "constant", written=Name(stem, ("".join(place),))) for name, stem, *place in parts}
 
     def side(self, side: Side) -> Side:
         return Matrices(tuple(map(self._matrix, side.factors))) if isinstance(side, Matrices) else side
@@ -135,11 +135,11 @@ def _sides(block: Equation | MatrixEquation) -> tuple[Side, Side]:
     return Matrices(factors), Matrices((Matrix([[b] for b in block.right], "b"),))
 
 
-def _across(left: Side, right: Side, letters: Letters) -> int:
-    """Columns of the line; a single letter stands on the left where there is no matrix."""
+def _across(left: Side, right: Side, nomenclature: Nomenclature) -> int:
+    """Columns of the line; a single symbol stands on the left where there is no matrix."""
     across = 4
     for matrix in (matrix for side in (left, right) if isinstance(side, Matrices) for matrix in side.factors):
-        shown = [[columns(text(tree, letters)) for tree in row] for row in matrix.rows]
+        shown = [[columns(text(tree, nomenclature)) for tree in row] for row in matrix.rows]
         across += sum(max(column) + _GAP for column in zip(*shown, strict=True)) - _GAP + _EDGES
     return across
 

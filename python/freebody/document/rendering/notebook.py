@@ -10,7 +10,7 @@ from typing import Any
 from freebody.document.blocks import Block, Figure, Heading
 from freebody.document.rendering.format import Format
 from freebody.document.rendering.markdown import Markdown
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 
 
 class Cells(Markdown):
@@ -20,9 +20,9 @@ class Cells(Markdown):
         return f"![{self.plain(figure.picture.description)}](attachment:{figure.name}.svg)\n\n{caption}"
 
 
-def render(blocks: Sequence[Block], letters: Letters, beside: str = "") -> str:
+def render(blocks: Sequence[Block], nomenclature: Nomenclature, beside: str = "") -> str:
     """A whole notebook."""
-    writer, cells = Cells(letters), list[dict[str, Any]]()
+    writer, cells = Cells(nomenclature), list[dict[str, Any]]()
     for block in blocks:
         if isinstance(block, Heading) or not cells:
             cell = {"cell_type": "markdown", "id": f"section-{len(cells)}", "metadata": {}, "attachments": {}, "source": ""}

@@ -12,7 +12,7 @@ from freebody.document.rendering.format import Format
 from freebody.document.rendering.markup import Markup
 from freebody.document.rendering.matrices import has_matrices
 from freebody.symbolic.alphabet import columns
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import equation_text, folded, printer, text
 
 _INDENT = "    "
@@ -20,16 +20,16 @@ _TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
 
 
-def side_text(side: Side, letters: Letters, *, ascii: bool = False) -> str:
+def side_text(side: Side, nomenclature: Nomenclature, *, ascii: bool = False) -> str:
     """One side of an equation, or mathematics in a sentence."""
     if isinstance(side, Written):
         return side.text
-    return printer(letters, ascii).vector(side.components) if isinstance(side, Vector) else text(side, letters, ascii=ascii)
+    return printer(nomenclature, ascii).vector(side.components) if isinstance(side, Vector) else text(side, nomenclature, ascii=ascii)
 
 
-def words_text(words: Words, letters: Letters) -> str:
+def words_text(words: Words, nomenclature: Nomenclature) -> str:
     """A sentence on one line."""
-    return Text(letters).words(words).replace(_TIE, " ")
+    return Text(nomenclature).words(words).replace(_TIE, " ")
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class Text(Markup):
 
     def math(self, side: Side) -> str:
         # A line ends at plus and minus signs only.
-        shown = side_text(side, self.letters, ascii=self.ascii)
+        shown = side_text(side, self.nomenclature, ascii=self.ascii)
         return re.sub(rf" (?![+−-]{_TIE})", _TIE, re.sub(r"(?<= [+−-]) ", _TIE, shown))
 
     def heading(self, title: str, level: int) -> str:
@@ -87,8 +87,8 @@ class Text(Markup):
         room = self.width - len(_INDENT) - (len(block.label) + 4 if block.label else 0)
         left, right = block.left, block.right
         if is_tree(left) and is_tree(right):
-            return equation_text(left, right, self.letters, ascii=self.ascii, width=room)
-        left, right = (side_text(side, self.letters, ascii=self.ascii) for side in (left, right))
+            return equation_text(left, right, self.nomenclature, ascii=self.ascii, width=room)
+        left, right = (side_text(side, self.nomenclature, ascii=self.ascii) for side in (left, right))
         return folded(f"{left} = ", right, room)
 
     def _spread(self, block: Equation) -> str:
@@ -100,10 +100,10 @@ class Text(Markup):
         return "\n".join(f"{a} {'=' if i == middle else ' '} {b}" for i, (a, b) in enumerate(zip(left, right, strict=True)))
 
     def _grid(self, side: Side) -> list[str]:
-        """The lines of a product of matrices, or of a letter."""
+        """The lines of a product of matrices, or of a symbol."""
         if not isinstance(side, Matrices):
-            return [side_text(side, self.letters, ascii=self.ascii)]
-        shown = ([[text(tree, self.letters, ascii=self.ascii) for tree in row] for row in each.rows] for each in side.factors)
+            return [side_text(side, self.nomenclature, ascii=self.ascii)]
+        shown = ([[text(tree, self.nomenclature, ascii=self.ascii) for tree in row] for row in each.rows] for each in side.factors)
         parts = [self._bracketed(rows) for rows in shown]
         height = max(map(len, parts))
         return [" ".join(row) for row in zip(*(_padded(part, height) for part in parts), strict=True)]
@@ -144,4 +144,4 @@ def _centred(cell: str, width: int) -> str:
     return " " * (spare // 2) + cell + " " * (spare - spare // 2)
 
 
-FORMAT = Format("txt", "text", "Plain text.", lambda blocks, letters, beside: Text(letters).render(blocks))
+FORMAT = Format("txt", "text", "Plain text.", lambda blocks, nomenclature, beside: Text(nomenclature).render(blocks))

@@ -51,16 +51,16 @@ Supports = Mapping[int, Sequence[Candidate]]
 
 
 def candidates(
-    problem: Problem, points: NamedPoints, counted: int, in_letters: bool = False
+    problem: Problem, points: NamedPoints, counted: int, symbolically: bool = False
 ) -> tuple[dict[int, list[Candidate]], bool]:
     """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits) by what is unknown in them; of those with the same
-    unknowns the plainest, as many as are independent; and whether every connected set of bodies was tried. ``in_letters``: only
+    unknowns the plainest, as many as are independent; and whether every connected set of bodies was tried. ``symbolically``: only
     those that the core can tell symbolically."""
     sets, exact = groups(problem)
     named = named_motions(problem, points)
     accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
     found = [candidate for group in sets for candidate in _of_group(problem, group, named, counted)]
-    found = [candidate for candidate in found if not in_letters or has_letters(problem, candidate.twist)]
+    found = [candidate for candidate in found if not symbolically or is_symbolic(problem, candidate.twist)]
     found.sort(key=lambda candidate: candidate.order(accelerations))
     by_support: dict[int, list[Candidate]] = {}
     for candidate in found:
@@ -70,7 +70,7 @@ def candidates(
     return by_support, exact
 
 
-def has_letters(problem: Problem, twist: VirtualMotion) -> bool:
+def is_symbolic(problem: Problem, twist: VirtualMotion) -> bool:
     """Whether the core can tell a point or direction symbolically: not one of inertia."""
     return twist.question is not None if twist.pair is None else None not in [problem.unknowns[i].load for i in twist.pair]
 

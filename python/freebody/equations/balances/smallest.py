@@ -93,21 +93,21 @@ def smallest_set(
     states: Sequence[FreeBodies],
     points: NamedPoints | None = None,
     known_motion: bool = False,
-    in_letters: bool = False,
+    symbolically: bool = False,
 ) -> SmallestSet:
     """The smallest set for ``wanted``: a coordinate (its acceleration), a component of a reaction (``A.Fx``), a motion (its
     force or torque); or a force of the model by its name, the one that makes the accelerations what they are
     (``known_motion`` then).
 
     ``states``: the instant, and others of the same mechanism near by, to tell what vanishes always from what vanishes there;
-    ``points``: further named points; ``in_letters``: only equations that have letters. Raises ``KeyError`` for what is not unknown, ``Indeterminate``.
+    ``points``: further named points; ``symbolically``: only equations that have symbols. Raises ``KeyError`` for what is not unknown, ``Indeterminate``.
     """
     if any(load.name == wanted and load.kind == "force" and not load.unknown for load in states[0].loads):
         states, known_motion = [released(state, wanted) for state in states], True
     given = problem(states, wanted.removeprefix("accel(").removesuffix(")"), known_motion)
     place = given.place(wanted)
     name = given.unknowns[place].name
-    by_support, exact = candidates(given, points or {}, counted=bits(range(len(given.unknowns))), in_letters=in_letters)
+    by_support, exact = candidates(given, points or {}, counted=bits(range(len(given.unknowns))), symbolically=symbolically)
     accelerations = bits(i for i, unknown in enumerate(given.unknowns) if unknown.coordinate)
     found = smallest(by_support, 1 << place, accelerations)
     equations = tuple(equation(given, candidate) for candidate in found)

@@ -94,7 +94,7 @@ class Stated:
 
 
 def _symbol(load: Load) -> str:
-    """The letter of a load; that which follows from another one has none."""
+    """The symbol of a load; that which follows from another one has none."""
     return f"the friction of {load.name}" if load.follows else load.symbol
 
 

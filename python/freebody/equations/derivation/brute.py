@@ -14,7 +14,7 @@ from freebody.solve.symbolic_state import SymbolicState
 def brute(subject: SymbolicState) -> Form:
     """The form of a subject."""
     stated = [replace(s, label=str(i)) for i, s in enumerate(of_bodies(subject, "its mass centre"), 1)]
-    form = Form.of(subject.letters, [s.printed for s in stated] + loop_closure.printed(subject.rows))
+    form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(subject.rows))
     made: list[Block] = loop_closure.section(subject.rows, subject.names) if subject.rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(form, len(stated)))]
     body = ""

@@ -27,8 +27,8 @@ _ABSENT = 1e-9
 _NONE = "No momentum of bodies that are joined is conserved: along no direction, about no fixed point and about no mass centre."
 
 
-def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
-    """Every quantity that stays constant, with its reason, or why none does; ``in_letters``: and what it is in the coordinates."""
+def section(subject: SymbolicState, symbolically: bool = True) -> list[Block]:
+    """Every quantity that stays constant, with its reason, or why none does; ``symbolically``: and what it is in the coordinates."""
     kinetic, potential, why = energy(subject)
     reason = (
         f"not conserved: {why}."
@@ -36,18 +36,18 @@ def section(subject: SymbolicState, in_letters: bool = True) -> list[Block]:
         else "conserved: all forces have potentials, and the reactions of joints and contacts do no work."
     )
     made: list[Block] = [Heading("Conserved quantities")]
-    if in_letters:
+    if symbolically:
         left, right = energies(subject)
         made += [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
-    lead = "Their sum" if in_letters else "The sum of kinetic and potential energy"
-    return [*made, Paragraph(f"{lead} is {reason}"), *_conserved_momenta(subject, in_letters)]
+    lead = "Their sum" if symbolically else "The sum of kinetic and potential energy"
+    return [*made, Paragraph(f"{lead} is {reason}"), *_conserved_momenta(subject, symbolically)]
 
 
 def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:
     """Kinetic and potential energy, and why their sum is not constant (empty if it is)."""
     [stated] = subject.ask([{"ask": "energy"}])
     kinetic, potential = read(stated["kinetic"]), read(stated["potential"])
-    loads, laws, why = subject.free.loads, {letter.name for letter, _ in subject.laws}, []
+    loads, laws, why = subject.free.loads, {symbol.name for symbol, _ in subject.laws}, []
     if names := stated["without_potential"]:
         why.append(f"{clause(names, 'does', 'do')} work that has no potential")
     if motions := list(dict.fromkeys(load.name for load in loads if load.kind == "motion")):
@@ -111,7 +111,7 @@ class Momentum:
 
 
 def momenta(subject: SymbolicState) -> list[Momentum]:
-    """All that do not follow from each other. Numbers say which may be constant, letters whether they are."""
+    """All that do not follow from each other. Numbers say which may be constant, symbols whether they are."""
     may_be = conserved_momenta(moving_states(subject.source, subject.state), subject.points)
     stated: dict[int, Balance] = {}
     while asked := [each for each in independent(may_be) if id(each) not in stated]:
@@ -122,20 +122,20 @@ def momenta(subject: SymbolicState) -> list[Momentum]:
 
 
 def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> bool:
-    """Whether a balance has no loads symbolically; or has none in numbers, and loops and contacts are closed, which letters do not see.
+    """Whether a balance has no loads symbolically; or has none in numbers, and loops and contacts are closed, which symbols do not see.
     The numbers are enough only if they were taken at several places."""
     stands = found.twist.question == {"about": "centre"} or not any(x.name in subject.names for x in symbols(*balance.place.xy))
     return (is_zero(balance.left) and stands) or (found.elsewhere and bool(subject.rows))
 
 
-def _conserved_momenta(subject: SymbolicState, in_letters: bool) -> list[Block]:
-    """Each with its reason; ``in_letters``: and what it is in the coordinates."""
+def _conserved_momenta(subject: SymbolicState, symbolically: bool) -> list[Block]:
+    """Each with its reason; ``symbolically``: and what it is in the coordinates."""
     made: list[Block] = []
     while_idle = f"As long as {clause(subject.idle, 'carries', 'carry')} no load, the" if subject.idle else "The"
     for each in momenta(subject):
         reason = _reason(subject, each.found, each.where(subject))
         made.append(Paragraph(f"{while_idle} {each.words(subject)} is conserved: {reason}."))
-        if in_letters:
+        if symbolically:
             made.append(Equation(each.letter(subject), each.momentum))
     return made or [Paragraph(_NONE)]
 

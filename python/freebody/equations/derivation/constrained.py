@@ -9,8 +9,8 @@ from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.form import Form, Printed, System
 from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.formula import GAP, NEGATIVE, Grid, typed
-from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.linear import Linear
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.symbols import Name, Renamed
 from freebody.symbolic.tree import is_zero, negative, read
 
@@ -31,11 +31,11 @@ _CAPTION = "Every body by itself: its mass centre from the origin, its angle fro
 
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
 _STARTS = {"place_x": "x", "place_y": "y", "angle": "phi", "x": "x", "y": "y", "phi": "phi"}
-"""How a letter of the core begins: the long words where a parameter of the model has the usual name."""
+"""How a symbol of the core begins: the long words where a parameter of the model has the usual name."""
 
 
-def constrained(subject: SymbolicState) -> tuple[Form, Letters]:
-    """The form of a subject, and its letters: the places of the bodies are the coordinates here."""
+def constrained(subject: SymbolicState) -> tuple[Form, Nomenclature]:
+    """The form of a subject, and its symbols: the places of the bodies are the coordinates here."""
     from freebody.views.diagram.configuration import Configuration
 
     [stated] = subject.ask([{"ask": "constraints"}])
@@ -44,14 +44,14 @@ def constrained(subject: SymbolicState) -> tuple[Form, Letters]:
     for data in stated["balances"]:
         title = f"{data['kind'].replace('about G', 'about its mass centre')} for {data['body']}"
         equations.append(Printed(title, read(data["right"]), read(data["left"]), Linear.read(data["linear"])))
-    letters = _letters(names, subject)
-    form = Form.of(letters, equations + loop_closure.printed(rows))
+    nomenclature = _nomenclature(names, subject)
+    form = Form.of(nomenclature, equations + loop_closure.printed(rows))
     made: list[Block] = [Heading("Coordinates"), Paragraph(_INTRODUCTION.format(len(names)))]
     made.append(Figure(Configuration(subject.source, subject.state, each_body=True), _CAPTION, "sketch"))
     made += loop_closure.section(rows, names, everywhere=True) if rows else []
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]
-    return replace(form, blocks=(*made, *_in_blocks(form.system, len(equations)))), letters
+    return replace(form, blocks=(*made, *_in_blocks(form.system, len(equations)))), nomenclature
 
 
 def _in_blocks(system: System, balances: int) -> list[Block]:
@@ -79,19 +79,19 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
     ]
 
 
-def _letters(names: list[str], subject: SymbolicState) -> Letters:
-    found: dict[str, Letter] = {}
-    known, renamed = subject.letters, dict(subject.letters.renamed)
+def _nomenclature(names: list[str], subject: SymbolicState) -> Nomenclature:
+    found: dict[str, SymbolEntry] = {}
+    known, renamed = subject.nomenclature, dict(subject.nomenclature.renamed)
     for name in names:
         word, body = next(
             (word, name.removeprefix(f"{start}_")) for start, word in _STARTS.items() if name.startswith(f"{start}_")
         )
         unit, doc, usual = *_WHAT[word], f"{word}_{body}"
-        found[name] = Letter(name, "coordinate", unit, doc.format(body))
+        found[name] = SymbolEntry(name, "coordinate", unit, doc.format(body))
         if name != usual:
             renamed[name] = Renamed(Name.parse(usual), f"the parameter {usual}", doc.format(body), Name.parse(name))
-    rest = {letter.name: letter for letter in known.values() if letter.kind != "coordinate"}
+    rest = {symbol.name: symbol for symbol in known.values() if symbol.kind != "coordinate"}
     rest |= {
-        letter.name: replace(letter, kind="parameter") for letter in known.values() if letter.written and letter.name not in rest
+        symbol.name: replace(symbol, kind="parameter") for symbol in known.values() if symbol.written and symbol.name not in rest
     }
-    return Letters(found | rest, renamed)
+    return Nomenclature(found | rest, renamed)

@@ -83,11 +83,11 @@ def derive(subject: SymbolicState, form: str = "minimal", want: str | None = Non
     """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
-    letters, title = subject.letters, _TITLES.get(form)
+    nomenclature, title = subject.nomenclature, _TITLES.get(form)
     if want is not None:
         form, title, content = "wanted", f"the fewest for {want}", wanted(subject, want)
     elif form == "constraints":
-        content, letters = constrained(subject)
+        content, nomenclature = constrained(subject)
     elif form in FORMS:
         content = (minimal if form == "minimal" else brute)(subject)
     else:
@@ -98,11 +98,11 @@ def derive(subject: SymbolicState, form: str = "minimal", want: str | None = Non
         law = "The law of friction, as the joint slides now"
         body = [*preamble.kinematics(subject)] * own + body
         body += [Equation(load, tree, "" if i else law) for i, (load, tree) in enumerate(subject.laws)]
-        body += [*_matrix_form(form, content, subject), *conserved.section(subject, in_letters=own)]
+        body += [*_matrix_form(form, content, subject), *conserved.section(subject, symbolically=own)]
     first = [Heading(subject.titled(f"equations, {title}"), 1), *(preamble.configuration(subject) if own else [])]
-    blocks = (*first, *preamble.letters(letters, used(body)), *body)
+    blocks = (*first, *preamble.nomenclature(nomenclature, used(body)), *body)
     return Equations(
-        tuple(lettered(readable(block, _ELSEWHERE), letters) for block in blocks), letters, form=form, content=content
+        tuple(lettered(readable(block, _ELSEWHERE), nomenclature) for block in blocks), nomenclature, form=form, content=content
     )
 
 
@@ -154,8 +154,8 @@ def _uneven(equations: int, unknowns: int, laws: int) -> str:
 
 
 def used(blocks: Any) -> set[str]:
-    """Names of all letters in blocks, and in whatever these hold."""
+    """Names of all symbols in blocks, and in whatever these hold."""
     if isinstance(blocks, Tree):
-        return {letter.name for letter in symbols(blocks)}
+        return {symbol.name for symbol in symbols(blocks)}
     fields = [getattr(blocks, name) for name in getattr(blocks, "__dataclass_fields__", ())]
     return set().union(*map(used, blocks if isinstance(blocks, list | tuple) else fields))

@@ -96,8 +96,8 @@ class Directions:
         values: Mapping[Sym, float] | None = None,
         symbols: Taken | None = None,
     ) -> Directions:
-        """The pairs for some vectors (``moving`` letters change with time), named after bodies that turn with them, after the
-        link that they are along, after the letter of the angle, or numbered; ``values`` of the letters tell links, ``symbols``
+        """The pairs for some vectors (``moving`` symbols change with time), named after bodies that turn with them, after the
+        link that they are along, after the symbol of the angle, or numbered; ``values`` of the symbols tell links, ``symbols``
         what names mean something else."""
         symbols = symbols or Taken()
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
@@ -145,20 +145,20 @@ class Directions:
 
 
 def axes(symbols: Taken) -> tuple[str, str, str]:
-    """The unit vectors along the fixed axes and across the plane: i, j, k, or e_x, e_y, e_z where the model has such letters."""
+    """The unit vectors along the fixed axes and across the plane: i, j, k, or e_x, e_y, e_z where the model has such symbols."""
     what = {"i": "the unit vector along x", "j": "the unit vector along y", "k": "the unit vector across the plane"}
-    names = (symbols.give(what[letter], Name(letter), Name("e", (axis,))) for letter, axis in zip("ijk", "xyz", strict=True))
+    names = (symbols.give(what[symbol], Name(symbol), Name("e", (axis,))) for symbol, axis in zip("ijk", "xyz", strict=True))
     x, y, z = (name.unicode() for name in names)
     return x, y, z
 
 
 def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
-    """The rate of a sum of letters with numbers, of which some are ``moving``; None for any other angle."""
+    """The rate of a sum of symbols with numbers, of which some are ``moving``; None for any other angle."""
     rates: list[Tree] = []
     for term in angle.terms if isinstance(angle, Add) else (angle,):
-        changing = [letter for letter in symbols(term) if letter.name in moving]
+        changing = [symbol for symbol in symbols(term) if symbol.name in moving]
         factors = term.factors if isinstance(term, Mul) else (term,)
-        if len(changing) > 1 or any(letter not in factors for letter in changing):
+        if len(changing) > 1 or any(symbol not in factors for symbol in changing):
             return None
         rates += [mul(*(Sym(f.name, f.dots + 1) if f == x else f for f in factors)) for x in changing]
     return add(*rates)

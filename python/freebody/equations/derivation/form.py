@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from freebody.document.blocks import Block
-from freebody.symbolic.letters import Letters
 from freebody.symbolic.linear import Linear
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.tree import ZERO, Sym, Tree, minus, negative
 
 
@@ -38,9 +38,9 @@ class System:
     def of(cls, equations: Sequence[Linear], order: Sequence[str]) -> System:
         """The system of expressions that vanish; unknowns in the ``order`` of names."""
         ranks = {name: place for place, name in enumerate(order)}
-        found = {letter for equation in equations for letter in equation.coefficients}
-        unknowns = sorted(found, key=lambda letter: (letter.dots == 0, ranks.get(letter.name, len(ranks)), letter.name))
-        matrix = tuple(tuple(equation.coefficients.get(letter, ZERO) for letter in unknowns) for equation in equations)
+        found = {symbol for equation in equations for symbol in equation.coefficients}
+        unknowns = sorted(found, key=lambda symbol: (symbol.dots == 0, ranks.get(symbol.name, len(ranks)), symbol.name))
+        matrix = tuple(tuple(equation.coefficients.get(symbol, ZERO) for symbol in unknowns) for equation in equations)
         return cls(matrix, tuple(unknowns), tuple(negative(equation.rest) for equation in equations))
 
     @property
@@ -58,9 +58,9 @@ class Form:
     blocks: tuple[Block, ...] = field(default=(), repr=False)
 
     @classmethod
-    def of(cls, letters: Letters, equations: Sequence[Printed]) -> Form:
-        """The form of some equations, with the unknowns in the order of the letters."""
-        return cls(tuple(equations), System.of([equation.linear for equation in equations], list(letters)))
+    def of(cls, nomenclature: Nomenclature, equations: Sequence[Printed]) -> Form:
+        """The form of some equations, with the unknowns in the order of the symbols."""
+        return cls(tuple(equations), System.of([equation.linear for equation in equations], list(nomenclature)))
 
     @property
     def reactions(self) -> tuple[str, ...]:

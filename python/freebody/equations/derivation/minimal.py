@@ -38,11 +38,11 @@ def minimal(subject: SymbolicState) -> Form:
         chosen = found if found or not search.wanted else of_coordinates(subject)
     added = _of_bearing_friction(subject, chosen)
     stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen, *added], 1)]
-    form = Form.of(subject.letters, [s.printed for s in stated] + loop_closure.printed(rows))
+    form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(rows))
     made: list[Block] = loop_closure.section(rows, subject.names) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(chosen), search)), *_friction(subject)]
     if added:
-        laws = joined([letter.name for letter, _ in subject.laws])
+        laws = joined([symbol.name for symbol, _ in subject.laws])
         forces = joined([x.name for s in added for x in s.balance.linear.coefficients if not x.dots])
         said = f"The friction {laws} stays, which follows from {forces} by a law that is not linear: {len(added)} more are for these."
         made.append(Paragraph(said))
@@ -80,7 +80,7 @@ def _questions(subject: SymbolicState, equation: BalanceEquation) -> list[Mappin
 
 
 def _stated(subject: SymbolicState, balance: Balance, equation: BalanceEquation) -> Stated:
-    """An equation without what the search knows to drop out, as letters see only where loops are closed; a line by its own name."""
+    """An equation without what the search knows to drop out, as symbols see only where loops are closed; a line by its own name."""
     gone = {name for item in equation.dropped for name in item.unknowns} & {x.name for x in balance.linear.coefficients}
     loads = subject.free.loads
     leading = {i for i, load in enumerate(loads) if load.symbol in gone}
@@ -111,7 +111,7 @@ def _introduction(subject: SymbolicState, form: Form, number: int, search: Minim
         return "Nothing is free to move: no equation of motion is left. The reactions are found by the form brute."
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
     leading = [name for name in form.reactions if search and name in search.frictional]
-    by_law = {letter.name for letter, law in subject.laws for letter in (letter, *symbols(law))}
+    by_law = {symbol.name for symbol, law in subject.laws for symbol in (symbol, *symbols(law))}
     others = [name for name in form.reactions if name not in (*prescribed, *leading, *by_law)]
     also = f" and one for {joined(leading)}" if leading else ""
     count = "One balance equation" if number == 1 else f"{number} balance equations, one for each degree of freedom{also},"

@@ -1,4 +1,4 @@
-"""The first sections of a derivation: configuration, letters, kinematics."""
+"""The first sections of a derivation: configuration, symbols, kinematics."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from freebody.equations.derivation.loop_closure import holding
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.symbolic_state import Arrow, SymbolicState
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import superscript
 from freebody.symbolic.tree import Sym, is_zero
 
@@ -104,16 +104,16 @@ def directions(subject: SymbolicState, arrows: Sequence[Arrow] = ()) -> Directio
     return Directions.of(motions, arrows, [*subject.names, "t"], links, subject.values, subject.symbols.taken)
 
 
-def letters(known: Letters, used: Collection[str]) -> list[Block]:
-    """What the other letters mean, as far as they occur."""
-    shown = [letter for letter in known.values() if letter.name in used]
+def nomenclature(known: Nomenclature, used: Collection[str]) -> list[Block]:
+    """What the other symbols mean, as far as they occur."""
+    shown = [symbol for symbol in known.values() if symbol.name in used]
     given: list[str | Sym] = []
-    for letter in (letter for letter in shown if letter.kind in ("parameter", "constant")):
-        unit = re.sub(r"\^(-?\d+)", lambda found: superscript(found[1]), letter.unit).replace("*", "·")
-        said = ", ".join(filter(None, (letter.doc, unit)))
-        given += [", " if given else "Given: ", Sym(letter.name), f" ({said})" * bool(said)]
+    for symbol in (symbol for symbol in shown if symbol.kind in ("parameter", "constant")):
+        unit = re.sub(r"\^(-?\d+)", lambda found: superscript(found[1]), symbol.unit).replace("*", "·")
+        said = ", ".join(filter(None, (symbol.doc, unit)))
+        given += [", " if given else "Given: ", Sym(symbol.name), f" ({said})" * bool(said)]
     made: list[Block] = [Paragraph([*given, "."])] if given else []
-    if unknown := [([Sym(letter.name)], letter.doc) for letter in shown if letter.kind == "unknown"]:
+    if unknown := [([Sym(symbol.name)], symbol.doc) for symbol in shown if symbol.kind == "unknown"]:
         made.append(Table(("symbol", "what it is"), unknown, "Unknown:"))
     if renamed := list(map(str, known.renamed.values())):
         made.append(Paragraph(" ".join(renamed)))

@@ -1,4 +1,4 @@
-"""Sentences of a derivation: lists of names, loads by their letters in the equations, and what is too long to be printed."""
+"""Sentences of a derivation: lists of names, loads by their symbols in the equations, and what is too long to be printed."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from freebody.document.blocks import (
     is_tree,
     pieces,
 )
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.tree import Sym, walk
 
 LONGEST = 2500
-"""Letters, numbers and operations of an expression beyond which nobody reads it."""
+"""Symbols, numbers and operations of an expression beyond which nobody reads it."""
 
 
 def joined(words: Sequence[str]) -> str:
@@ -36,9 +36,9 @@ def clause(names: Sequence[str], one: str, several: str) -> str:
     return f"{joined(names)} {one if len(names) == 1 else several}"
 
 
-def lettered(block: Block, letters: Letters) -> Block:
-    """The block with every unknown load that its sentences name by its symbol, ``track.Fn``, as a letter."""
-    symbols = sorted(letters.of_kind("unknown"), key=len, reverse=True)
+def lettered(block: Block, nomenclature: Nomenclature) -> Block:
+    """The block with every unknown load that its sentences name, ``track.Fn``, as a symbol."""
+    symbols = sorted(nomenclature.of_kind("unknown"), key=len, reverse=True)
     named = re.compile(rf"(?<![\w.])({'|'.join(map(re.escape, symbols))})(?![\w])")
 
     def put(words: Words) -> Words:

@@ -20,18 +20,18 @@ def wanted(subject: SymbolicState, name: str) -> Form:
 
     Raises ``KeyError`` for what is not unknown, ``Indeterminate``."""
     found = smallest_set(name, subject.neighbours, subject.points)
-    rows = [([_letter(each)], figure(value)) for each, value in found.values.items()]
+    rows = [([_symbol(each)], figure(value)) for each, value in found.values.items()]
     agrees = f"They agree with the solution of the complete system to a relative {found.check:.0e}."
     exact = "" if found.exact else " Not every set of bodies was tried: there are too many."
     numbers = [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(agrees + exact)]
     stated = from_search(subject, found.equations) if found.equations else None
     if stated is None:
-        return replace(Form.of(subject.letters, []), blocks=(*_numeric(found), *numbers))
+        return replace(Form.of(subject.nomenclature, []), blocks=(*_numeric(found), *numbers))
     printed = [s.printed for s in stated]
-    free = [x.name for x in map(_letter, found.values) if x.dots]
+    free = [x.name for x in map(_symbol, found.values) if x.dots]
     moving = {x.name for equation in printed for x in equation.linear.coefficients if x.dots}
     following = loop_closure.followers(subject.rows, free, moving)
-    form = Form.of(subject.letters, printed + loop_closure.printed(following))
+    form = Form.of(subject.nomenclature, printed + loop_closure.printed(following))
     made: list[Block] = [Heading("Balance equations"), Paragraph(_introduction(found))]
     for s in stated:
         made += s.blocks(subject)
@@ -50,26 +50,26 @@ def _following(subject: SymbolicState, form: Form, free: Sequence[str], rows: Se
     return [Heading("Accelerations that follow"), Paragraph(said), *accelerations]
 
 
-def _listed(letters: Sequence[Sym]) -> list:
+def _listed(shown: Sequence[Sym]) -> list:
     """``a, b and c``."""
-    last = len(letters) - 1
-    return [piece for i, x in enumerate(letters) for piece in (*([" and " if i == last else ", "] if i else []), x)]
+    last = len(shown) - 1
+    return [piece for i, x in enumerate(shown) for piece in (*([" and " if i == last else ", "] if i else []), x)]
 
 
 def _introduction(found: SmallestSet) -> Words:
-    number, names = len(found.equations), _listed([_letter(name) for name in found.values])
+    number, names = len(found.equations), _listed([_symbol(name) for name in found.values])
     if number == 1:
         return ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
     smaller = " and no other unknown; no smaller set determines "
-    return [f"{COUNT[number].capitalize()} balance equations contain ", *names, smaller, _letter(found.wanted), "."]
+    return [f"{COUNT[number].capitalize()} balance equations contain ", *names, smaller, _symbol(found.wanted), "."]
 
 
-def _letter(name: str) -> Sym:
+def _symbol(name: str) -> Sym:
     return Sym(name[6:-1], 2) if name.startswith("accel(") else Sym(name)
 
 
 def _numeric(found: SmallestSet) -> list[Block]:
-    """A set that has no letters, as numbers."""
+    """A set that has no symbols, as numbers."""
     if not found.virtual:
         lines = [line.strip() for line in str(found).splitlines() if line.strip()]
         return [
@@ -77,8 +77,8 @@ def _numeric(found: SmallestSet) -> list[Block]:
             Paragraph("The points of this set have no symbols; in numbers it is:"),
             Bullets(lines),
         ]
-    letter = _letter(found.wanted)
-    name = f"the acceleration of {letter.name}" if letter.dots else letter.name
+    symbol = _symbol(found.wanted)
+    name = f"the acceleration of {symbol.name}" if symbol.dots else symbol.name
     said = f"{name} takes more than four balance equations. One of virtual power gives it: move the bodies so that "
     moves = [
         f"{body}: its mass centre moves with ({figure(x)}, {figure(y)}), it turns with {figure(turn)}"

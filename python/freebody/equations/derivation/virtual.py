@@ -42,7 +42,7 @@ class VirtualPower:
     @property
     def reactions(self) -> list[str]:
         """Unknown loads that have power even so: forces of motions, and what friction follows from."""
-        return [letter.name for letter in self.linear.coefficients if not letter.dots]
+        return [symbol.name for symbol in self.linear.coefficients if not symbol.dots]
 
 
 def virtual_power(subject: SymbolicState) -> list[VirtualPower]:

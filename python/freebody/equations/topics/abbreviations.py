@@ -1,4 +1,4 @@
-"""Letters for what is long in the equations of an impact."""
+"""Symbols for what is long in the equations of an impact."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from freebody.symbolic.tree import ONE, Add, Fn, Sym, Tree, mul, negative, opera
 
 _ENTRY, _ANGLE = "h", "psi"
 _LONG = 5
-"""Operations of an entry above which it gets a letter."""
+"""Operations of an entry above which it gets a symbol."""
 _MANY = 3
-"""Terms of an angle from which on it gets a letter; one in which a term is more than ± a letter gets one as well."""
+"""Terms of an angle from which on it gets a symbol; one in which a term is more than ± a symbol gets one as well."""
 
 
 @dataclass
 class Names:
-    """Letters for what is long: angles of several terms, and what impulses give to momenta."""
+    """Symbols for what is long: angles of several terms, and what impulses give to momenta."""
 
     taken: frozenset[str]
     made: dict[Sym, Tree] = field(default_factory=dict)
 
     def angles(self, tree: Tree) -> Tree:
-        """With letters for its long angles."""
+        """With symbols for its long angles."""
         return rebuilt(tree, self._angle)
 
     def entry(self, tree: Tree) -> Tree:
-        """It, or the letter for it, or for what it is the negative of."""
+        """It, or the symbol for it, or for what it is the negative of."""
         if operations(tree) <= _LONG:
             return tree
         for name, known in self.made.items():
@@ -38,15 +38,15 @@ class Names:
         return self._new(_ENTRY, tree)
 
     def spelt(self, tree: Tree) -> Tree:
-        """With the entries themselves; angles keep their letters."""
+        """With the entries themselves; angles keep their symbols."""
         return replace(tree, {name: entry for name, entry in self.made.items() if name.name.startswith(_ENTRY)})
 
     def plain_angles(self, tree: Tree) -> Tree:
-        """Where a letter of an angle is one of several terms of another angle, what it stands for: cos(ψ₁ − θ) is cos α."""
+        """Where a symbol of an angle is one of several terms of another angle, what it stands for: cos(ψ₁ − θ) is cos α."""
         return rebuilt(tree, self._plain)
 
     def used(self, trees: Iterable[Tree]) -> Mapping[Sym, Tree]:
-        """The letters that occur, also in what others stand for."""
+        """The symbols that occur, also in what others stand for."""
         there = symbols(*trees)
         for name in reversed(self.made):
             there |= symbols(self.made[name]) if name in there else set()

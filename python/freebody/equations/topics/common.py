@@ -14,7 +14,7 @@ from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.differentiate import derivative
-from freebody.symbolic.letters import Letter, Letters
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, canonical, mul, negative
 
@@ -43,22 +43,22 @@ class Asked:
         return SymbolicState(self.mechanism.source(), self.state)
 
 
-def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[Letter] = ()) -> Document:
-    """A document with a title and the meaning of its letters; ``more`` are those that the model does not have."""
-    letters = Letters({**subject.letters.table, **{letter.name: letter for letter in more}})
+def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[SymbolEntry] = ()) -> Document:
+    """A document with a title and the meaning of its symbols; ``more`` are those that the model does not have."""
+    nomenclature = Nomenclature({**subject.nomenclature.table, **{symbol.name: symbol for symbol in more}})
     first = Heading(subject.titled(title), 1)
     short = [readable(block, _ELSEWHERE) for block in blocks]
-    made = (first, *preamble.configuration(subject), *preamble.letters(letters, used(short)), *short)
-    return Document(tuple(lettered(block, letters) for block in made), letters)
+    made = (first, *preamble.configuration(subject), *preamble.nomenclature(nomenclature, used(short)), *short)
+    return Document(tuple(lettered(block, nomenclature) for block in made), nomenclature)
 
 
 def rate(tree: Tree, coordinates: Collection[str]) -> Tree:
     """The derivative with respect to time of an expression of coordinates, rates and time."""
 
-    def of(letter: Sym) -> Tree:
-        if letter == Sym("t"):
+    def of(symbol: Sym) -> Tree:
+        if symbol == Sym("t"):
             return ONE
-        return Sym(letter.name, letter.dots + 1) if letter.name in coordinates and letter.dots < 2 else ZERO
+        return Sym(symbol.name, symbol.dots + 1) if symbol.name in coordinates and symbol.dots < 2 else ZERO
 
     return canonical(derivative(tree, of))
 
@@ -73,9 +73,9 @@ def cross(a: tuple[Tree, Tree], b: tuple[Tree, Tree]) -> Tree:
     return add(mul(a[0], b[1]), negative(mul(a[1], b[0])))
 
 
-def brief(tree: Tree, letters: Letters) -> Tree:
+def brief(tree: Tree, nomenclature: Nomenclature) -> Tree:
     """The shortest form found; it takes up to seconds."""
-    return presented(tree, letters, patience=PATIENCE)
+    return presented(tree, nomenclature, patience=PATIENCE)
 
 
 def spread(tree: Tree) -> Tree:

@@ -12,8 +12,8 @@ from freebody.equations.solve import solve_equations
 from freebody.equations.topics.common import Asked, NotHere, brief, document, rate
 from freebody.equations.topics.lagrange import equations
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.letters import Letter
 from freebody.symbolic.linear import linear_in
+from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.symbols import unicode_name
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, symbols
@@ -46,7 +46,7 @@ def eliminated(subject: SymbolicState) -> Eliminated:
         raise NotHere("no momentum of a coordinate is conserved: every coordinate itself stands in the energies, or is driven")
     constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}
     rates = solve_equations(
-        [(each.momentum, constants[each.coordinate]) for each in gone], [Sym(name, 1) for name in constants], subject.letters
+        [(each.momentum, constants[each.coordinate]) for each in gone], [Sym(name, 1) for name in constants], subject.nomenclature
     )
     kept = [each for each in found if each not in gone]
     names = subject.names
@@ -70,28 +70,30 @@ def elimination(asked: Asked) -> Document:
     made += [Equation(tree, ZERO, ["For ", Sym(name)]) for name, tree in found.equations.items()]
     if found.energy is not None:
         made.append(Equation(Sym("E"), found.energy, "Its first integral, the energy, which is constant"))
-    more = [Letter(x.name, "constant", "", f"conserved momentum of {unicode_name(name)}") for name, x in found.constants.items()]
-    return document(subject, "elimination by what is conserved", made, [*more, Letter("E", "constant", "J", "energy")])
+    more = [
+        SymbolEntry(x.name, "constant", "", f"conserved momentum of {unicode_name(name)}") for name, x in found.constants.items()
+    ]
+    return document(subject, "elimination by what is conserved", made, [*more, SymbolEntry("E", "constant", "J", "energy")])
 
 
 def _put(subject: SymbolicState, tree: Tree, first: Mapping[Sym, Tree], second: Mapping[Sym, Tree]) -> Tree:
     for new in (second, first):
         tree = from_sympy(to_sympy(replace(tree, new)))
-    return brief(tree, subject.letters)
+    return brief(tree, subject.nomenclature)
 
 
 def _bare(subject: SymbolicState, tree: Tree) -> Tree:
     """What vanishes if the tree does, without factors of parameters and what stands below; accelerations with one factor each."""
     if is_zero(tree):
         return tree
-    fixed = set(subject.letters.of_kind("parameter", "constant"))
+    fixed = set(subject.nomenclature.of_kind("parameter", "constant"))
     above, _ = sympy.fraction(sympy.cancel(sympy.together(to_sympy(tree))))
     factors = sympy.factor_list(above)[1]
     kept = sympy.Mul(*(factor**n for factor, n in factors if not {str(x) for x in factor.free_symbols} <= fixed))
     moving = [Sym(name, 2) for name in subject.names]
     parts = linear_in(from_sympy(sympy.expand(kept)), moving)
-    terms = [mul(brief(factor, subject.letters), x) for x, factor in parts.coefficients.items()]
-    return add(*terms, brief(parts.rest, subject.letters))
+    terms = [mul(brief(factor, subject.nomenclature), x) for x, factor in parts.coefficients.items()]
+    return add(*terms, brief(parts.rest, subject.nomenclature))
 
 
 def _why(names: Sequence[str]) -> Words:

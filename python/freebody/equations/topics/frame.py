@@ -68,9 +68,9 @@ def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, 
         "a_coriolis": "Coriolis: 2 ω × v_relative",
         "a": "Together, a = a_transport + a_relative + a_coriolis",
     }
-    for heading, letter in (("Velocity", "v"), ("Acceleration", "a")):
+    for heading, symbol in (("Velocity", "v"), ("Acceleration", "a")):
         made.append(Heading(heading))
-        made += [Equation(_vector(x), directions.vector(arrows[x]), what) for x, what in parts.items() if x[0] == letter]
+        made += [Equation(_vector(x), directions.vector(arrows[x]), what) for x, what in parts.items() if x[0] == symbol]
     made += _prescribed(subject, directions, arrows)
     return made + _directly(subject, place, arrows, point)
 

@@ -55,7 +55,7 @@ def impact(
         found = applied(asked.mechanism, asked.state, point, **strike)
         title = f"struck at {point}"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
-    return document(found.subject, title, made, list(found.letters.values()))
+    return document(found.subject, title, made, list(found.nomenclature.values()))
 
 
 def _what(found: Impact) -> list[Block]:
@@ -68,7 +68,7 @@ def _what(found: Impact) -> list[Block]:
     made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
-        items: list[Words] = [[found.letter(load), f", {_named(found, load, body)}"] for load in loads]
+        items: list[Words] = [[found.symbol(load), f", {_named(found, load, body)}"] for load in loads]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
     made.append(Figure(impulse_diagram(found.subject.blow), "Impulses, and the jumps of momentum.", "impulses"))
     missing = found.subject.blow.absent()
@@ -112,7 +112,7 @@ def _with_impulses(found: Impact, each: Stated) -> Equation:
     right = presented(found.jump(each.balance), unknowns=unknown)
     said: list[str | Side] = []
     for why, loads in dropped(found.subject, each).items():
-        said += ["; " if said else "Not in this equation: ", *listed(map(found.letter, loads)), f" ({agree(why, len(loads))})"]
+        said += ["; " if said else "Not in this equation: ", *listed(map(found.symbol, loads)), f" ({agree(why, len(loads))})"]
     return Equation(left, right, _title(each.title), note=[*said, "."] if said else "")
 
 
@@ -141,11 +141,11 @@ def _friction(found: Impact) -> list[Block]:
     sizes = found.sizes()
     note = "Coulomb's law, integrated over the impact: the impulse of friction has its largest size, against the sliding."
     words = "{} slides throughout the impact"
-    made: list[Block] = [Equation(found.letter(x), found.law(x), words.format(x.name), note=note) for x in found.slides]
+    made: list[Block] = [Equation(found.symbol(x), found.law(x), words.format(x.name), note=note) for x in found.slides]
     stuck = all(found.holds(each) for each in found.conditions())
     for normal, load in pairwise(found.forces):  # friction stands behind its normal force
         if load.kind == "friction" and stuck:
-            n, f = found.letter(normal), found.letter(load)
+            n, f = found.symbol(normal), found.symbol(load)
             words = f"{load.name} sticks after the impact: the impulse of friction that this takes is within Coulomb's limit"
             share = [": ", f, f" is {abs(sizes[f] / sizes[n]):.3g} of ", n, "."]
             made.append(Paragraph([words, *(["."] if np.isnan(sizes[f] + sizes[n]) else share)]))
@@ -193,7 +193,7 @@ def _matrix(found: Impact) -> list[Block]:
 
 def _numbers(found: Impact) -> list[Block]:
     change = found.change
-    given = [Sym(letter) for letter in found.subject.blow.given.values()]
+    given = [Sym(symbol) for symbol in found.subject.blow.given.values()]
     small = _ROUND_OFF * max(map(abs, (*change.before.u.values(), *change.after.u.values())), default=0.0)
     before, now = ({name: u if abs(u) > small else 0.0 for name, u in each.u.items()} for each in (change.before, change.after))
     rows: list[Words] = [[Sym(name, 1), f": {before[name]:.6g} before, {u:.6g} after"] for name, u in now.items()]

@@ -24,8 +24,8 @@ from freebody.solve.symbolic_state import Balance
 from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import quotient
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.letters import Letter, Letters
 from freebody.symbolic.linear import linear_in
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import (
     ZERO,
@@ -87,15 +87,15 @@ class Impact:
 
     @cached_property
     def coefficients(self) -> dict[str, Sym]:
-        """The letter of how much comes back, by name: that of the model, if it has one."""
+        """The symbol of how much comes back, by name: that of the model, if it has one."""
         spec = self.subject.source.spec
         given = {limit["name"]: limit["restitution"] for kind in ("contacts", "strings", "stops") for limit in spec[kind]}
         named = {name: x for name, x in given.items() if isinstance(x, str) and x.isidentifier()}
         back = [name for name, e in self.restitution.items() if e]
         return {name: Sym(named.get(name, re.sub(r"\W+", "_", f"e_{name}").strip("_"))) for name in back}
 
-    def letter(self, load: Load) -> Sym:
-        """The letter of an impulse."""
+    def symbol(self, load: Load) -> Sym:
+        """The symbol of an impulse."""
         return Sym(self.subject.blow.given.get(load.name) or impulse(load))
 
     @cached_property
@@ -172,7 +172,7 @@ class Impact:
         if not asked or None in asked:
             return []
         balances = self.subject.balances([question for question in asked if question])
-        values = self.values | dict.fromkeys(self.impulses, 1.0)  # in numbers: letters may not see what touches
+        values = self.values | dict.fromkeys(self.impulses, 1.0)  # in numbers: symbols may not see what touches
         grow = [self.subject.blow.grows(load) for load in self.subject.free.loads]
         parts = [c.tree for balance in balances for c in balance.contributions if not c.internal and grow[c.load]]
         if any(abs(float(evaluate(part, values, self.subject.tables))) >= _NOTHING for part in parts):
@@ -193,10 +193,10 @@ class Impact:
         along: dict[Sym, Tree] = {}  # a coordinate that is all of a distance where others are 0: y = −l of what hangs below
         for under, root in self.roots.items():
             factor, square = to_sympy(put(under, zeros)).as_coeff_Mul()
-            letter = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
-            if isinstance(letter, Sym) and letter.name in names:
+            symbol = from_sympy(square.base) if square.is_Pow and square.exp == 2 else None
+            if isinstance(symbol, Sym) and symbol.name in names:
                 size = mul(root, from_sympy(factor ** (-to_sympy(Num(_HALF)))))
-                along[letter] = size if self.subject.values[letter] > 0 else negative(size)
+                along[symbol] = size if self.subject.values[symbol] > 0 else negative(size)
         return zeros | along
 
     def of_coordinates(self) -> list[Stated]:
@@ -208,23 +208,23 @@ class Impact:
         return [replace(each, balance=each.balance.with_trees(self.with_roots)) for each in of_bodies(self.subject)]
 
     @cached_property
-    def letters(self) -> Letters:
-        """The letters of the model, of impulses and of rates after the impact."""
-        known, written = self.subject.letters, self.subject.impulses
-        made = [Letter(after(n), "coordinate", known[n].unit, f"{n}, rate after the impact") for n in self.subject.names]
+    def nomenclature(self) -> Nomenclature:
+        """The symbols of the model, of impulses and of rates after the impact."""
+        known, written = self.subject.nomenclature, self.subject.impulses
+        made = [SymbolEntry(after(n), "coordinate", known[n].unit, f"{n}, rate after the impact") for n in self.subject.names]
         for load in self.subject.blow.acting:
             if load.name in self.subject.blow.given:
-                made.append(Letter(self.letter(load).name, "parameter", "N*s", "the applied impulse"))
+                made.append(SymbolEntry(self.symbol(load).name, "parameter", "N*s", "the applied impulse"))
             else:
                 words = f"impulse of the {load_words(load).removeprefix('the ')}"
-                made.append(Letter(impulse(load), "unknown", "N*s", words, written[load.symbol]))
+                made.append(SymbolEntry(impulse(load), "unknown", "N*s", words, written[load.symbol]))
         own = {name: e.name for name, e in self.coefficients.items() if e.name not in known}
-        made += [Letter(e, "parameter", "", f"restitution at {name}") for name, e in own.items()]
-        return Letters({**known.table, **{letter.name: letter for letter in made}})
+        made += [SymbolEntry(e, "parameter", "", f"restitution at {name}") for name, e in own.items()]
+        return Nomenclature({**known.table, **{symbol.name: symbol for symbol in made}})
 
     @cached_property
     def values(self) -> dict[Sym, float]:
-        """The numbers of the letters before the impact."""
+        """The numbers of the symbols before the impact."""
         return self.subject.values | {e: self.restitution[name] for name, e in self.coefficients.items()}
 
     @property
@@ -272,7 +272,7 @@ class Impact:
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""
         happened = self.subject.blow
-        return {self.letter(load): load.value for load in happened.impulses.loads if load.name not in happened.given}
+        return {self.symbol(load): load.value for load in happened.impulses.loads if load.name not in happened.given}
 
 
 def _root(value: Tree) -> tuple[Tree, Tree] | None:
@@ -312,13 +312,13 @@ def _seen(happens: Callable[[], Impulsive]) -> Impact:
 
 
 def impulse(load: Load) -> str:
-    """The letter of an impulse: ``bump.J_N``, ``pivot.J_x``."""
+    """The symbol of an impulse: ``bump.J_N``, ``pivot.J_x``."""
     owner, _, part = load.symbol.rpartition(".")
     return f"{owner or load.name}.J_{part.removeprefix('F') or part}"
 
 
 def after(name: str) -> str:
-    """The letter of a coordinate whose rate is that after the impact."""
+    """The symbol of a coordinate whose rate is that after the impact."""
     return re.sub(r"(?<=[^0-9])(?=[0-9]+$)", "_", name) + "_after"
 
 

@@ -58,9 +58,9 @@ _Sides = tuple[Tree, Tree]
 
 @dataclass(frozen=True)
 class Jumps:
-    """``known``: rates before an impact that follow from others by what held then; ``names``: what is long, by letters; then the
+    """``known``: rates before an impact that follow from others by what held then; ``names``: what is long, by symbols; then the
     ``impulses`` of what acts, the ``rates`` after the impact, and the impulses of ``joints`` that the balances of the coordinates
-    do not have. Each may hold the letters of others, see ``told``."""
+    do not have. Each may hold the symbols of others, see ``told``."""
 
     known: Solution
     names: Solution
@@ -102,7 +102,7 @@ class _System:
 
     def __init__(self, found: Impact, rows: Rows) -> None:
         self.found = found
-        self.names = Names(frozenset(found.letters))
+        self.names = Names(frozenset(found.nomenclature))
         self.before = [Sym(name, 1) for name in found.subject.names]
         self.after = [Sym(after(x.name), 1) for x in self.before]
         held = [row.rate for row in found.subject.rows_before if row.rate is not None and found.vanishes(row.rate)]
@@ -166,7 +166,7 @@ class _System:
             jumped = [divided(each, self.mass[i][i]) for i, each in enumerate(sums)]
         else:
             _require_few(n)
-            jumped = solve(self.mass, sums, self.found.letters, patience=0.0)
+            jumped = solve(self.mass, sums, self.found.nomenclature, patience=0.0)
         asked: list[_Sides] = []
         for each, row, rest in self.rows:
             before = add(*(mul(factor, self._of_before(x)) for factor, x in zip(row, self.before, strict=True)), rest)
@@ -179,7 +179,7 @@ class _System:
         return rates, {x: self._stated(tree, tree) for x, tree in impulses.items()}, {**impulses, **full}
 
     def _put(self, tree: Tree) -> Tree:
-        """An expression with what is 0 at the impact, and with letters for its angles."""
+        """An expression with what is 0 at the impact, and with symbols for its angles."""
         zeros = self.found.zeros
         small = from_sympy(to_sympy(replace(tree, zeros))) if symbols(tree) & zeros.keys() else tree
         return self.names.angles(small)
@@ -191,7 +191,7 @@ class _System:
         return [self._entry(entry) for entry in row[0]], self._put(row[1])
 
     def _signs(self, tree: Tree) -> int:
-        return length(tree, self.found.letters)[0]
+        return length(tree, self.found.nomenclature)[0]
 
     def _by_rates(self, wanted: Sequence[Sym]) -> Solution:
         """Impulses by the rates before and after."""
@@ -215,7 +215,7 @@ class _System:
             return {}
         free = [k for k in range(len(there)) if k not in bound]
         right = [negative(add(*(mul(rows[i][k], there[k]) for k in free), self._put(parts[i].rest))) for i in chosen]
-        solution = solve([[rows[i][k] for k in bound] for i in chosen], right, self.found.letters, patience=_PATIENCE)
+        solution = solve([[rows[i][k] for k in bound] for i in chosen], right, self.found.nomenclature, patience=_PATIENCE)
         stated = {there[k]: self._finished(tree) for k, tree in zip(bound, solution, strict=True)}
         return {x: tree for x, tree in stated.items() if operations(tree) <= _HELPS and not _divides(tree)}
 
@@ -259,27 +259,27 @@ class _System:
         _require_few(len(wanted))
         matrix, right = linear_system(equations, wanted)
         require_brief([*(entry for row in matrix for entry in row), *right])
-        found = solve([list(map(spread, row)) for row in matrix], list(map(spread, right)), self.found.letters, patience=0.0)
+        found = solve([list(map(spread, row)) for row in matrix], list(map(spread, right)), self.found.nomenclature, patience=0.0)
         require_brief(found)
         return {x: self.names.plain_angles(_fourier(tree)) for x, tree in zip(wanted, found, strict=True)}
 
     def _stated(self, staged: Tree, full: Tree) -> Tree:
-        """``full`` in its shortest form where that can be read, else ``staged``, which says it by other letters."""
+        """``full`` in its shortest form where that can be read, else ``staged``, which says it by other symbols."""
         short, whole = self._finished(staged), self.names.spelt(full)
         if operations(whole) > MOST_OPERATIONS:
             return short
-        letters, turns = self.found.letters, any(isinstance(part, Fn) for part in walk(whole))
+        nomenclature, turns = self.found.nomenclature, any(isinstance(part, Fn) for part in walk(whole))
         forms = [whole, *([self.names.plain_angles(_fourier(whole))] if turns else [])]
         given = (sympy.together(to_sympy(form)) if isinstance(form, Add) else to_sympy(form) for form in forms)
-        made = (self._finished(presented(form, letters, patience=_PATIENCE)) for form in given)
-        best = min(made, key=lambda form: length(form, letters))
+        made = (self._finished(presented(form, nomenclature, patience=_PATIENCE)) for form in given)
+        best = min(made, key=lambda form: length(form, nomenclature))
         return best if self._signs(best) <= max(_READABLE, self._signs(short)) else short
 
     def _finished(self, tree: Tree) -> Tree:
         return with_positive_divisors(without_circles(self.names.plain_angles(tree)), self._numbers())
 
     def _numbers(self) -> dict[Sym, float]:
-        """The numbers of all letters at the impact."""
+        """The numbers of all symbols at the impact."""
         found = self.found
         values = found.values | found.rates_after | found.sizes()
         for name, tree in self.names.made.items():

@@ -26,7 +26,7 @@ from freebody.symbolic.linear import linear_in
 from freebody.symbolic.tree import ZERO, Add, Num, Sym, Tree, add, is_zero, minus, mul, negative, read, symbols, walk
 
 _MOST_SIGNS = 400
-"""Letters, numbers and operations of an equation and its inertia beyond which its factors are not solved for symbolically."""
+"""Symbols, numbers and operations of an equation and its inertia beyond which its factors are not solved for symbolically."""
 _SAMPLES, _NOTHING = 3, 1e-8
 _ROUND_OFF = 1e-6
 """Part of the largest term of an equation, whose terms are multiplied out and cancel, that is round-off."""
@@ -68,7 +68,7 @@ def combination(subject: SymbolicState, of: Sequence[Lagrange], balances: Sequen
             return None
         own, _ = coefficients(each.residual, accelerations)
         try:
-            made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.letters))
+            made.append(solve([list(column) for column in zip(*inertia, strict=True)], own, subject.nomenclature))
         except (TooLarge, Singular, Unconfirmed):
             return None
         sides = (mul(factor, balance.balance.residual) for factor, balance in zip(made[-1], balances, strict=True))
@@ -84,12 +84,12 @@ def _plain(each: Lagrange, balances: Sequence[Stated], accelerations: Sequence[S
     except ValueError:
         return None
     theirs = [balance.balance.linear.coefficients for balance in balances]
-    letters = sorted(symbols(*own.values(), *(tree for row in theirs for tree in row.values())), key=str)
+    occurring = sorted(symbols(*own.values(), *(tree for row in theirs for tree in row.values())), key=str)
 
     def factors(seed: int) -> Array:
-        """At random values of all letters."""
+        """At random values of all symbols."""
         draw = random.Random(seed)
-        values = {letter: draw.uniform(0.3, 1.9) for letter in letters}
+        values = {symbol: draw.uniform(0.3, 1.9) for symbol in occurring}
         rows = [[evaluate(row.get(x, ZERO), values) for x in accelerations] for row in (own, *theirs)]
         return np.linalg.lstsq(np.array(rows[1:], float).T, np.array(rows[0], float), rcond=None)[0]
 

@@ -27,11 +27,11 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import bold, dotted
-from freebody.symbolic.letters import Letter
+from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
 
-_BOLD = tuple(Written(sign, bold(letter)) for sign, letter in (("𝐌", "M"), ("𝐂", "C"), ("𝐊", "K")))
-"""The matrices, apart from any letters of a model."""
+_BOLD = tuple(Written(sign, bold(symbol)) for sign, symbol in (("𝐌", "M"), ("𝐂", "C"), ("𝐊", "K")))
+"""The matrices, apart from any symbols of a model."""
 _VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumerate(("𝐱", "𝐱\u0307", "𝐱\u0308")))
 """The perturbations, their rates and accelerations."""
 _STANDS = 1e-9
@@ -69,10 +69,10 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     subject = SymbolicState(mechanism.source(), rest, at_rest=True)
     _require_regular(subject)
     made, found, follow = _perturbations(subject, chosen)
-    said, stability, eigenvalues = character(subject, found, _letters_of(subject))
+    said, stability, eigenvalues = character(subject, found, _symbols_of(subject))
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
-    more = [Letter("s", "indeterminate", "1/s", "eigenvalue"), *_letters_of(subject).values()]
+    more = [SymbolEntry("s", "indeterminate", "1/s", "eigenvalue"), *_symbols_of(subject).values()]
     whole = document(subject, title, where + made + said, more)
     return LinearEquations(
         whole.blocks, whole.letters, rest=rest, equations=found, follow=follow, eigenvalues=eigenvalues, stability=stability
@@ -119,37 +119,37 @@ def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[
     try:
         left = held(subject, whole, put)
     except TooLarge:
-        numbers = [name for name in subject.letters.geometric() if name not in chosen.trees]
+        numbers = [name for name in subject.nomenclature.geometric() if name not in chosen.trees]
         subject, put = subject.with_numbers([n for n in numbers if n not in place]), place | dict(chosen.trees)
         left = held(subject, linearised(subject, put), put)
     return made + _left_free(subject, left, numbers), left.equations, left.follow
 
 
-def _letters_of(subject: SymbolicState) -> dict[str, Letter]:
-    """The letters of perturbations by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
+def _symbols_of(subject: SymbolicState) -> dict[str, SymbolEntry]:
+    """The symbols of perturbations by coordinate: ξ where the coordinates themselves are in the equations, for their places at rest."""
     coordinates = subject.coordinates
     if not subject.rows and all(map(is_natural, place_of(subject).values())):
-        return {c["name"]: subject.letters[c["name"]] for c in coordinates}
-    stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.letters))
+        return {c["name"]: subject.nomenclature[c["name"]] for c in coordinates}
+    stem = next(stem for stem in ("xi", "eta", "zeta") if not any(name.startswith(stem) for name in subject.nomenclature))
     names = [f"{stem}{i}" for i, _ in enumerate(coordinates, 1)] if len(coordinates) > 1 else [stem]
     pairs = zip(names, coordinates, strict=False)
-    return {c["name"]: Letter(x, "coordinate", c["dimension"] or "", f"perturbation of {c['name']}") for x, c in pairs}
+    return {c["name"]: SymbolEntry(x, "coordinate", c["dimension"] or "", f"perturbation of {c['name']}") for x, c in pairs}
 
 
 def _equations(subject: SymbolicState, found: Linearised) -> list[Block]:
-    letters = _letters_of(subject)
-    pairs = [(name, letter.name) for name, letter in letters.items() if name != letter.name]
+    shifts = _symbols_of(subject)
+    pairs = [(name, symbol.name) for name, symbol in shifts.items() if name != symbol.name]
     said: list[str | Side] = ["For small perturbations"]
-    for i, (name, letter) in enumerate(pairs):
-        said += ["," * bool(i) + " ", Sym(letter), " of ", Sym(name)]
+    for i, (name, symbol) in enumerate(pairs):
+        said += ["," * bool(i) + " ", Sym(symbol), " of ", Sym(name)]
     said.append(f"{'' if pairs else ' of the coordinates'} from there")
     right = "changes of the constraint loads, which are in 𝐊 as they are in equilibrium" if subject.rows else ""
-    return [Heading("Linear equations"), *_stated(found, letters, said, right)]
+    return [Heading("Linear equations"), *_stated(found, shifts, said, right)]
 
 
-def _stated(found: Linearised, letters: Mapping[str, Letter], said: Sequence[str | Side], right: str = "") -> list[Block]:
+def _stated(found: Linearised, shifts: Mapping[str, SymbolEntry], said: Sequence[str | Side], right: str = "") -> list[Block]:
     """M ẍ + C ẋ + K x = 0 with its matrices; of one coordinate as one equation. ``right``: what stands there if not 0."""
-    perturbations = [letters[name].name for name in found.coordinates]
+    perturbations = [shifts[name].name for name in found.coordinates]
     parts = ((found.mass, 2), (found.damping, 1), (found.stiffness, 0))
     if len(perturbations) == 1 and not right:
         terms = (mul(shown(matrix[0][0]), Sym(perturbations[0], dots)) for matrix, dots in parts if not is_zero(matrix[0][0]))
@@ -161,8 +161,8 @@ def _stated(found: Linearised, letters: Mapping[str, Letter], said: Sequence[str
 
 def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> list[Block]:
     """How the other coordinates follow, and the equations of those that are free."""
-    letters = _letters_of(subject)
-    free = [Sym(letters[name].name) for name in left.equations.coordinates]
+    shifts = _symbols_of(subject)
+    free = [Sym(shifts[name].name) for name in left.equations.coordinates]
     names = list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws))
     made: list[Block] = [Heading("Independent perturbations")]
     if numbers:
@@ -170,7 +170,7 @@ def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> li
     if left.follow:
         made.append(Paragraph(f"To first order {clause(names, 'gives', 'give')} the others:"))
     made += [
-        Equation(Sym(letters[name].name), shown(add(*(mul(entry, x) for entry, x in zip(ways, free, strict=True)))))
+        Equation(Sym(shifts[name].name), shown(add(*(mul(entry, x) for entry, x in zip(ways, free, strict=True)))))
         for name, ways in left.follow.items()
     ]
     if not free:
@@ -181,7 +181,7 @@ def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> li
     made += [Equation(x, shown(tree)) for x, tree in left.reactions.items()]
     last = f", the law of {joined(list(left.laws))} last," if left.laws else ""
     said = ["Their changes do no work in these perturbations. The equations of ", *listed(free), f"{last} are"]
-    return made + _stated(left.equations, letters, said)
+    return made + _stated(left.equations, shifts, said)
 
 
 def _place(subject: SymbolicState, chosen: Substitutions, near: bool) -> Words:

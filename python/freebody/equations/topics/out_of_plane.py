@@ -9,7 +9,7 @@ from freebody.document.document import Document
 from freebody.equations.topics.common import Asked, document
 from freebody.model.start import quantity
 from freebody.symbolic.formula import typed
-from freebody.symbolic.letters import Letter
+from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.tree import ZERO, Sym, add, is_zero, mul
 
 _ACROSS = "g_z"
@@ -44,4 +44,4 @@ def out_of_plane(asked: Asked, *, gravity: Any = None) -> Document:
         total = Equation(Written("Σ N", typed("∑N")), whole, "All together")
         made += [Paragraph(lead), Bullets(each), total, Paragraph(shared)]
     made += [Heading("Couples about axes in the plane"), Paragraph(_COUPLES)]
-    return document(subject, "out of the plane", made, [Letter(_ACROSS, "constant", "m/s^2", "gravity into the plane")])
+    return document(subject, "out of the plane", made, [SymbolEntry(_ACROSS, "constant", "m/s^2", "gravity into the plane")])

@@ -8,7 +8,7 @@ from freebody.document.document import Document
 from freebody.equations.topics.common import Asked, NotHere, brief, document, known, place_of
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
-from freebody.symbolic.letters import Letter
+from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
 
@@ -44,18 +44,18 @@ def _cartesian(subject: SymbolicState, body: str, balances: list[Balance]) -> li
     return made + [Equation(presented(b.right), b.left, name) for b, name in zip(balances, names, strict=True)]
 
 
-def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[Letter]]:
+def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[SymbolEntry]]:
     place, motion = place_of(subject, about).xy, next(m for m in subject.motions if m.body == body)
-    taken = set(subject.letters)
+    taken = set(subject.nomenclature)
     r, phi = (name if name not in taken else f"{name}_polar" for name in (_R, _PHI))
     (x, y), forces = motion.r.xy, [b.left for b in balances]
     arm = (minus(x, place[0]), minus(y, place[1]))
     made: list[Block] = [Heading(f"Along e_r and e_φ about {about}")]
     made.append(Paragraph([Sym(r), f" is the distance of {body} from {about}, ", Sym(phi), " the angle of that line from i; "
                            "e_r points outward along it, e_φ a right angle further."]))  # fmt: skip
-    letters = [
-        Letter(r, "coordinate", "m", f"distance from {about}"),
-        Letter(phi, "coordinate", "rad", "angle of that line from i"),
+    polar = [
+        SymbolEntry(r, "coordinate", "m", f"distance from {about}"),
+        SymbolEntry(phi, "coordinate", "rad", "angle of that line from i"),
     ]
     along = motion.r.parts[0] if len(motion.r.parts) == 1 else None
     if along and is_zero(along.across) and (motion.r.i, motion.r.j) == place:  # along one direction that turns
@@ -67,16 +67,16 @@ def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance
         made += [Equation(s, new[s], "Here" if s == x else "") for s in (x, y)]
         forces, unit = [replace(f, new) for f in forces], (Fn("cos", (Sym(phi),)), Fn("sin", (Sym(phi),)))
     else:
-        made.append(Equation(power(Sym(r), 2), brief(add(power(arm[0], 2), power(arm[1], 2)), subject.letters), "Here"))
+        made.append(Equation(power(Sym(r), 2), brief(add(power(arm[0], 2), power(arm[1], 2)), subject.nomenclature), "Here"))
         unit = (over(arm[0], Sym(r)), over(arm[1], Sym(r)))
     radial = add(mul(forces[0], unit[0]), mul(forces[1], unit[1]))
     across = add(mul(forces[1], unit[0]), negative(mul(forces[0], unit[1])))
     m, (dr, ddr), (w, alpha) = motion.mass, (Sym(r, 1), Sym(r, 2)), (Sym(phi, 1), Sym(phi, 2))
     outward = minus(ddr, mul(Sym(r), power(w, 2)))
     around = add(mul(Sym(r), alpha), mul(number(2), dr, w))
-    made.append(Equation(mul(m, outward), brief(radial, subject.letters), "Σ F·e_r = m (r̈ − r φ̇²)"))
-    made.append(Equation(mul(m, around), brief(across, subject.letters), "Σ F·e_φ = m (r φ̈ + 2 ṙ φ̇)"))
-    return made, letters
+    made.append(Equation(mul(m, outward), brief(radial, subject.nomenclature), "Σ F·e_r = m (r̈ − r φ̇²)"))
+    made.append(Equation(mul(m, around), brief(across, subject.nomenclature), "Σ F·e_φ = m (r φ̈ + 2 ṙ φ̇)"))
+    return made, polar
 
 
 def _replaced(x: Sym, y: Sym, place: tuple[Tree, Tree], r: str, phi: str) -> dict[Sym, Tree]:

@@ -15,7 +15,7 @@ from freebody.equations.stability import Eigenvalue, Stability, characteristic, 
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import shown
-from freebody.symbolic.letters import Letter
+from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.tree import ZERO, Add, Mul, Sym, Tree, is_zero, mul, negative, power
 
 _POSITIVE = ("kg", "kg*m^2", "m")
@@ -27,7 +27,7 @@ Factors = list[tuple[list[Tree], int]]
 
 
 def character(
-    subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter]
+    subject: SymbolicState, found: Linearised, shifts: Mapping[str, SymbolEntry]
 ) -> tuple[list[Block], Stability | None, tuple[Root, ...]]:
     """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short; with the
     stability, where it is told, and the eigenvalues in numbers."""
@@ -36,17 +36,17 @@ def character(
     positive = _positive(subject)
     try:
         matrix = found.first_order()
-        parts = factors(characteristic(matrix, subject.letters), subject.letters)
+        parts = factors(characteristic(matrix, subject.nomenclature), subject.nomenclature)
         made += [
             Heading("Eigenvalues"),
             Equation(shown(_product(parts)), ZERO, ["The characteristic equation of the eigenvalues ", Sym("s")]),
         ]
         try:
-            found_ones = eigenvalues(matrix, subject.letters, positive=positive)
+            found_ones = eigenvalues(matrix, subject.nomenclature, positive=positive)
             made += [Paragraph("The eigenvalues:"), Bullets(_paired(found_ones))]
         except TooLarge as error:
             made.append(Paragraph(f"{str(error).capitalize()}."))
-        stable, said = _stability(parts, subject, found, letters, positive)
+        stable, said = _stability(parts, subject, found, shifts, positive)
         made += said
     except (TooLarge, Singular) as error:
         made.append(Paragraph(f"No more is given symbolically: {error}."))
@@ -60,18 +60,18 @@ def character(
 def _positive(subject: SymbolicState) -> list[str]:
     """Masses, inertias, lengths, stiffnesses and gravity: the only symbols that are taken as positive, where they are so. Gains,
     dampings and the rest may have any sign, whatever they are in the model."""
-    spec, letters = subject.source.spec, subject.letters
+    spec, nomenclature = subject.source.spec, subject.nomenclature
     lengths = [force["with"].get("rest_length", "") for force in spec["forces"]]
     shapes = [lengths, *(spec[word] for word in _SHAPES), *(each["value"] for each in spec["parameters"])]
     read, fallen = (set(re.findall(r"[^\W\d]\w*", str(each))) for each in (shapes, spec["gravity"]))
     loads = fallen | {str(force["with"].get("stiffness")) for force in spec["forces"]}
 
     def is_positive(name: str) -> bool:
-        unit, own = letters[name].unit, letters[name].kind == "constant"  # of the model's numbers without a name
+        unit, own = nomenclature[name].unit, nomenclature[name].kind == "constant"  # of the model's numbers without a name
         is_size = unit in _POSITIVE and (own or name in read)
         return (is_size or name in loads or (own and unit == "m/s^2")) and subject.values[Sym(name)] > 0
 
-    return list(filter(is_positive, letters.of_kind("parameter", "constant")))
+    return list(filter(is_positive, nomenclature.of_kind("parameter", "constant")))
 
 
 def _product(parts: Factors) -> Tree:
@@ -110,11 +110,11 @@ def _stated(value: Eigenvalue, sign: str = "", signed: str = "") -> Words:
 
 
 def _stability(
-    parts: Factors, subject: SymbolicState, found: Linearised, letters: Mapping[str, Letter], positive: Sequence[str]
+    parts: Factors, subject: SymbolicState, found: Linearised, shifts: Mapping[str, SymbolEntry], positive: Sequence[str]
 ) -> tuple[Stability, list[Block]]:
     near = modes(subject, found)
-    stated = [stability(p, subject.letters, positive=positive, symmetric=near.symmetric) for p, _ in parts if not is_zero(p[-1])]
-    made: list[Block] = [Heading("Stability"), *_free(near, letters)]
+    stated = [stability(p, subject.nomenclature, positive=positive, symmetric=near.symmetric) for p, _ in parts if not is_zero(p[-1])]
+    made: list[Block] = [Heading("Stability"), *_free(near, shifts)]
     conditions = tuple(dict.fromkeys(c for each in stated for c in each.conditions))
     kinds, never = {each.kind for each in stated}, any(each.never for each in stated)
     whole = Stability(" and ".join(sorted(kinds)), conditions, never or near.grows)
@@ -123,21 +123,21 @@ def _stability(
     if near.grows and not never:
         lacking = "A repeated eigenvalue has one eigenvector only, so perturbations grow with time: it is unstable."
         return whole, [*made, Paragraph(lacking)]
-    moving = listed(Sym(letters[name].name) for name in near.moving)
+    moving = listed(Sym(shifts[name].name) for name in near.moving)
     made.append(Paragraph(_verdict(whole, bool(near.free), moving)))
     made += [Bullets([[shown(condition), " > 0"] for condition in conditions])] * bool(conditions and not never)
     return whole, [*made, Paragraph(_TAKEN)]
 
 
-def _free(near: Modes, letters: Mapping[str, Letter]) -> list[Block]:
+def _free(near: Modes, shifts: Mapping[str, SymbolEntry]) -> list[Block]:
     """What nothing brings back."""
     made: list[Block] = []
     if near.drifting:
         drifts = "they drift" if len(near.drifting) > 1 else "it drifts"
-        names = listed(Sym(letters[name].name) for name in near.drifting)
+        names = listed(Sym(shifts[name].name) for name in near.drifting)
         made.append(Paragraph(["No load restores ", *names, f": at any small constant speed {drifts} away."]))
     if rest := [name for name in near.free if name not in near.drifting]:
-        names = listed(Sym(letters[name].name) for name in rest)
+        names = listed(Sym(shifts[name].name) for name in rest)
         made.append(Paragraph(["No load restores ", *names, ": a small perturbation stays as it is."]))
     return made
 

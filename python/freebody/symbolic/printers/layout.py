@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, power, symbols, walk
 
 SIMPLE_FUNCTIONS = ("sin", "cos", "tan", "ln")
-"""Functions that a person writes without brackets when what they are of is one letter."""
+"""Functions that a person writes without brackets when what they are of is one symbol."""
 _TENTHS = 10
 """The largest denominator with a 5 in it that stands as a fraction."""
 _PARAMETERS, _COORDINATES, _FUNCTIONS, _RATES, _BARE = range(1, 6)
@@ -41,37 +41,37 @@ def is_bare(tree: Tree) -> bool:
     return isinstance(node, Fn) and node.name in SIMPLE_FUNCTIONS and _is_plain(node.args[0])
 
 
-def product(tree: Tree, letters: Letters) -> Product:
+def product(tree: Tree, nomenclature: Nomenclature) -> Product:
     """The tree as one product."""
     factors = _factors(tree)
     whole = math.prod((factor.value for factor in factors if isinstance(factor, Num)), start=Fraction(1))
     size, rest = abs(whole), [factor for factor in factors if not isinstance(factor, Num)]
     below = [power(f.base, -f.exponent) for f in rest if isinstance(f, Pow) and f.exponent < 0]
-    above = _sorted((f for f in rest if not (isinstance(f, Pow) and f.exponent < 0)), letters)
-    head = tuple(factor for factor in above if _class(factor, letters) == _PARAMETERS)
+    above = _sorted((f for f in rest if not (isinstance(f, Pow) and f.exponent < 0)), nomenclature)
+    head = tuple(factor for factor in above if _class(factor, nomenclature) == _PARAMETERS)
     # A fraction that nobody calculates with, 9/20000, stands as the decimal number that it is.
     odd = isinstance(size, Fraction) and size.denominator > _TENTHS and size.denominator % 5 == 0
     size = float(size) if odd and Fraction(f"{float(size):.10g}") == size else size
-    return Product(whole < 0, size, head, tuple(above[len(head) :]), tuple(_sorted(below, letters)))
+    return Product(whole < 0, size, head, tuple(above[len(head) :]), tuple(_sorted(below, nomenclature)))
 
 
-def stands_apart(laid: Product, letters: Letters) -> bool:
+def stands_apart(laid: Product, nomenclature: Nomenclature) -> bool:
     """Whether the fraction is one of parameters and what moves is written behind it: (g/l) sin θ."""
-    constant = all(_class(factor, letters) == _PARAMETERS for factor in laid.below)
-    moves = any(_class(factor, letters) in (_FUNCTIONS, _BARE) for factor in laid.tail)
+    constant = all(_class(factor, nomenclature) == _PARAMETERS for factor in laid.below)
+    moves = any(_class(factor, nomenclature) in (_FUNCTIONS, _BARE) for factor in laid.tail)
     return bool(laid.head) and constant and moves
 
 
-def terms(tree: Tree, letters: Letters) -> list[Tree]:
-    """The terms of a sum: accelerations first, then rates, then the rest, each in the order of the letters;
+def terms(tree: Tree, nomenclature: Nomenclature) -> list[Tree]:
+    """The terms of a sum: accelerations first, then rates, then the rest, each in the order of the symbols;
     of a polynomial in an indeterminate its powers falling.
 
     One with a plus goes first, if there is any, but none before an acceleration."""
-    found = sorted(tree.terms, key=lambda term: _term_rank(term, letters)) if isinstance(tree, Add) else [tree]
-    if product(found[0], letters).negative:
+    found = sorted(tree.terms, key=lambda term: _term_rank(term, nomenclature)) if isinstance(tree, Add) else [tree]
+    if product(found[0], nomenclature).negative:
         accelerates = _dots(found[0]) == 2
         rivals = (t for t in found if not accelerates or _dots(t) == 2)
-        first = next((t for t in rivals if not product(t, letters).negative), found[0])
+        first = next((t for t in rivals if not product(t, nomenclature).negative), found[0])
         found.remove(first)
         found.insert(0, first)
     return found
@@ -85,41 +85,41 @@ def _factors(tree: Tree) -> list[Tree]:
 
 def _is_plain(tree: Tree) -> bool:
     if isinstance(tree, Mul) and len(tree.factors) == 2:
-        factor, letter = tree.factors
-        return isinstance(factor, Num) and factor.value > 0 and float(factor.value).is_integer() and isinstance(letter, Sym)
+        factor, symbol = tree.factors
+        return isinstance(factor, Num) and factor.value > 0 and float(factor.value).is_integer() and isinstance(symbol, Sym)
     return isinstance(tree, Sym)
 
 
-def _sorted(factors: Iterable[Tree], letters: Letters) -> list[Tree]:
+def _sorted(factors: Iterable[Tree], nomenclature: Nomenclature) -> list[Tree]:
     def place(factor: Tree) -> tuple:
-        found = [x for x in symbols(factor) if letters.kind(x.name) == "indeterminate"] or symbols(factor)
-        first = min(((letter.dots, *letters.rank(letter)) for letter in found), default=())
-        return _class(factor, letters), first, isinstance(factor, Add)
+        found = [x for x in symbols(factor) if nomenclature.kind(x.name) == "indeterminate"] or symbols(factor)
+        first = min(((symbol.dots, *nomenclature.rank(symbol)) for symbol in found), default=())
+        return _class(factor, nomenclature), first, isinstance(factor, Add)
 
     return sorted(factors, key=place)
 
 
-def _class(factor: Tree, letters: Letters) -> int:
+def _class(factor: Tree, nomenclature: Nomenclature) -> int:
     found = symbols(factor)
     if is_bare(factor):
         return _BARE
-    if any(letter.dots for letter in found):
+    if any(symbol.dots for symbol in found):
         return _RATES
     if any(isinstance(node, Fn) for node in walk(factor)):
         return _FUNCTIONS
-    still = all(letters.kind(letter.name) in ("parameter", "constant") for letter in found)
+    still = all(nomenclature.kind(symbol.name) in ("parameter", "constant") for symbol in found)
     return _PARAMETERS if still else _COORDINATES
 
 
-def _term_rank(term: Tree, letters: Letters) -> tuple:
+def _term_rank(term: Tree, nomenclature: Nomenclature) -> tuple:
     found, dots = symbols(term), _dots(term)
     powers = (f if isinstance(f, Pow) else Pow(f, Fraction(1)) for f in _factors(term))
-    degree = sum(f.exponent for f in powers if isinstance(f.base, Sym) and letters.kind(f.base.name) == "indeterminate")
-    moves = any(letters.kind(letter.name) not in ("parameter", "constant") for letter in found)
-    leading = sorted(letters.place(letter.name) for letter in found if letter.dots == dots)
-    rest = sorted(letters.place(letter.name) for letter in found if letter.dots != dots)
+    degree = sum(f.exponent for f in powers if isinstance(f.base, Sym) and nomenclature.kind(f.base.name) == "indeterminate")
+    moves = any(nomenclature.kind(symbol.name) not in ("parameter", "constant") for symbol in found)
+    leading = sorted(nomenclature.place(symbol.name) for symbol in found if symbol.dots == dots)
+    rest = sorted(nomenclature.place(symbol.name) for symbol in found if symbol.dots != dots)
     return -degree, -dots, dots == 0 and moves, leading, rest
 
 
 def _dots(term: Tree) -> int:
-    return max((letter.dots for letter in symbols(term)), default=0)
+    return max((symbol.dots for symbol in symbols(term)), default=0)

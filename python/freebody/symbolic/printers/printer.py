@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import ClassVar, Generic, TypeVar
 
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, is_zero
 
@@ -17,9 +17,9 @@ Made = TypeVar("Made", bound=Sequence)
 
 @dataclass(frozen=True)
 class Printer(ABC, Generic[Made]):
-    """Walks over trees and makes of them a text, or a formula; the letters say in what order a person writes them."""
+    """Walks over trees and makes of them a text, or a formula; the symbols say in what order a person writes them."""
 
-    letters: Letters = field(default_factory=Letters)
+    nomenclature: Nomenclature = field(default_factory=Nomenclature)
     plus: ClassVar[Sequence]
     minus: ClassVar[Sequence]
     negative: ClassVar[Sequence]
@@ -30,7 +30,7 @@ class Printer(ABC, Generic[Made]):
 
     def expression(self, tree: Tree) -> Made:
         """The tree as one line."""
-        return self._sum([self._term(term) for term in layout.terms(tree, self.letters)])
+        return self._sum([self._term(term) for term in layout.terms(tree, self.nomenclature)])
 
     def vector(self, components: Sequence[tuple[Tree, str]]) -> Made:
         """A vector by its components along unit directions."""
@@ -53,14 +53,14 @@ class Printer(ABC, Generic[Made]):
         return made
 
     def _term(self, tree: Tree) -> tuple[bool, Made]:
-        laid = layout.product(tree, self.letters)
+        laid = layout.product(tree, self.nomenclature)
         return laid.negative, self._fraction(laid) if laid.below else self.product(laid.size, laid.above)
 
     def _fraction(self, laid: layout.Product) -> Made:
         above, below = laid.size.as_integer_ratio() if isinstance(laid.size, Fraction) else (laid.size, 1)
         bottom, several = self._factors(below, laid.below), below != 1 or len(laid.below) > 1
         sums = not several and isinstance(laid.below[0], Add)
-        if layout.stands_apart(laid, self.letters) and not (self.linear and (several or sums)):
+        if layout.stands_apart(laid, self.nomenclature) and not (self.linear and (several or sums)):
             parameters = self.fraction(self._factors(above, laid.head), bottom, False, False)
             return self.juxtapose([self.bracket(parameters) if self.linear else parameters, *map(self._factor, laid.tail)])
         sole = laid.above[0] if len(laid.above) == 1 and above == 1 else None
@@ -96,8 +96,8 @@ class Printer(ABC, Generic[Made]):
     def arguments(self, tree: Fn) -> Made:
         """What a function is of, without the brackets."""
         if layout.is_bare(tree) and isinstance(tree.args[0], Mul):
-            count, letter = tree.args[0].factors
-            return self._factor(count) + self._factor(letter)
+            count, symbol = tree.args[0].factors
+            return self._factor(count) + self._factor(symbol)
         first, *more = map(self.expression, tree.args)
         for each in more:
             first += self.comma + each
@@ -113,8 +113,8 @@ class Printer(ABC, Generic[Made]):
         return self.raised(self._factor(base), exponent)
 
     @abstractmethod
-    def name(self, letter: Sym) -> Made:
-        """A letter."""
+    def name(self, symbol: Sym) -> Made:
+        """A symbol."""
 
     @abstractmethod
     def direction(self, name: str) -> Made:

@@ -10,7 +10,7 @@ from fractions import Fraction
 from typing import ClassVar
 
 from freebody.symbolic.alphabet import columns
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
@@ -20,14 +20,16 @@ WIDTH = 100
 _VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}
 
 
-def text(tree: Tree, letters: Letters | None = None, *, ascii: bool = False) -> str:
+def text(tree: Tree, nomenclature: Nomenclature | None = None, *, ascii: bool = False) -> str:
     """The expression on one line; ``ascii`` spells Greek letters and writes primes for dots."""
-    return printer(letters, ascii).expression(tree)
+    return printer(nomenclature, ascii).expression(tree)
 
 
-def equation_text(left: Tree, right: Tree, letters: Letters | None = None, *, ascii: bool = False, width: int = WIDTH) -> str:
+def equation_text(
+    left: Tree, right: Tree, nomenclature: Nomenclature | None = None, *, ascii: bool = False, width: int = WIDTH
+) -> str:
     """``left = right``, broken at plus and minus signs to lines of at most ``width`` columns where that is possible."""
-    first, second = (text(side, letters, ascii=ascii) for side in (left, right))
+    first, second = (text(side, nomenclature, ascii=ascii) for side in (left, right))
     if columns(whole := f"{first} = {second}") <= width:
         return whole
     if columns(first) <= width // 3:
@@ -69,9 +71,9 @@ def _split(line: str, wanted: int) -> Iterator[str]:
     yield line[start:]
 
 
-def printer(letters: Letters | None, ascii: bool = False) -> TextPrinter:
-    """What prints with some letters."""
-    return (AsciiPrinter if ascii else TextPrinter)(letters or Letters())
+def printer(nomenclature: Nomenclature | None, ascii: bool = False) -> TextPrinter:
+    """What prints with some symbols."""
+    return (AsciiPrinter if ascii else TextPrinter)(nomenclature or Nomenclature())
 
 
 @dataclass(frozen=True)
@@ -82,9 +84,9 @@ class TextPrinter(Printer[str]):
     times: ClassVar[str] = "·"
     """The sign of multiplication, where one is needed."""
 
-    def name(self, letter: Sym) -> str:
-        written = self.letters.written(letter.name)
-        return written.unicode(letter.dots) if written else unicode_name(letter.name, letter.dots)
+    def name(self, symbol: Sym) -> str:
+        written = self.nomenclature.written(symbol.name)
+        return written.unicode(symbol.dots) if written else unicode_name(symbol.name, symbol.dots)
 
     def direction(self, name: str) -> str:
         return name
@@ -151,9 +153,9 @@ class AsciiPrinter(TextPrinter):
 
     minus, negative, times = " - ", "-", "*"
 
-    def name(self, letter: Sym) -> str:
-        written = self.letters.written(letter.name)
-        return ascii_name(written.ascii() if written else letter.name, letter.dots)
+    def name(self, symbol: Sym) -> str:
+        written = self.nomenclature.written(symbol.name)
+        return ascii_name(written.ascii() if written else symbol.name, symbol.dots)
 
     def number(self, value: Fraction | float | int) -> str:
         return f"{value:.10g}" if isinstance(value, float) else str(value)

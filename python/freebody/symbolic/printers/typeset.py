@@ -25,7 +25,7 @@ from freebody.symbolic.formula import (
     walk,
 )
 from freebody.symbolic.formula import Fraction as Stacked
-from freebody.symbolic.letters import Letters
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import latex as spelled
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.line_breaking import ROOM, equation
@@ -36,30 +36,30 @@ from freebody.symbolic.tree import Entries, Fn, Sym, Tree
 _FUNCTIONS = ("sin", "cos", "tan", "ln", "exp", "atan2", "sign")
 
 
-def formula(tree: Tree, letters: Letters | None = None) -> Formula:
+def formula(tree: Tree, nomenclature: Nomenclature | None = None) -> Formula:
     """The expression set in type."""
-    return Typesetter(letters or Letters()).expression(tree)
+    return Typesetter(nomenclature or Nomenclature()).expression(tree)
 
 
-def latex(tree: Tree, letters: Letters | None = None) -> str:
+def latex(tree: Tree, nomenclature: Nomenclature | None = None) -> str:
     """The expression as LaTeX for mathematics mode, without dollars."""
-    return spelled.latex(formula(tree, letters))
+    return spelled.latex(formula(tree, nomenclature))
 
 
-def equation_latex(left: Tree, right: Tree, letters: Letters | None = None, *, room: float = ROOM) -> str:
+def equation_latex(left: Tree, right: Tree, nomenclature: Nomenclature | None = None, *, room: float = ROOM) -> str:
     """``left = right`` for mathematics mode; what would print wider than ``room`` em is ``aligned`` over lines."""
-    return spelled.aligned(equation(formula(left, letters), formula(right, letters), room))
+    return spelled.aligned(equation(formula(left, nomenclature), formula(right, nomenclature), room))
 
 
-def matrix_latex(entries: Entries, letters: Letters | None = None) -> str:
+def matrix_latex(entries: Entries, nomenclature: Nomenclature | None = None) -> str:
     """A vector (as a column) or a matrix of trees."""
-    return spelled.latex((matrix(entries, letters),))
+    return spelled.latex((matrix(entries, nomenclature),))
 
 
-def matrix(entries: Entries, letters: Letters | None = None) -> Grid:
+def matrix(entries: Entries, nomenclature: Nomenclature | None = None) -> Grid:
     """A vector (as a column) or a matrix of trees, set in type."""
     rows = (row if isinstance(row, Sequence) else [row] for row in entries)
-    return Grid(tuple(tuple(formula(tree, letters) for tree in row) for row in rows))
+    return Grid(tuple(tuple(formula(tree, nomenclature) for tree in row) for row in rows))
 
 
 @dataclass(frozen=True)
@@ -69,11 +69,11 @@ class Typesetter(Printer[Formula]):
     plus, minus, negative, comma = (GAP, PLUS), (GAP, MINUS), (NEGATIVE,), (Atom(",", "sign"), GAP)
     linear = False
 
-    def name(self, letter: Sym) -> Formula:
-        written = self.letters.written(letter.name)
+    def name(self, symbol: Sym) -> Formula:
+        written = self.nomenclature.written(symbol.name)
         if written:
-            return written.formula(letter.dots)
-        return name_formula(letter.name, letter.dots, reaction=self.letters.kind(letter.name) == "unknown")
+            return written.formula(symbol.dots)
+        return name_formula(symbol.name, symbol.dots, reaction=self.nomenclature.kind(symbol.name) == "unknown")
 
     def direction(self, name: str) -> Formula:
         return direction(name)

@@ -48,8 +48,8 @@ def path(case, name, file="model.yaml"):
 
 
 @ask("In symbols: the equations in x and y")
-def in_letters(case):
-    yield from case.in_letters({"x": "-k*x/m", "y": "-k*y/m"}, "Newton's law")
+def symbolically(case):
+    yield from case.symbolically({"x": "-k*x/m", "y": "-k*y/m"}, "Newton's law")
 
 
 @ask("Motion from three starts; the second goes through the hole")

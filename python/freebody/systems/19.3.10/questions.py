@@ -20,13 +20,13 @@ INERTIAS = (2.0, 0.0, 1.0)
 
 
 @ask("(b) In symbols: the equations, and the force between rod and bead")
-def in_letters(case):
+def symbolically(case):
     closed = {
         "theta": "-2*m*R*rate(R)*rate(theta)/(I_O + m*R^2)",
         "R": "R*rate(theta)^2",
         "track.Fn": "2*I_O*m*rate(R)*rate(theta)/(I_O + m*R^2)",
     }
-    yield from case.in_letters(closed, "closed form: (I_O + m R²) θ̇ is constant, no force along the slot")
+    yield from case.symbolically(closed, "closed form: (I_O + m R²) θ̇ is constant, no force along the slot")
 
 
 @ask("State and force between rod and bead at R = 2")

@@ -32,14 +32,14 @@ def resultants(a, b, slid):
 
 
 @ask("In symbols: accelerations from rest")
-def in_letters(case):
+def symbolically(case):
     below = "(n + sin(alpha)^2)"
     closed = {
         "lower.x": f"-g*sin(alpha)*cos(alpha)/{below}",
         "upper.x": f"n*g*sin(alpha)*cos(alpha)/{below}",
         "upper.y": f"-(1 + n)*g*sin(alpha)^2/{below}",
     }
-    yield from case.in_letters(closed, "closed form: momentum along x, the slope's direction, the prism's balance along it")
+    yield from case.symbolically(closed, "closed form: momentum along x, the slope's direction, the prism's balance along it")
 
 
 @ask("Velocities just before touch-down, time and displacements")

@@ -27,9 +27,9 @@ def normal(gamma, a0=A0):
 
 
 @ask("(a) In symbols: the force does not depend on d₀, v₀, t")
-def in_letters(case):
+def symbolically(case):
     closed = "m*(g*cos(gamma) - a0*sin(gamma - ramp))"
-    yield from case.in_letters({"top.N": closed}, AGAINST)
+    yield from case.symbolically({"top.N": closed}, AGAINST)
 
 
 @ask("(a) Force of the cart on the mass, and how the mass slides")

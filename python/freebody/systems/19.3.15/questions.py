@@ -37,8 +37,8 @@ def quarter():
 
 
 @ask("In symbols, at release")
-def in_letters(case):
-    yield from case.in_letters(
+def symbolically(case):
+    yield from case.symbolically(
         {"theta": "3*g/(2*l)", "x": "0"}, "closed form: the cart feels no force along x", at_rest=True, set={"theta": 0}
     )
 

@@ -32,7 +32,7 @@ def accelerations(mc, mp, theta, omega=0.0):
 
 
 @ask("In symbols, just after release")
-def in_letters(case):
+def symbolically(case):
     below = "(mc + mp*sin(theta)^2)"
     closed = {
         "x": f"mp*g*sin(theta)*cos(theta)/{below}",
@@ -41,9 +41,9 @@ def in_letters(case):
         "theta, mc → inf": "-g*sin(theta)/l",
     }
     against = "closed form: three balances"
-    yield from case.in_letters(closed, against, at_rest=True)
+    yield from case.symbolically(closed, against, at_rest=True)
     alike = {"theta": "45 deg", "mp": "mc"}
-    yield from case.in_letters({"x": "g/3"}, against, of="m_c = m_p, θ 45°", at_rest=True, set=alike)
+    yield from case.symbolically({"x": "g/3"}, against, of="m_c = m_p, θ 45°", at_rest=True, set=alike)
 
 
 @ask("Just after release")

@@ -20,8 +20,8 @@ def tension(theta, omega, a=A, mass=M):
 
 
 @ask("In symbols: θ̈ depends on a_A, ℓ and θ only")
-def in_letters(case):
-    yield from case.in_letters({"theta": "aA*sin(theta)/l"}, "closed form: balance across the rod")
+def symbolically(case):
+    yield from case.symbolically({"theta": "aA*sin(theta)/l"}, "closed form: balance across the rod")
 
 
 @ask("θ̈ and the hinge force")

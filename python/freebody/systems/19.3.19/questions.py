@@ -78,8 +78,8 @@ class Pumped:
 
 
 @ask("In symbols: what the hand does to the angle")
-def in_letters(case):
-    yield from case.in_letters({"theta": "xsdd*sin(theta)/l"}, "closed form: balance across the string", "push.yaml")
+def symbolically(case):
+    yield from case.symbolically({"theta": "xsdd*sin(theta)/l"}, "closed form: balance across the string", "push.yaml")
 
 
 @ask("One instant")

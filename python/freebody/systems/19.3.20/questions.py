@@ -49,11 +49,11 @@ def tension(y, theta, omega, k):
 
 
 @ask("In symbols: the two equations, with the spring and without")
-def in_letters(case):
+def symbolically(case):
     below = "(M + m*cos(theta)^2)"
     for file, spring in [("model.yaml", " - k*y"), ("free_fall.yaml", "")]:
         down = f"(m*l*rate(theta)^2*cos(theta){spring})/{below}"
-        yield from case.in_letters({"y": f"g + {down}", "theta": f"{down}*sin(theta)/l"}, EQUATIONS, file)
+        yield from case.symbolically({"y": f"g + {down}", "theta": f"{down}*sin(theta)/l"}, EQUATIONS, file)
 
 
 @ask("One instant, with the forces of guide and rod")

@@ -34,12 +34,12 @@ def on(degrees):
 
 
 @ask("Over a pulley, symbolically")
-def in_letters(case):
+def symbolically(case):
     closed = {
         "x1": "g*(m1*sin(alpha1) - m2*sin(alpha2))/(m1 + m2)",
         "cable.tension": "m1*m2*g*(sin(alpha1) + sin(alpha2))/(m1 + m2)",
     }
-    yield from case.in_letters(closed, "closed form: one balance a block")
+    yield from case.symbolically(closed, "closed form: one balance a block")
 
 
 @ask("Over a pulley: acceleration; tension (a) after release, (b) at 5 s")

@@ -33,7 +33,7 @@ def solve(one, two, spin1, spin2):
 
 
 @ask("In symbols: the two equations")
-def in_letters(case):
+def symbolically(case):
     force1 = "(-sin(theta1 - theta2)*rate(theta2)^2/2 - g*sin(theta1)/l)"
     force2 = "(sin(theta1 - theta2)*rate(theta1)^2/2 - g*sin(theta2)/(2*l))"
     half, below = "cos(theta1 - theta2)/2", "(1/3 - cos(theta1 - theta2)^2/4)"
@@ -41,7 +41,7 @@ def in_letters(case):
         "theta1": f"({force1}/3 - {half}*{force2})/{below}",
         "theta2": f"({force2} - {half}*{force1})/{below}",
     }
-    yield from case.in_letters(closed, "other route: Lagrange's equations by hand", "link.yaml")
+    yield from case.symbolically(closed, "other route: Lagrange's equations by hand", "link.yaml")
 
 
 @ask("One instant, with the force in rod 1")

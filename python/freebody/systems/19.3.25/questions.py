@@ -43,13 +43,13 @@ def reference(times, g, reduced):
 
 
 @ask("In symbols: θ̈ from θ and r(t)")
-def in_letters(case):
+def symbolically(case):
     pull = "b*nu^2*sin(nu*t)*cos(theta)"
     against = "closed form: moments about the support, r̈ = −b ν² sin νt"
     bob = "model.yaml"
-    yield from case.in_letters({"theta": f"-{pull}/l"}, against, bob, "(a) particle, no gravity", set={"g": 0})
-    yield from case.in_letters({"theta": f"-(g*sin(theta) + {pull})/l"}, against, bob, "(b) particle")
-    yield from case.in_letters({"theta": f"-3*(g*sin(theta) + {pull})/(2*l)"}, against, "rod.yaml", "(c) rod")
+    yield from case.symbolically({"theta": f"-{pull}/l"}, against, bob, "(a) particle, no gravity", set={"g": 0})
+    yield from case.symbolically({"theta": f"-(g*sin(theta) + {pull})/l"}, against, bob, "(b) particle")
+    yield from case.symbolically({"theta": f"-3*(g*sin(theta) + {pull})/(2*l)"}, against, "rod.yaml", "(c) rod")
 
 
 @ask("θ̈ from θ and r(t)")

@@ -40,15 +40,15 @@ def rates(law):
 
 
 @ask("(a) In symbols, the hand driven by its law")
-def in_letters(case):
+def symbolically(case):
     law = "(a0 + Kx*s + Kv*rate(s) + Kp*theta + Kd*rate(theta))"
     for file, length in [("model.yaml", "(2*l/3)"), ("particle.yaml", "l")]:
         closed = {"s": law, "theta": f"(g*sin(theta) - {law}*cos(theta))/{length}"}
-        yield from case.in_letters(closed, "closed form: moment about the hand", file, file)
+        yield from case.symbolically(closed, "closed form: moment about the hand", file, file)
 
 
 @ask("(b) In symbols: the eigenvalues s of broom and hand")
-def eigenvalues_in_letters(case):
+def eigenvalues_symbolically(case):
     k = "(3/(2*l))"
     closed = f"s^4 + ({k}*Kd - Kv)*s^3 + ({k}*Kp - {k}*g - Kx)*s^2 + {k}*g*Kv*s + {k}*g*Kx"
     yield case.eigenvalues_of(closed, "closed form: determinant by hand", theta=0, a0=0)

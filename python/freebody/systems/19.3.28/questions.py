@@ -37,9 +37,9 @@ def solve(one, two, spin1, spin2):
 
 
 @ask("In symbols, just after release")
-def in_letters(case):
+def symbolically(case):
     closed = {"phi1": "0", "phi2": "-3*g/(2*l)", "elbow.Fy": "m*g/4", "ceiling.Fy": "5*m*g/4"}
-    yield from case.in_letters(closed, LETTERS, at_rest=True, set={"phi1": 0, "phi2": "90 deg"})
+    yield from case.symbolically(closed, LETTERS, at_rest=True, set={"phi1": 0, "phi2": "90 deg"})
 
 
 @ask("Just after release")

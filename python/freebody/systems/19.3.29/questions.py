@@ -63,14 +63,14 @@ def start(values):
 
 
 @ask("(a) In symbols: angle = π/2 − φ")
-def in_letters(case):
+def symbolically(case):
     d = "(L/2 - R)"
     closed = f"-{d}*cos(rocker.angle)*(g + R*rate(rocker.angle)^2)/(L^2/12 + R^2 + {d}^2 + 2*R*{d}*sin(rocker.angle))"
-    yield from case.in_letters({"rocker.angle": closed}, "closed form: moments about the point of contact")
+    yield from case.symbolically({"rocker.angle": closed}, "closed form: moments about the point of contact")
 
 
 @ask("(b) In symbols: the eigenvalues s of standing, which is stable where s² < 0, 2R > L")
-def standing_in_letters(case):
+def standing_symbolically(case):
     closed = "s^2 + 3*g*(2*R - L)/(2*L^2)"
     yield case.eigenvalues_of(closed, "closed form: (a) for small φ", **{"rocker.angle": "90 deg"})
 

@@ -28,11 +28,11 @@ def speeds(t):
 
 
 @ask("(a, b) In symbols, Cartesian and polar")
-def in_letters(case):
+def symbolically(case):
     against = "Newton's law; a_r = r̈ − r φ̇², a_φ = r φ̈ + 2 ṙ φ̇"
-    yield from case.in_letters({"x": "-k*x/m", "y": "-k*y/m"}, against)
+    yield from case.symbolically({"x": "-k*x/m", "y": "-k*y/m"}, against)
     polar = {"r": "r*rate(phi)^2 - k*r/m", "phi": "-2*rate(r)*rate(phi)/r"}
-    yield from case.in_letters(polar, against, "polar.yaml")
+    yield from case.symbolically(polar, against, "polar.yaml")
 
 
 @ask("(a, b) Accelerations at the start, Cartesian and polar")

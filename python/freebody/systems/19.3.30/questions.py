@@ -114,9 +114,9 @@ def steady(case, w, **parameters):
 
 
 @ask("In symbols: a step of a hinged tip")
-def in_letters(case):
+def symbolically(case):
     closed = "m*g*R*sin(wheel.angle)/(I + m*R^2)"
-    yield from case.in_letters({"wheel.angle": closed}, "closed form: an upside-down pendulum", "hinged.yaml")
+    yield from case.symbolically({"wheel.angle": closed}, "closed form: an upside-down pendulum", "hinged.yaml")
 
 
 @ask("(a), (b) One collision: energy before, ω+ after, what is lost, impulse")

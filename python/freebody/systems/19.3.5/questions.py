@@ -45,9 +45,9 @@ def time(degrees, until=0.0):
 
 
 @ask("(a) In symbols, just after release")
-def in_letters(case):
+def symbolically(case):
     closed = {"x": "-g*sin(phi)*cos(phi)/(1 + cos(phi)^2)", "phi": "-2*g*cos(phi)/(l*(1 + cos(phi)^2))"}
-    yield from case.in_letters(closed, "closed form: three balances", at_rest=True)
+    yield from case.symbolically(closed, "closed form: three balances", at_rest=True)
 
 
 @ask("(a) Accelerations just after release")

@@ -45,9 +45,9 @@ def fall_time(start):
 
 
 @ask("(c) In symbols: one equation in θ, as the angle from the ice")
-def in_letters(case):
+def symbolically(case):
     closed = "3*cos(angle)*(l*rate(angle)^2*sin(angle) - 2*g)/(l*(1 + 3*cos(angle)^2))"
-    yield from case.in_letters({"angle": closed}, "closed form: balance of energy, differentiated", "assumed.yaml")
+    yield from case.symbolically({"angle": closed}, "closed form: balance of energy, differentiated", "assumed.yaml")
 
 
 @ask("(a) Path of the mass centre: straight down")

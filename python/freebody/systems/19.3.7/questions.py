@@ -27,9 +27,9 @@ def swinging(t, y):
 
 
 @ask("(a) In symbols, just after release")
-def in_letters(case):
+def symbolically(case):
     closed = {"hoop.y": "-g/2", "hoop.x": "0", "hoop.angle": "-g/(2*R)"}
-    yield from case.in_letters(
+    yield from case.symbolically(
         closed, "closed form: moments about the point where the string leaves", at_rest=True, set={"tilt": 0}
     )
 

@@ -18,14 +18,14 @@ AGAINST = "closed form: Mg − T = Mÿ, Tr = Iÿ/r"
 
 
 @ask("In symbols, just after release")
-def in_letters(case):
+def symbolically(case):
     below = "(R^2 + 2*r^2)"
     closed = {
         "disk.y": f"-2*g*r^2/{below}",
         "disk.angle": f"-2*g*r/{below}",
         "cable.tension": f"M*g*R^2/{below}",
     }
-    yield from case.in_letters(closed, "closed form: moments about the point where the cable leaves", at_rest=True)
+    yield from case.symbolically(closed, "closed form: moments about the point where the cable leaves", at_rest=True)
 
 
 @ask("Acceleration of the mass centre, tension, angular acceleration")

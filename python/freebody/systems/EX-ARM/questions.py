@@ -67,9 +67,9 @@ def instant(case, state, gravity=DOWN):
 
 
 @ask("symbolically:  the torques that hold the arm straight out")
-def in_letters(case):
+def symbolically(case):
     closed = {"elbow motor": "m2*g*l2", "shoulder motor": "g*(m1*l1 + m2*(l3 + l2))"}
-    yield from case.in_letters(closed, "statics: moments about elbow and shoulder", "held.yaml")
+    yield from case.symbolically(closed, "statics: moments about elbow and shoulder", "held.yaml")
 
 
 @ask("just released, θ1 = 30°, θ2 = −20°")

@@ -38,10 +38,10 @@ def forces(y, shares):
 
 
 @ask("symbolically")
-def in_letters(case):
+def symbolically(case):
     below = "(m1 + m2*sin(tip)^2)"
     closed = {"x": f"m2*g*sin(tip)*cos(tip)/{below}", "y": f"(m1 + m2)*g*sin(tip)/{below}"}
-    yield from case.in_letters(closed, "closed form: momentum along x, block 2 along the slope")
+    yield from case.symbolically(closed, "closed form: momentum along x, block 2 along the slope")
 
 
 @ask("accelerations and roller forces at y = 0, 0.1, 0.3 m")

@@ -139,7 +139,7 @@ def parts(case):
 
 
 @ask("symbolically:  each part's rate by that of the crank, and the one equation of motion")
-def in_letters(case):
+def symbolically(case):
     """The rod's centre is at x + r sin θ − l/2 sin ψ, r cos θ + l/2 cos ψ; k are rates for θ̇ = 1, c accelerations for θ̈ = 0."""
     found = case.mechanism().solve_in_letters(["thc"])
     across, up = "(R/12 + r*cos(thc) - l*cos(psi)*k_psi/2)", "(-r*sin(thc) - l*sin(psi)*k_psi/2)"

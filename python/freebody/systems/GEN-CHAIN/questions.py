@@ -55,7 +55,7 @@ def released(n):
 
 
 @ask("at release, symbolically: three links")
-def in_letters(case):
+def symbolically(case):
     """M φ̈ = b in parts of mℓ² and mgℓ, exactly; hinge i carries what the links from i on weigh, less m times their fall."""
     places = range(3)
     matrix = [[3 - max(i, j) - (Fraction(2, 3) if i == j else Fraction(1, 2)) for j in places] for i in places]
@@ -64,7 +64,7 @@ def in_letters(case):
     closed = {f"phi[{i + 1}]": f"{turned[i]}*g/l" for i in places}
     closed |= {f"pin[{i + 1}].Fy": f"{3 - i + sum(falls[i:])}*m*g" for i in places}
     straight = {f"phi[{i + 1}]": 0 for i in places}
-    yield from case.in_letters(closed, "other route: exact elimination", at_rest=True, set=straight)
+    yield from case.symbolically(closed, "other route: exact elimination", at_rest=True, set=straight)
 
 
 def determinant(rows):

@@ -44,7 +44,7 @@ def formula(m1, m2, alpha, mu):
 
 
 @ask("In symbols, the angle and the limits among them")
-def in_letters(case):
+def symbolically(case):
     S, C = "sin(alpha)", "cos(alpha)"
     below = f"(m2 + m1*{S}*({S} - mu*{C}))"
     closed = {
@@ -54,7 +54,7 @@ def in_letters(case):
         "face.N, mu → 0": f"m1*m2*g*{C}/(m2 + m1*{S}^2)",
         "face.N, m2 → inf": f"m1*g*{C}",
     }
-    yield from case.in_letters(closed, "closed form: four balances")
+    yield from case.symbolically(closed, "closed form: four balances")
 
 
 @ask("Does it slip, how do both move, and what do they push with")

@@ -22,9 +22,9 @@ def rates(torque):
 
 
 @ask("symbolically:  the two equations")
-def in_letters(case):
+def symbolically(case):
     closed = {"theta": "(T - 2*m2*R*rate(R)*rate(theta))/(m1*l^2/3 + m2*R^2)", "R": "R*rate(theta)^2"}
-    yield from case.in_letters(closed, "closed form: moments about A, no force along the rod")
+    yield from case.symbolically(closed, "closed form: moments about A, no force along the rod")
 
 
 @ask("accelerations and forces at two states")

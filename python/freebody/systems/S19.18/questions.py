@@ -41,14 +41,14 @@ def forces(theta, spin, M, m, l, slope):
 
 
 @ask("symbolically:  θ̈ alone, and the heavy cart on level ground")
-def in_letters(case):
+def symbolically(case):
     below = "(M + m*sin(theta)^2)"
     closed = {
         "theta": f"-(m*l*rate(theta)^2*cos(theta) + (M + m)*g*cos(slope))*sin(theta)/(l*{below})",
         "theta, M → inf": "-g*cos(slope)*sin(theta)/l",
         "theta, slope → 0": f"-(m*l*rate(theta)^2*cos(theta) + (M + m)*g)*sin(theta)/(l*{below})",
     }
-    yield from case.in_letters(closed, "closed form: elimination of s̈ by hand")
+    yield from case.symbolically(closed, "closed form: elimination of s̈ by hand")
 
 
 @ask("accelerations and forces at θ = 0.6")

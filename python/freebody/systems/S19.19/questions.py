@@ -41,7 +41,7 @@ def rates(eps=1.0, gravity=0.0):
 
 
 @ask("symbolically:  the two equations")
-def in_letters(case):
+def symbolically(case):
     below = "(m*eps^2*(M + m*cos(theta)^2))"
     along = "(m*eps*rate(theta)^2*cos(theta) - k*x)"
     turning = "(T - m*g*eps*cos(theta))"
@@ -49,7 +49,7 @@ def in_letters(case):
         "x": f"(m*eps^2*{along} + m*eps*sin(theta)*{turning})/{below}",
         "theta": f"((M + m)*{turning} + m*eps*sin(theta)*{along})/{below}",
     }
-    yield from case.in_letters(closed, "closed form: two balances, solved by Cramer's rule")
+    yield from case.symbolically(closed, "closed form: two balances, solved by Cramer's rule")
 
 
 @ask("accelerations and arm force at one state")

@@ -76,7 +76,7 @@ def forces(case):
 
 
 @ask("symbolically:  the torque, with the ratios of rates k = dβ/dθ, dφ/dθ and c = β̈, φ̈ for θ̈ = 0")
-def in_letters(case):
+def symbolically(case):
     """Power of inertia for a unit θ̇: the centre of BC has ℓ1 n1 + (ℓ2/2) k n2, and n1·n2 = cos(β − θ), n1·λ2 = sin(β − θ)."""
     C, S, spin = "cos(beta - theta)", "sin(beta - theta)", "(k_beta*accel(theta) + c_beta)"
     first = f"l1*(l1*accel(theta) + l2/2*({spin}*{C} - rate(beta)^2*{S}))"

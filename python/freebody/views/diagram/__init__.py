@@ -63,9 +63,9 @@ class Diagram(Picture):
         """The same as data, one entry for each diagram: see ``FreeBodies.data``; ``letter`` is that of the diagram, in LaTeX."""
         made = []
         for cut in self.cuts:
-            letters = {load.symbol: mark.action.label for mark in cut.forces for load in mark.action.loads}
+            labels = {load.symbol: mark.action.label for mark in cut.forces for load in mark.action.loads}
             stated = self.free.data(*cut.group)
-            made.append(stated | {"loads": [{"letter": letters.get(load["symbol"])} | load for load in stated["loads"]]})
+            made.append(stated | {"loads": [{"letter": labels.get(load["symbol"])} | load for load in stated["loads"]]})
         return made
 
     @property

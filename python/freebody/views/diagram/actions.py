@@ -69,7 +69,7 @@ class Action:
 
 
 def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels: Labels, sketch: Sketch) -> Iterator[Action]:
-    """Every load on a group in the positive sense of its letter, friction that slides as it acts. ``near``: the same a little
+    """Every load on a group in the positive sense of its symbol, friction that slides as it acts. ``near``: the same a little
     further on, where what is 0 now has a direction."""
     beyond = {load.symbol: load for load in near.on(*group)}
     for load in free.on(*group):
@@ -128,7 +128,7 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
 
 
 def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
-    """Force and couple of a part in the sense in which the load's letter is positive."""
+    """Force and couple of a part in the sense in which the load's symbol is positive."""
     force, couple = np.array(part.force), part.couple
     if load.follows and load.follows[1] < 0:
         return -force, -couple

@@ -54,7 +54,7 @@ class Arrow:
 
     @property
     def free(self) -> Array:
-        """The end at which it has room for a letter."""
+        """The end at which it has room for a symbol."""
         return self.head if np.array_equal(self.tail, self.at) else self.tail
 
 

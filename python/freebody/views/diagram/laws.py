@@ -1,4 +1,4 @@
-"""What the letters of given forces stand for, in the sense of their arrows, as it stands in the balances of their bodies."""
+"""What the symbols of given forces stand for, in the sense of their arrows, as it stands in the balances of their bodies."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from freebody.symbolic.printers.latex import latex
 from freebody.symbolic.printers.typeset import formula
 from freebody.symbolic.tree import ZERO, Sym, Tree, is_zero, negative, number, read
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.names import letter
+from freebody.views.diagram.names import symbol
 from freebody.views.draw import UNNAMED
 from freebody.views.labels import mathtext
 
@@ -39,7 +39,7 @@ class Laws:
     free: FreeBodies
 
     def stated(self, actions: Sequence[Action], width: float) -> list[str]:
-        """Lines of mathtext about the loads that have a law and not only a letter, ``width`` pt long as far as terms can be parted."""
+        """Lines of mathtext about the loads that have a law and not only a symbol, ``width`` pt long as far as terms can be parted."""
         lines: dict[str, list[str]] = {}
         for action in actions:
             if action.kind == "force" and action.label not in lines:
@@ -73,7 +73,7 @@ class Laws:
 
     @cached_property
     def _parts(self) -> Mapping[tuple[str, str], _Parts]:
-        """By symbol of the load and body. Empty where letters would fill pages."""
+        """By symbol of the load and body. Empty where symbols would fill pages."""
         from freebody.core import MotionError
 
         forces = [load for load in self.free.loads if load.kind == "force"]
@@ -85,7 +85,7 @@ class Laws:
             for way in (*ways, {"about": {"point": f"{name}.G"}})
         ]
         try:
-            stated = self.source.letters(self.state, asked).answers
+            stated = self.source.symbolic_answers(self.state, asked).answers
         except MotionError:
             return {}
         given = [{each["load"]: read(each["tree"]) for each in answer["loads"]} for answer in stated]
@@ -110,15 +110,15 @@ class Laws:
         return [_times(stiffness, stretch)]
 
     def _end(self, point: str) -> str:
-        """The letter of a point; of a particle it is that of its body."""
+        """The symbol of a point; of a particle it is that of its body."""
         body, _, last = point.rpartition(".")
         if last not in UNNAMED:
-            return letter(last)
-        return letter(body if self.free.bodies[body].particle else f"{body}_{last}")
+            return symbol(last)
+        return symbol(body if self.free.bodies[body].particle else f"{body}_{last}")
 
 
 def _quantity(given: Any) -> Tree | None:
-    """A number or a letter of the model; None of what is longer."""
+    """A number or a symbol of the model; None of what is longer."""
     if isinstance(given, int | float):
         return number(given)
     return Sym(given) if _PLAIN.fullmatch(given) else None

@@ -53,8 +53,8 @@ class Labels:
         if load.kind == "weight":
             g = self._gravity
             return self.mass(load.on[0].body) * Sign.of(g or Name("g"), bold=g is None)
-        if load.follows and (letter := coefficient(self.subject.source, load.name)):
-            ratio = self.subject.symbols.names.get(letter, Name.parse(letter))
+        if load.follows and (symbol := coefficient(self.subject.source, load.name)):
+            ratio = self.subject.symbols.names.get(symbol, Name.parse(symbol))
             return Sign.of(ratio) * self.of(self.free.loads[load.follows[0]])
         return Sign.of(self.loads[load.symbol])
 
@@ -82,7 +82,7 @@ class Labels:
         return list(map(str, self.subject.symbols.taken.renamed.values()))
 
     def mass(self, body: str) -> Sign:
-        """Of a body's mass: its letter, or a short expression of letters."""
+        """Of a body's mass: its symbol, or a short expression of symbols."""
         tree = self._motion(body).mass
         short = symbols(tree) and not isinstance(tree, Add) and columns(text(tree)) <= _LONGEST
         return self._written(tree) if short else Sign.of(self.subject.symbols.of_body("m", body))
@@ -96,7 +96,7 @@ class Labels:
         return next(motion for motion in self.subject.motions if motion.body == body)
 
     def _written(self, tree: Tree) -> Sign:
-        return Sign(latex(tree, self.subject.letters), text(tree, self.subject.letters))
+        return Sign(latex(tree, self.subject.nomenclature), text(tree, self.subject.nomenclature))
 
     def acceleration(self, body: str, alone: bool) -> Sign:
         """Of the acceleration of a body's mass centre, by itself or among several."""
@@ -117,6 +117,6 @@ class Labels:
         return Name(stem) if alone or len(heavy) == 1 else Name.parse(f"{stem}_{body}")
 
 
-def letter(name: str) -> str:
+def symbol(name: str) -> str:
     """Of a coordinate, a point or a parameter."""
     return Name.parse(name).latex()

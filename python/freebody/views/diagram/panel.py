@@ -1,4 +1,4 @@
-"""One half of a free-body diagram on paper: the bodies, what acts on them, and every letter in its place."""
+"""One half of a free-body diagram on paper: the bodies, what acts on them, and every symbol in its place."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Panel:
 
     @cached_property
     def labels(self) -> list[Placed]:
-        """Every letter in its place."""
+        """Every symbol in its place."""
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
         obstacles = Obstacles.of((self.scenery.obstacles, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
         return placed(list(self._wanted()), obstacles)

@@ -13,7 +13,7 @@ from freebody.core import GROUND, Array, CompiledModel, FreeBodies, State
 from freebody.core.cards import joints
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
-from freebody.views.diagram.names import letter
+from freebody.views.diagram.names import symbol
 from freebody.views.dimension_lines import DimensionLine, dimension_lines
 from freebody.views.draw import UNNAMED
 from freebody.views.scene import Drawn, Scene, drawn
@@ -196,7 +196,7 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
         last, place = name.rpartition(".")[2], scale * sketch.place(name)
         seen = any(np.hypot(*(tag.at - place)) < 1.0 for tag in tags)
         if body in group and last not in UNNAMED and not seen:
-            tags.append(Tag(letter(last), place))
+            tags.append(Tag(symbol(last), place))
     particles = {body["name"] for body in sketch.spec["bodies"] if body["particle"]}
     if len(group) == 1 and not particles & set(group):
         [place] = centres.values()
@@ -233,7 +233,7 @@ def _dimensions(
         elif not measure.angle:
             guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
         axis = _axis(measure.second, guides[1], strokes) if measure.of_axis else None
-        found.append(Dimension(letter(measure.coordinate) + value, arrow, guides, measure.angle, axis))
+        found.append(Dimension(symbol(measure.coordinate) + value, arrow, guides, measure.angle, axis))
     return found
 
 
@@ -244,7 +244,7 @@ def _axis(body: str, guide: Array, strokes: Sequence[Drawn]) -> Tag | None:
     lies = any(shapes.inside(stroke.points, guide[1:]) for stroke in own if stroke.style in _SOLID)
     if not own or lies or np.hypot(*(seen - guide[1]).T).min() < SYMBOL:
         return None
-    return Tag(letter(f"x_{body}"), guide[1])
+    return Tag(symbol(f"x_{body}"), guide[1])
 
 
 def _end(line: Array, length: float) -> Array:

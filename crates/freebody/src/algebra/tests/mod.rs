@@ -217,7 +217,7 @@ fn equal_work_gives_the_same_tree() {
 }
 
 #[test]
-fn a_linear_letter_has_a_coefficient_and_a_rest() {
+fn a_linear_symbol_has_a_coefficient_and_a_rest() {
     session(|| {
         let [a, b, u] = ["a", "b", "u"].map(|name| letter(name, 0.8));
         let (sum, of) = (a * b * u + a * b.sin_cos().0, Variable::new("u", 0));

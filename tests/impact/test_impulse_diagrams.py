@@ -6,9 +6,9 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from colliding import ALL, first_impacts, mechanism
 from matplotlib.transforms import Bbox
 from store import every
-from struck import ALL, mechanism, struck
 from typer.testing import CliRunner
 
 from freebody.cli import app
@@ -21,7 +21,7 @@ every_model = every(ALL, "name", share=2)
 
 @cache
 def drawn(name):
-    [impact, *_] = struck(name)
+    [impact, *_] = first_impacts(name)
     return impact, impulse_diagram(impact)
 
 
@@ -77,7 +77,7 @@ def test_what_is_absent_is_said_below(name):
 @every_model
 @pytest.mark.parametrize("scaled", [False, True])
 def test_no_two_labels_overlap(name, scaled):
-    [impact, *_] = struck(name)
+    [impact, *_] = first_impacts(name)
     figure = impulse_diagram(impact, scaled=scaled).figure
     [axes] = figure.axes
     boxes = []
@@ -91,7 +91,7 @@ def test_no_two_labels_overlap(name, scaled):
 
 @every_model
 def test_to_scale_the_arrows_add_up(name):
-    [impact, *_] = struck(name)
+    [impact, *_] = first_impacts(name)
     for cut in impulse_diagram(impact, scaled=True).cuts:
         if cut.per_newton is None or any("not determined" in note or "longer" in note for note in cut.notes):
             continue
@@ -101,7 +101,7 @@ def test_to_scale_the_arrows_add_up(name):
 
 
 def test_the_command_writes_a_picture(tmp_path):
-    from struck import SYSTEMS
+    from colliding import SYSTEMS
 
     model, file = str(SYSTEMS / "19.3.22" / "model.yaml"), tmp_path / "blow.svg"
     done = CliRunner().invoke(app, ["diagram", model, "--impact", "1", "-o", str(file)])

@@ -77,7 +77,7 @@ def test_limits() -> None:
 
 
 def test_what_is_too_long_is_refused() -> None:
-    """Where lengths are asked to stay letters, there is no shorter way."""
+    """Where lengths are asked to stay symbols, there is no shorter way."""
     letters = ("l1", "l2", "l3", "d", "side", "beta", "phi")
     with pytest.raises(TooLarge, match="ask for numbers"):
         system("S19.21").solve_in_letters(["theta"], at_rest=True, set={"theta": 1.1}, limits=dict.fromkeys(letters, 0))
@@ -115,10 +115,10 @@ def bars(lengths: tuple[float, float, float, float], theta: float, beta: float, 
 
 
 def value(answers: Answers, name: str, at: dict[Sym, float]) -> float:
-    """An answer where letters have values, its named ones by those before."""
+    """An answer where symbols have values, its named ones by those before."""
     known = dict(at)
-    for letter, meant in answers.named.items():
-        known[letter] = float(evaluate(meant, known))
+    for symbol, meant in answers.named.items():
+        known[symbol] = float(evaluate(meant, known))
     return float(evaluate(answers[name], known))
 
 
@@ -126,7 +126,7 @@ def letters(**values: float) -> dict[Sym, float]:
     return {Sym(name): value for name, value in values.items()}
 
 
-def test_a_four_bar_in_all_its_letters() -> None:
+def test_a_four_bar_in_all_its_symbols() -> None:
     """From rest T = Σ mᵢ (v² + ρ² ω²) θ̈ by power, v and ω for a unit θ̇, whatever the lengths and angles."""
     answers = system("S19.21").solve_in_letters(["theta", "phi"], at_rest=True)
     lengths, angles = (0.5, 0.61, 0.93, 0.0), (0.7, 1.9, 2.4)
@@ -138,7 +138,7 @@ def test_a_four_bar_in_all_its_letters() -> None:
     assert "J θ̈ = T" in str(answers) and answers.checked > 1
 
 
-def test_a_slider_crank_in_all_its_letters() -> None:
+def test_a_slider_crank_in_all_its_symbols() -> None:
     """Released from rest: its weights do work at r/2 cos θ, r/2 cos θ and none; the rod's centre is the mean of its ends."""
     answers = system("GEN-SLIDER").solve_in_letters(["theta"], at_rest=True)
     r, l, theta, beta = 0.13, 0.31, 0.9, -0.4
@@ -168,7 +168,7 @@ def test_where_nothing_else_is_short_masses_are_numbers_too() -> None:
 
 
 def test_what_defines_a_length_stands_for_it() -> None:
-    """The height of a wedge's polygon is w tan α/3: answers hold α. One that is set stays a letter, and so does a mass."""
+    """The height of a wedge's polygon is w tan α/3: answers hold α. One that is set stays a symbol, and so does a mass."""
     answers = system("S19.15").solve_in_letters(["x"])
     assert Sym("alpha") in symbols(answers["x"]) and not symbols(answers["x"]) & {Sym("h"), Sym("w")}
     assert Sym("h") in symbols(system("S19.15").solve_in_letters(["x"], limits={"h": 1})["x"])
@@ -180,7 +180,7 @@ def test_a_dead_point_is_answered_where_it_stands() -> None:
     assert all(tree == Num(0) for tree in answers.values.values())
 
 
-def test_what_is_asked_for_in_a_limit_stays_a_letter() -> None:
+def test_what_is_asked_for_in_a_limit_stays_a_symbol() -> None:
     """A four-bar of which two bars have no mass is a rod on a pin: θ̈ = 3 T/(m₁ l₁²)."""
     mechanism = system("S19.21")
     answers = mechanism.solve_in_letters(["theta"], at_rest=True, set={"m2": 0}, limits={"m3": 0})
@@ -197,10 +197,10 @@ LIMITS = {
 
 @pytest.mark.parametrize("name", LIMITS)
 def test_limits_of_a_block_on_a_wedge(name: str) -> None:
-    letter, to, expected = LIMITS[name]
-    answers = system("EX-BLOCK").solve_in_letters(list(expected), at_rest=True, limits={letter: to})
+    symbol, to, expected = LIMITS[name]
+    answers = system("EX-BLOCK").solve_in_letters(list(expected), at_rest=True, limits={symbol: to})
     for what, text in expected.items():
-        assert equal(answers.limits[what, letter], tree(text, "g tip")), what
+        assert equal(answers.limits[what, symbol], tree(text, "g tip")), what
 
 
 def test_limits_of_atwood() -> None:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 import sympy
+from colliding import ALL, first_impacts, mechanism
 from store import every
-from struck import ALL, mechanism, struck
 
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
@@ -71,9 +71,9 @@ PLACES = {
 @pytest.mark.parametrize("name", CLOSED)
 def test_closed_forms(name):
     made = solved(name)
-    for letter, text in CLOSED[name].items():
-        found = replace(made[letter], PLACES.get(name, {}))
-        assert equal(found, letters(text)), (letter, found)
+    for symbol, text in CLOSED[name].items():
+        found = replace(made[symbol], PLACES.get(name, {}))
+        assert equal(found, letters(text)), (symbol, found)
 
 
 def test_a_rod_caught_at_its_end():
@@ -82,7 +82,7 @@ def test_a_rod_caught_at_its_end():
     found, v = blow(mechanism("caught")), Sym("rod.y", 1)
     # The string is upright, the rod at its lower end.
     below = {Sym("rod.x"): from_sympy(sympy.Symbol("l") / 2), Sym("rod.y"): from_sympy(-sympy.Symbol("s"))}
-    made = {letter: replace(tree, below) for letter, tree in solved("caught").items()}
+    made = {symbol: replace(tree, below) for symbol, tree in solved("caught").items()}
     m, l, u = (sympy.Symbol(x) for x in ("m", "l", "rod.y'"))
     known = {"rod.y_after": 3 * u / 4, "rod.angle_after": 3 * u / (2 * l)}
     for name, expression in known.items():
@@ -92,21 +92,21 @@ def test_a_rod_caught_at_its_end():
 
 
 @every(sorted(set(ALL) - LONG - REDUNDANT), "name", share=2)
-def test_in_letters_are_the_numbers_of_the_run(name):
+def test_symbolic_answers_are_the_numbers_of_the_run(name):
     found = blow(mechanism(name))
     made, values, sizes = jumps(found).spelt(), found.values, found.sizes()
     for coordinate, u in found.change.after.u.items():
         assert float(evaluate(made[Sym(after(coordinate), 1)], values)) == pytest.approx(u, abs=1e-7)
     assert made.keys() >= set(found.impulses.values()) or any(map(np.isnan, sizes.values()))
     most = np.nanmax(np.abs(list(sizes.values())))
-    for letter in made.keys() & sizes.keys():
-        assert float(evaluate(made[letter], values)) == pytest.approx(sizes[letter], abs=1e-7 * most), letter
+    for symbol in made.keys() & sizes.keys():
+        assert float(evaluate(made[symbol], values)) == pytest.approx(sizes[symbol], abs=1e-7 * most), symbol
 
 
 @every(ALL, "name", share=2)
 def test_every_equation_holds_in_the_run(name):
     """Balances of coordinates and of bodies, what comes back or holds, and the law of friction."""
-    for number in range(1, len(struck(name, 2)) + 1):
+    for number in range(1, len(first_impacts(name, 2)) + 1):
         found = blow(mechanism(name), number)
         values = found.values | {Sym(after(c), 1): u for c, u in found.change.after.u.items()} | found.sizes()
         if any(np.isnan(x) for x in found.sizes().values()):

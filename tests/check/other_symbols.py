@@ -1,4 +1,4 @@
-"""Other coordinates for a model: letters declared by its own, and what its own are in them."""
+"""Other coordinates for a model: symbols declared by its own, and what its own are in them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Quotient, Sym
 
 @dataclass(frozen=True)
 class Other:
-    """A letter ``name`` declared as ``said``; ``replaced``: the model's letters in terms of it; ``own``: it in terms of them."""
+    """A symbol ``name`` declared as ``said``; ``replaced``: the model's symbols in terms of it; ``own``: it in terms of them."""
 
     name: str
     said: str
@@ -33,12 +33,12 @@ def others(vocabulary: Vocabulary) -> list[Other]:
     return made
 
 
-def _shifted(letter: Sym, name: str, sign: float, offset: tuple[float, str]) -> Other:
+def _shifted(symbol: Sym, name: str, sign: float, offset: tuple[float, str]) -> Other:
     """psi = ± q + offset."""
     value, text = offset
-    name = f"{name}_{letter.name}"
+    name = f"{name}_{symbol.name}"
     plus = Num(value, text)
-    said = f"{'-' if sign < 0 else ''}{letter.name}" + (f" + {text}" if text else "")
+    said = f"{'-' if sign < 0 else ''}{symbol.name}" + (f" + {text}" if text else "")
 
     def swapped(source: str, target: str, back: bool) -> dict[Sym, Node]:
         out: dict[Sym, Node] = {}
@@ -50,7 +50,7 @@ def _shifted(letter: Sym, name: str, sign: float, offset: tuple[float, str]) -> 
             out[Sym(target, dots)] = one
         return out
 
-    return Other(name, said, swapped(name, letter.name, True), swapped(letter.name, name, False))
+    return Other(name, said, swapped(name, symbol.name, True), swapped(symbol.name, name, False))
 
 
 def _relative(a: Sym, b: Sym) -> Other:

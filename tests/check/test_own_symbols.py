@@ -1,4 +1,4 @@
-"""What letters mean: rates, vectors, phrases; told by mechanics that holds for them."""
+"""What symbols mean: rates, vectors, phrases; told by mechanics that holds for them."""
 
 from __future__ import annotations
 
@@ -117,7 +117,7 @@ def test_what_holds_by_mechanics(model, text):
     assert np.abs(both.left).max() > 1e-3 or text in ("l̇ = 0", "ΣF · i = 0", "(l/3) θ̈ − s̈ sin θ/2 + (g/2) cos θ = 0")
 
 
-def test_letters_of_the_model_by_kind(model):
+def test_symbols_of_the_model_by_kind(model):
     letters = Symbols(model, DECLARED)
     assert letters.of_kind("parameter") == ["l", "m", "M", "alpha"]
     assert letters.of_kind("coordinate") == ["s", "theta"]
@@ -126,7 +126,7 @@ def test_letters_of_the_model_by_kind(model):
     assert letters.dimensions["ω"].unit() == "rad/s"
 
 
-def test_a_letter_of_the_model_goes_before_gravity_and_directions():
+def test_a_symbol_of_the_model_goes_before_gravity_and_directions():
     m = fb.Mechanism("a particle", gravity="9.81 m/s^2")
     m.parameter("g", "3 N")
     m.parameter("k", "2 N/m")
@@ -142,7 +142,7 @@ def test_without_gravity_there_is_no_g():
     assert "g" not in Symbols(m).names
 
 
-def test_an_unknown_letter_is_told_with_its_place_and_a_near_one(model):
+def test_an_unknown_symbol_is_told_with_its_place_and_a_near_one(model):
     letters = Symbols(model)
     with pytest.raises(StatementError) as error:
         letters.require(parse("m s̈ = m thetta", letters.names))

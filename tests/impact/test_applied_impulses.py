@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import sympy
-from struck import SYSTEMS
+from colliding import SYSTEMS
 
 import freebody as fb
 from freebody.core import State
@@ -79,9 +79,9 @@ def letters(text):
 def test_closed_forms(name):
     text, point, direction, known = CLOSED[name]
     made = jumps(applied(of(text), of(text).start()[0], point, direction=direction)).spelt()
-    for letter, expected in known.items():
-        assert letter in made, sorted(x.name for x in made)
-        assert equal(made[letter], letters(expected)), (letter, made[letter])
+    for symbol, expected in known.items():
+        assert symbol in made, sorted(x.name for x in made)
+        assert equal(made[symbol], letters(expected)), (symbol, made[symbol])
 
 
 MODELS = ["19.3.17", "19.3.28", "S19.18", "S19.22", "EX-ARM", "EX-BLOCK", "GEN-SLIDER", "GEN-STEP", "19.3.20"]
@@ -119,17 +119,17 @@ def test_theorems(name):
 
 
 @pytest.mark.parametrize("name", ["19.3.17", "S19.18", "EX-BLOCK", "19.3.20"])
-def test_letters_are_the_numbers(name):
+def test_symbols_are_the_numbers(name):
     model, state, points, _ = at_rest(name)
     found = applied(model, state, points[-1], direction="40 deg", impulse="3 N*s")
     made, most = jumps(found).spelt(), max(map(abs, found.sizes().values()))
     for coordinate, u in found.change.after.u.items():
         assert float(evaluate(made[Sym(after(coordinate), 1)], found.values)) == pytest.approx(u, abs=1e-9)
-    for letter in made.keys() & found.sizes().keys():
-        assert float(evaluate(made[letter], found.values)) == pytest.approx(found.sizes()[letter], abs=1e-9 * most)
+    for symbol in made.keys() & found.sizes().keys():
+        assert float(evaluate(made[symbol], found.values)) == pytest.approx(found.sizes()[symbol], abs=1e-9 * most)
 
 
-def test_where_letters_fill_pages_the_equations_stand_in_numbers():
+def test_where_symbols_fill_pages_the_equations_stand_in_numbers():
     model, state, _, _ = at_rest("GEN-STEP")
     found = applied(model, state, "trunk.S")
     with pytest.raises(TooLarge):

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from colliding import ALL, CATALOGUE, TEXTS, first_impacts, mechanism
 from numpy.testing import assert_allclose
 from store import every
-from struck import ALL, CATALOGUE, TEXTS, mechanism, struck
 
 from freebody import catalogue
 from freebody.impact.impacts import NoImpact
@@ -22,7 +22,7 @@ def size(blow):
 
 @every_model
 def test_impulses_on_any_group_add_up_to_its_jump_of_momentum(name):
-    for impact in struck(name):
+    for impact in first_impacts(name):
         free = impact.impulses
         if not all(load.determinate for load in free.loads):
             continue
@@ -33,7 +33,7 @@ def test_impulses_on_any_group_add_up_to_its_jump_of_momentum(name):
 
 @every_model
 def test_impulses_of_contacts_strings_and_stops_are_those_of_the_run(name):
-    for impact in struck(name):
+    for impact in first_impacts(name):
         stated = impact.change.impulses
         for limit, (x, y) in stated.contacts.items():
             first = next(each["first"] for each in impact.run.metadata["limits"] if each["name"] == limit)
@@ -49,7 +49,7 @@ def test_impulses_of_contacts_strings_and_stops_are_those_of_the_run(name):
 @every_model
 def test_impulses_of_joints_are_those_of_the_run(name):
     """The run passes them from body to body along the tree; here every body has its balance."""
-    for impact in struck(name):
+    for impact in first_impacts(name):
         joints = {joint["name"]: joint for joint in impact.run.metadata["joints"]}
         for joint, (x, y, _) in impact.change.impulses.joints.items():
             loads = [load for load in impact.impulses.loads if load.name == joint and load.kind == "joint"]
@@ -60,7 +60,7 @@ def test_impulses_of_joints_are_those_of_the_run(name):
 
 @every_model
 def test_what_is_finite_has_no_impulse(name):
-    for impact in struck(name):
+    for impact in first_impacts(name):
         acting = {load.symbol for load in impact.impulses.loads}
         assert not acting & {load.symbol for load in impact.finite}
         weights = {load.of[-1] for load in impact.finite if load.kind == "weight"}
@@ -82,24 +82,24 @@ def test_all_models_of_the_catalogue_with_a_blow_are_visited():
 
 def test_friction_on_two_feet_is_not_told():
     """A plate that lands flat and slides on neither: their friction together is known, not that of each."""
-    [impact] = struck("plate")
+    [impact] = first_impacts("plate")
     unknown = {load.symbol for load in impact.impulses.loads if not load.determinate}
     assert unknown in ({"left.T", "right.T"}, set())
 
 
 def test_a_stop_tells_its_impulse():
     """A rod on a pin: (1 + e) I ω about the pin."""
-    [impact, *_] = struck("door")
+    [impact, *_] = first_impacts("door")
     before = impact.change.before.u["th"]
     assert impact.change.impulses.stops == {"wall": pytest.approx(1.6 * 1.5**2 / 3 * abs(before), rel=1e-12)}
     assert impact.change.impulses.contacts == {}
 
 
 def test_what_lets_go_and_what_rubs_is_said():
-    [walking] = struck("GEN-STEP/model")[:1]
+    [walking] = first_impacts("GEN-STEP/model")[:1]
     assert any("which opens" in sentence for sentence in walking.absent()) == bool(walking.change.impulses.spared)
-    assert any("friction of pin" in sentence for sentence in struck("door")[0].absent("bob"))
-    assert any("oil" in sentence for sentence in struck("door")[0].absent("bob"))
+    assert any("friction of pin" in sentence for sentence in first_impacts("door")[0].absent("bob"))
+    assert any("oil" in sentence for sentence in first_impacts("door")[0].absent("bob"))
 
 
 def test_blows_are_chosen_by_number_name_and_time():
@@ -116,6 +116,6 @@ def test_what_touches_and_approaches_at_the_start_strikes_then():
     from freebody import Mechanism
 
     text = TEXTS["ball_on_bar"].replace("y: 0.3 m", "y: 0 m")
-    [later], now = struck("ball_on_bar"), Mechanism.loads(f"freebody: 1\n{text}", "now").blow()
+    [later], now = first_impacts("ball_on_bar"), Mechanism.loads(f"freebody: 1\n{text}", "now").blow()
     assert now.change.t == 0.0
     assert now.change.impulses.contacts["knock"] == pytest.approx(later.change.impulses.contacts["knock"], rel=1e-9)

@@ -1,4 +1,4 @@
-"""What the letters of equations mean: coordinate or parameter, unit, and in what order a person writes them."""
+"""What the symbols of equations mean: coordinate or parameter, unit, and in what order a person writes them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ KINDS = ("coordinate", "parameter", "time", "unknown", "constant", "indeterminat
 
 
 @dataclass(frozen=True)
-class Letter:
-    """One letter: its kind (coordinate, parameter, time, unknown or constant; indeterminate is the one whose powers order a
+class SymbolEntry:
+    """One symbol: its kind (coordinate, parameter, time, unknown or constant; indeterminate is the one whose powers order a
     polynomial), SI unit, what it is, and, where that is not its own name, how it is ``written``."""
 
     name: str
@@ -26,27 +26,27 @@ class Letter:
 
 
 @dataclass(frozen=True)
-class Letters(Mapping[str, Letter]):
-    """The letters of some equations by name, in the order of the model. A name that is not there reads as a parameter."""
+class Nomenclature(Mapping[str, SymbolEntry]):
+    """The symbols of some equations by name, in the order of the model. A name that is not there reads as a parameter."""
 
-    table: Mapping[str, Letter] = field(default_factory=dict)
+    table: Mapping[str, SymbolEntry] = field(default_factory=dict)
     renamed: Mapping[str, Renamed] = field(default_factory=dict)
     """Those that are not written as usual, because that means something else."""
 
     @classmethod
-    def read(cls, data: Mapping[str, Mapping[str, Any]]) -> Letters:
+    def read(cls, data: Mapping[str, Mapping[str, Any]]) -> Nomenclature:
         """From JSON: ``{"theta": {"kind": "coordinate", "unit": "rad", "doc": "…"}}``."""
         for name, entry in data.items():
             if entry.get("kind", "parameter") not in KINDS:
-                raise ValueError(f"letter {name!r}: kind {entry['kind']!r} is none of {', '.join(KINDS)}")
+                raise ValueError(f"symbol {name!r}: kind {entry['kind']!r} is none of {', '.join(KINDS)}")
         known = ("kind", "unit", "doc")
-        return cls({name: Letter(name, **{k: entry[k] for k in known if k in entry}) for name, entry in data.items()})
+        return cls({name: SymbolEntry(name, **{k: entry[k] for k in known if k in entry}) for name, entry in data.items()})
 
     def write(self) -> dict[str, dict[str, str]]:
         """As JSON data."""
-        return {letter.name: {"kind": letter.kind, "unit": letter.unit, "doc": letter.doc} for letter in self.values()}
+        return {symbol.name: {"kind": symbol.kind, "unit": symbol.unit, "doc": symbol.doc} for symbol in self.values()}
 
-    def __getitem__(self, name: str) -> Letter:
+    def __getitem__(self, name: str) -> SymbolEntry:
         return self.table[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -60,19 +60,19 @@ class Letters(Mapping[str, Letter]):
         return self.table[name].kind if name in self.table else "parameter"
 
     def written(self, name: str) -> Name | None:
-        """How a letter is written that is not written by its own name."""
+        """How a symbol is written that is not written by its own name."""
         return self.table[name].written if name in self.table else None
 
     def of_kind(self, *kinds: str) -> list[str]:
         """The names of some kinds, in the order of the model."""
-        return [name for name, letter in self.table.items() if letter.kind in kinds]
+        return [name for name, symbol in self.table.items() if symbol.kind in kinds]
 
     def geometric(self) -> list[str]:
         """Coordinates and parameters that are lengths, angles or plain numbers: neither masses, loads, stiffnesses nor g."""
         return [x.name for x in self.values() if x.kind == "coordinate" or (x.kind == "parameter" and not is_heavy(x.unit))]
 
     def rank(self, symbol: Sym) -> tuple[int, int]:
-        """Where a letter stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
+        """Where a symbol stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
         weight = _weight(self.table[symbol.name].unit) if symbol.name in self.table else _OTHER
         return weight, self.place(symbol.name)
 

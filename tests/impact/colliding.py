@@ -179,6 +179,6 @@ def mechanism(name: str) -> fb.Mechanism:
 
 
 @cache
-def struck(name: str, most: int = 3) -> list[Impact]:
+def first_impacts(name: str, most: int = 3) -> list[Impact]:
     """Its first impacts."""
     return list(impacts(mechanism(name).simulate()))[:most]
