@@ -27,12 +27,12 @@ CLOSED = 1e-12
 """Gap over size of the mechanism below which what touches does so, and the reasons for zeros hold to round-off."""
 
 
-def independent(rows: Array) -> list[int]:
-    """The first rows of which none follows from those before."""
+def independent(rows: Array, part: float = DEPENDENT) -> list[int]:
+    """The first rows of which none follows from those before; of one that does no more is left than this ``part`` of the largest entry."""
     found: list[int] = []
+    most = int(rows.any(axis=0).sum())
     for i in range(len(rows)):
-        sizes = np.linalg.svd(rows[[*found, i]], compute_uv=False)
-        if len(sizes) == len(found) + 1 and sizes[-1] > DEPENDENT * np.abs(rows).max():
+        if len(found) < most and np.linalg.svd(rows[[*found, i]], compute_uv=False)[-1] > part * np.abs(rows).max():
             found.append(i)
     return found
 

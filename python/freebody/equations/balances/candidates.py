@@ -13,13 +13,12 @@ from freebody.equations.balances.system import Group, Problem, groups
 from freebody.equations.balances.virtual_motions import (
     NamedPoints,
     VirtualMotion,
-    VirtualMotions,
     clear_shifts,
     mass_centre,
     named_motions,
     pair_motions,
 )
-from freebody.solve.perturbed_states import DEPENDENT
+from freebody.solve.perturbed_states import independent
 
 ABSENT = 1e-9
 """Work of an unknown over that of its size in a motion, below which it drops out; it must do so at every state."""
@@ -29,12 +28,10 @@ WORTH = 4
 
 @dataclass(frozen=True)
 class Candidate:
-    """The balance of a group along a virtual motion. ``support`` and ``coefficients`` (nu,) tell the unknowns in it, ``motion``
-    (3,) is the one at the state asked for."""
+    """The balance of a group along a virtual motion. ``support`` and ``coefficients`` (nu,) say which unknowns are in it."""
 
     group: Group
     twist: VirtualMotion
-    motion: Array = field(repr=False)
     support: int
     coefficients: Array = field(repr=False)
     right: float
@@ -54,20 +51,17 @@ def candidates(
     problem: Problem, points: NamedPoints, counted: int, symbolically: bool = False
 ) -> tuple[dict[int, list[Candidate]], bool]:
     """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits) by what is unknown in them; of those with the same
-    unknowns the plainest, as many as are independent; and whether every connected set of bodies was tried. ``symbolically``: only
-    those that the core can tell symbolically."""
+    unknowns the plainest that are independent; and whether every connected set of bodies was tried. ``symbolically``: only
+    those that the core can give symbolically."""
     sets, exact = groups(problem)
     named = named_motions(problem, points)
     accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
     found = [candidate for group in sets for candidate in _of_group(problem, group, named, counted)]
     found = [candidate for candidate in found if not symbolically or is_symbolic(problem, candidate.twist)]
-    found.sort(key=lambda candidate: candidate.order(accelerations))
     by_support: dict[int, list[Candidate]] = {}
-    for candidate in found:
-        alike = by_support.setdefault(candidate.support, [])
-        if len(alike) < candidate.support.bit_count() and independent([*alike, candidate]):
-            alike.append(candidate)
-    return by_support, exact
+    for candidate in sorted(found, key=lambda candidate: candidate.order(accelerations)):
+        by_support.setdefault(candidate.support, []).append(candidate)
+    return {support: plainest(alike, accelerations) for support, alike in by_support.items()}, exact
 
 
 def is_symbolic(problem: Problem, twist: VirtualMotion) -> bool:
@@ -80,24 +74,23 @@ def bits(places: Iterable[int]) -> int:
     return sum(1 << int(i) for i in places)
 
 
-def independent(equations: Sequence[Candidate]) -> bool:
-    """Whether no equation follows from the others at the state asked for."""
-    rows = np.array([equation.coefficients for equation in equations])
+def plainest(equations: Sequence[Candidate], accelerations: int) -> list[Candidate]:
+    """Those that do not follow from plainer ones at the state asked for, in the order of plainness."""
+    ordered = sorted(equations, key=lambda equation: equation.order(accelerations))
+    rows = np.array([equation.coefficients for equation in ordered])
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
-    if sizes.min() == 0:
-        return False
-    return bool(np.linalg.svd(rows / sizes, compute_uv=False)[-1] > DEPENDENT)
+    return [ordered[i] for i in independent(rows / np.where(sizes > 0, sizes, 1.0))]
 
 
-def _of_group(problem: Problem, group: Group, named: VirtualMotions, counted: int) -> list[Candidate]:
+def _of_group(problem: Problem, group: Group, named: Sequence[VirtualMotion], counted: int) -> list[Candidate]:
     members = list(group)
     columns = np.array([system.columns[:, members].sum(axis=1) for system in problem.systems])
     sizes = np.max([np.linalg.norm(system.columns, axis=2).max(axis=1) for system in problem.systems], axis=0)
     columns = np.where(np.linalg.norm(columns, axis=2, keepdims=True) > ABSENT * sizes[:, None], columns, 0.0)
     boundary = np.flatnonzero(np.abs(columns).max(axis=(0, 2)) > 0)
-    tried = [named, pair_motions(columns, boundary), mass_centre(problem, group), clear_shifts(problem, columns, boundary)]
-    twists = [twist for some, _ in tried for twist in some]
-    motions = np.concatenate([motions for _, motions in tried])
+    shifts = clear_shifts(problem, columns, boundary)
+    tried = [*named, *pair_motions(columns, boundary), mass_centre(problem, group), *shifts]
+    motions = np.array([each.motion for each in tried])
     work = np.einsum("csk,suk->csu", motions, columns)
     reach = np.linalg.norm(motions, axis=2)[:, :, None] * sizes
     generic = slice(1, None) if len(problem.systems) > 1 else slice(None)
@@ -106,7 +99,7 @@ def _of_group(problem: Problem, group: Group, named: VirtualMotions, counted: in
     use = stays.any(axis=1) & ((stays & asked).sum(axis=1) <= WORTH)
     right = motions[:, 0] @ problem.systems[0].right[members].sum(axis=0)
     return [
-        Candidate(group, twists[c], motions[c, 0], bits(np.flatnonzero(stays[c])), np.where(stays[c], work[c, 0], 0.0), right[c])
+        Candidate(group, tried[c], bits(np.flatnonzero(stays[c])), np.where(stays[c], work[c, 0], 0.0), right[c])
         for c in np.flatnonzero(use)
     ]
 
@@ -123,8 +116,10 @@ def smallest(by_support: Supports, wanted: int, accelerations: int) -> list[Cand
 def best(by_support: Supports, sets: Iterator[int] | Sequence[int], size: int, accelerations: int) -> tuple[list[Candidate], int]:
     """The best ``size`` independent equations that hold no unknown outside one of some sets, and that set; none where no set has
     as many."""
-    solved = ((plainest(within(by_support, unknowns), size, accelerations), unknowns) for unknowns in sets)
-    return min((found for found in solved if found[0]), key=lambda found: set_cost(found[0], accelerations), default=([], 0))
+    held = ((within(by_support, unknowns), unknowns) for unknowns in sets)
+    solved = ((plainest(equations, accelerations)[:size], unknowns) for equations, unknowns in held if len(equations) >= size)
+    enough = (found for found in solved if len(found[0]) == size)
+    return min(enough, key=lambda found: set_cost(found[0], accelerations), default=([], 0))
 
 
 def grown(by_support: Supports, start: int, size: int) -> Iterator[int]:
@@ -158,17 +153,6 @@ def within(by_support: Supports, unknowns: int) -> list[Candidate]:
         found += by_support.get(part, ())
         part = (part - 1) & unknowns
     return found
-
-
-def plainest(equations: Sequence[Candidate], size: int, accelerations: int) -> list[Candidate]:
-    """The first ``size`` independent equations in the order of plainness; none if there are fewer."""
-    chosen: list[Candidate] = []
-    for equation in sorted(equations, key=lambda e: e.order(accelerations)) if len(equations) >= size else ():
-        if independent([*chosen, equation]):
-            chosen.append(equation)
-            if len(chosen) == size:
-                return chosen
-    return []
 
 
 def set_cost(equations: Sequence[Candidate], accelerations: int) -> tuple[float, ...]:

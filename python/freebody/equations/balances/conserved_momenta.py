@@ -19,11 +19,11 @@ from freebody.equations.balances.virtual_motions import (
     SAME_PLACE,
     NamedPoints,
     VirtualMotion,
-    VirtualMotions,
     known_shifts,
     mass_centre,
     named_motions,
 )
+from freebody.solve import perturbed_states
 
 DISTINCT = 1e-6
 """Part of a momentum's values that is left when those found before are taken out, below which it follows from them."""
@@ -48,34 +48,21 @@ def conserved_momenta(states: Sequence[FreeBodies], points: NamedPoints) -> list
 
     ``states`` move, all at once; as for the smallest sets the first is the one asked about."""
     given = problem(states)
-    kept, fixed = _Kept(given), _fixed(given, points)
+    tried = [*named_motions(given, points), *known_shifts(given)]
+    kept, fixed = _Kept(given), [each for each in tried if np.abs(each.motion - each.motion[0]).max() < SAME_PLACE]
     found: list[ConservedMomentum] = []
     for group in groups(given, known=True)[0]:
         named = sorted(kept.of(group, fixed), key=lambda each: each.twist.rank)
         shifts = [each for each in named if not each.turns]
         turning = [] if len(independent(shifts)) > 1 else [each for each in named if each.turns]
-        found += [*shifts, *turning, *kept.of(group, mass_centre(given, group))]
+        found += [*shifts, *turning, *kept.of(group, [mass_centre(given, group)])]
     return found
 
 
 def independent(found: Sequence[ConservedMomentum]) -> list[ConservedMomentum]:
     """The first of them that do not follow from those before: not the momentum of a set that is the sum of its parts'."""
-    kept: list[ConservedMomentum] = []
-    for each in found:
-        rows = np.array([*(other.values for other in kept), each.values])
-        rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
-        if np.linalg.svd(rows, compute_uv=False)[-1] > DISTINCT:
-            kept.append(each)
-    return kept
-
-
-def _fixed(given: Problem, points: NamedPoints) -> VirtualMotions:
-    """What is named, and is where it is at every state."""
-    tried = [named_motions(given, points), known_shifts(given)]
-    twists = [twist for some, _ in tried for twist in some]
-    motions = np.concatenate([motions for _, motions in tried])
-    still = np.abs(motions - motions[:, :1]).max(axis=(1, 2)) < SAME_PLACE
-    return [twist for twist, keep in zip(twists, still, strict=True) if keep], motions[still]
+    rows = np.array([each.values / np.linalg.norm(each.values) for each in found])
+    return [found[i] for i in perturbed_states.independent(rows, DISTINCT)]
 
 
 class _Kept:
@@ -95,9 +82,9 @@ class _Kept:
         self.momentum = np.array([[body.effective(about, (*body.v, body.omega)) for body in row] for row in bodies]) * scale
         self.elsewhere = len({body.G for row in bodies for body in row}) > len(given.bodies)
 
-    def of(self, group: Group, tried: VirtualMotions) -> list[ConservedMomentum]:
+    def of(self, group: Group, tried: Sequence[VirtualMotion]) -> list[ConservedMomentum]:
         """The momenta of a group in some motions that no load from outside changes, and that are not 0 always."""
-        (twists, motions), given = tried, self.given
+        motions, given = np.array([each.motion for each in tried]), self.given
         columns, known, momentum = (of[..., list(group), :].sum(axis=-2) for of in (self.columns, self.known, self.momentum))
         unknown = np.abs(np.einsum("csk,suk->csu", motions, columns) / self.sizes).max(axis=(1, 2), initial=0.0)
         power = np.abs(np.einsum("csk,sk->cs", motions, known)).max(axis=1)
@@ -110,5 +97,5 @@ class _Kept:
             if turns := bool(abs(turn) >= SAME_PLACE * np.linalg.norm(motions[c, 0])):
                 x, y = given.origin + np.array([-y, x]) / turn * given.length
             bodies = tuple(given.bodies[i] for i in group)
-            found.append(ConservedMomentum(bodies, twists[c], turns, (float(x), float(y)), self.elsewhere, values[c]))
+            found.append(ConservedMomentum(bodies, tried[c], turns, (float(x), float(y)), self.elsewhere, values[c]))
         return found

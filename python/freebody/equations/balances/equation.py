@@ -73,8 +73,9 @@ class BalanceEquation:
 
 def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
     """A candidate in SI, with its names and reasons."""
-    turn, shift = candidate.motion[2], candidate.motion[:2]
-    turns = abs(turn) > NO_TURN * np.linalg.norm(candidate.motion)
+    motion = candidate.twist.motion[0]
+    turn, shift = motion[2], motion[:2]
+    turns = abs(turn) > NO_TURN * np.linalg.norm(motion)
     if turns:
         x, y = np.array([-shift[1], shift[0]]) / turn * problem.length + problem.origin
         factor = problem.length / turn

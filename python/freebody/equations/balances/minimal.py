@@ -41,11 +41,6 @@ class MinimalForm(PlainText):
     virtual: int = 0
 
     @property
-    def proven(self) -> bool:
-        """Whether no set of balances does with fewer reactions."""
-        return self.exact and bool(self.equations) and self.least == len(self.stays)
-
-    @property
     def wanted(self) -> int:
         """How many accelerations and forces the equations are for."""
         return len(self.coordinates) + len(self.forces) + len(self.frictional)

@@ -8,7 +8,7 @@ neither does work, the turn about the point where their lines of action meet.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -28,67 +28,59 @@ NamedPoints = Mapping[str, tuple[str, float, float]]
 @dataclass(frozen=True)
 class VirtualMotion:
     """A rigid motion by what makes it: a named point or direction, or two unknowns, by their places, that do no work in it.
-    ``rank`` is 0 for the plainest; ``question`` is how the core is asked for the balance symbolically (``about`` or ``along``)."""
 
+    ``motion`` (ns, 3) is it at every state: velocity x, y of the origin of the problem, and turn × length. ``rank`` is 0 for the
+    plainest; ``question`` is how the core is asked for the balance symbolically (``about`` or ``along``)."""
+
+    motion: Array = field(repr=False, compare=False)
     name: str = ""
     pair: tuple[int, int] | None = None
     rank: int = 0
     question: Mapping[str, Any] | None = None
 
 
-VirtualMotions = tuple[list[VirtualMotion], Array]
-"""With their motions at every state (nt, ns, 3): velocity x, y of the origin of the problem and turn × length."""
-
-
-def named_motions(problem: Problem, points: NamedPoints) -> VirtualMotions:
+def named_motions(problem: Problem, points: NamedPoints) -> list[VirtualMotion]:
     """Turns about joints, mass centres and named points; shifts along x, y and along or across what a joint holds."""
-    found: list[tuple[VirtualMotion, Array]] = []
-    for twist, places in _named_places(problem, points):
-        about = (np.array(places) - problem.origin) / problem.length
-        motion = np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
-        if not any(np.abs(other - motion).max() < SAME_PLACE for _, other in found):
-            found.append((twist, motion))
-    for name, e in (("x", (1.0, 0.0, 0.0)), ("y", (0.0, 1.0, 0.0))):
-        found.append((VirtualMotion(name, rank=1, question={"along": name}), np.tile(e, (len(problem.systems), 1))))
-    found += _joint_directions(problem)
-    return [twist for twist, _ in found], np.array([motion for _, motion in found])
+    found: list[VirtualMotion] = []
+    for turn in _named_turns(problem, points):
+        if not any(np.abs(other.motion - turn.motion).max() < SAME_PLACE for other in found):
+            found.append(turn)
+    for name, e in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
+        found.append(VirtualMotion(_shift(np.tile(e, (len(problem.systems), 1))), name, rank=1, question={"along": name}))
+    return found + _joint_directions(problem)
 
 
-def mass_centre(problem: Problem, group: Sequence[int]) -> VirtualMotions:
+def mass_centre(problem: Problem, group: Sequence[int]) -> VirtualMotion:
     """The turn about the mass centre of several bodies; of one it has a name anyway."""
     names = [problem.bodies[i] for i in group]
-    about = (np.array([system.free.centre(*names) for system in problem.systems]) - problem.origin) / problem.length
-    twist = VirtualMotion(f"the mass centre of {' + '.join(names)}", rank=3, question={"about": "centre"})
-    return [twist], np.array([np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])])
+    turn = _turn(problem, [system.free.centre(*names) for system in problem.systems])
+    return VirtualMotion(turn, f"the mass centre of {' + '.join(names)}", rank=3, question={"about": "centre"})
 
 
-def clear_shifts(problem: Problem, columns: Array, boundary: Sequence[int]) -> VirtualMotions:
+def clear_shifts(problem: Problem, columns: Array, boundary: Sequence[int]) -> list[VirtualMotion]:
     """The shifts across all that one load of a boundary does to the group, be it in several places. ``columns`` (ns, nu, 3)."""
-    found: list[tuple[VirtualMotion, Array]] = []
+    found: list[VirtualMotion] = []
     for i in boundary:
         load, force = problem.load(problem.unknowns[i]), columns[:, i, :2]
         size = np.linalg.norm(force, axis=1, keepdims=True)
-        if load is None or size.min() == 0:
-            continue
-        motion = np.column_stack([-force[:, 1], force[:, 0], np.zeros(len(force))]) / size
-        question = {"along": {"clear": problem.unknowns[i].load}}
-        found.append((VirtualMotion(f"the direction across {load.symbol}", rank=4, question=question), motion))
-    return [twist for twist, _ in found], np.array([motion for _, motion in found]).reshape(len(found), len(columns), 3)
+        if load is not None and size.min() > 0:
+            question = {"along": {"clear": problem.unknowns[i].load}}
+            found.append(VirtualMotion(_shift(_across(force) / size), f"the direction across {load.symbol}", rank=4, question=question))
+    return found
 
 
-def known_shifts(problem: Problem) -> VirtualMotions:
+def known_shifts(problem: Problem) -> list[VirtualMotion]:
     """The shifts across every known force."""
-    found: list[tuple[VirtualMotion, Array]] = []
+    found: list[VirtualMotion] = []
     for i, load in enumerate(problem.free.loads):
         f = None if load.unknown else _directions(problem, i)
         if f is not None:
             words = f"the direction across {'gravity' if load.kind == 'weight' else load.name}"
-            twist = VirtualMotion(words, rank=4, question={"along": {"across": i}})
-            found.append((twist, np.column_stack([-f[:, 1], f[:, 0], np.zeros(len(f))])))
-    return [twist for twist, _ in found], np.array([motion for _, motion in found]).reshape(len(found), len(problem.systems), 3)
+            found.append(VirtualMotion(_shift(_across(f)), words, rank=4, question={"along": {"across": i}}))
+    return found
 
 
-def pair_motions(columns: Array, boundary: Sequence[int]) -> VirtualMotions:
+def pair_motions(columns: Array, boundary: Sequence[int]) -> list[VirtualMotion]:
     """For every two unknowns of a boundary the motion in which neither does work. ``columns`` (ns, nu, 3)."""
     sizes = np.linalg.norm(columns, axis=2, keepdims=True)
     units = columns / np.where(sizes > 0, sizes, 1.0)
@@ -97,11 +89,27 @@ def pair_motions(columns: Array, boundary: Sequence[int]) -> VirtualMotions:
     size = np.linalg.norm(motions, axis=2, keepdims=True)
     meet = size.min(axis=(1, 2)) > ONE_LINE
     pairs = zip(first[meet].tolist(), second[meet].tolist(), strict=True)
-    return [VirtualMotion(pair=pair, rank=5) for pair in pairs], motions[meet] / size[meet]
+    return [VirtualMotion(motion, pair=pair, rank=5) for motion, pair in zip(motions[meet] / size[meet], pairs, strict=True)]
 
 
-def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[VirtualMotion, list[Pair]]]:
-    """The turns about joints, mass centres and named points, with the place at every state."""
+def _turn(problem: Problem, places: Sequence[Pair]) -> Array:
+    """The turn about a place, which is one of these at every state."""
+    about = (np.array(places) - problem.origin) / problem.length
+    return np.column_stack([about[:, 1], -about[:, 0], np.ones(len(about))])
+
+
+def _shift(directions: Array) -> Array:
+    """The shift along a direction (ns, 2)."""
+    return np.column_stack([directions, np.zeros(len(directions))])
+
+
+def _across(directions: Array) -> Array:
+    """The directions a right angle on."""
+    return np.column_stack([-directions[:, 1], directions[:, 0]])
+
+
+def _named_turns(problem: Problem, points: NamedPoints) -> list[VirtualMotion]:
+    """The turns about joints, mass centres and named points."""
     joints: dict[str, int] = {}
     for i, load in sorted(enumerate(problem.free.loads), key=lambda each: not each[1].axis):  # pins first
         if load.kind in ("joint", "contact"):
@@ -109,14 +117,14 @@ def _named_places(problem: Problem, points: NamedPoints) -> list[tuple[VirtualMo
     rolling, states = touching(problem.free), [system.free for system in problem.systems]
     found = []
     for name, i in joints.items():
-        words = "the point of contact" if rolling == [name] else name
-        twist = VirtualMotion(words, question={"about": {"load": i}})
-        found.append((twist, [free.loads[i].on[-1].point for free in states]))
+        words, turn = "the point of contact" if rolling == [name] else name, _turn(problem, [free.loads[i].on[-1].point for free in states])
+        found.append(VirtualMotion(turn, words, question={"about": {"load": i}}))
     named = {f"{body}.G": [free.bodies[body].G for free in states] for body in problem.bodies}
     for name, point in points.items():
         if not name.endswith(".origin"):
             named.setdefault(name, [placed(free, *point) for free in states])
-    return found + [(VirtualMotion(name, rank=2, question={"about": {"point": name}}), at) for name, at in named.items()]
+    turns = ((name, _turn(problem, at)) for name, at in named.items())
+    return found + [VirtualMotion(turn, name, rank=2, question={"about": {"point": name}}) for name, turn in turns]
 
 
 def placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
@@ -128,9 +136,9 @@ def placed(free: FreeBodies, body: str, x: float, y: float) -> Pair:
     return b.at[0] + c * x - s * y, b.at[1] + s * x + c * y
 
 
-def _joint_directions(problem: Problem) -> list[tuple[VirtualMotion, Array]]:
-    """Along and across the force of every unknown that has one direction of its own; plainer than the axes where it rubs."""
-    found: list[tuple[VirtualMotion, Array]] = []
+def _joint_directions(problem: Problem) -> list[VirtualMotion]:
+    """Along and across the force of every unknown that has one direction of its own; plainer than the axes where it has friction."""
+    found: list[VirtualMotion] = []
     for unknown in problem.unknowns:
         load = problem.load(unknown)
         f = None if load is None or load.axis else _directions(problem, unknown.load)
@@ -138,13 +146,12 @@ def _joint_directions(problem: Problem) -> list[tuple[VirtualMotion, Array]]:
             continue
         follows = (i for i, other in enumerate(problem.free.loads) if other.follows and other.follows[0] == unknown.load)
         friction = next((i for i in follows if _directions(problem, i) is not None), None)  # the friction that follows from it
-        still = np.zeros(len(f))
         own, right_angle = _direction_words(problem, load, f)
         rank = 0 if friction is not None and np.abs(f).min() > ONE_LINE else 1
         across = {"across": unknown.load} if friction is None else {"load": friction}
-        slides = np.column_stack([f[:, 1], -f[:, 0]]) if friction is None else _directions(problem, friction)
-        found.append((VirtualMotion(right_angle, rank=rank, question={"along": across}), np.column_stack([slides, still])))
-        found.append((VirtualMotion(own, rank=rank, question={"along": {"load": unknown.load}}), np.column_stack([f, still])))
+        slides = -_across(f) if friction is None else _directions(problem, friction)
+        found.append(VirtualMotion(_shift(slides), right_angle, rank=rank, question={"along": across}))
+        found.append(VirtualMotion(_shift(f), own, rank=rank, question={"along": {"load": unknown.load}}))
     return found
 
 
