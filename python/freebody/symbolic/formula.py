@@ -136,7 +136,7 @@ def turn(part: Part, kinds: Sequence[str] = ("open", "opening", "close", "closin
     return (kind in kinds) * (1 if kind.startswith("open") else -1)
 
 
-def split(formula: Sequence[Part], depth: int, kinds: Sequence[str] = ("infix",)) -> Iterator[list[Part]]:
+def split(formula: Sequence[Part], depth: float, kinds: Sequence[str] = ("infix",)) -> Iterator[list[Part]]:
     """What stands between the signs that are in at most ``depth`` brackets."""
     inside, part = 0, []
     for each in formula:

@@ -24,10 +24,11 @@ from typing import Any
 
 from freebody.symbolic.algebra import equal, factored, pythagorean
 from freebody.symbolic.decimals import is_measured, measured
+from freebody.symbolic.linear import linear_in
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
-from freebody.symbolic.tree import MINUS_ONE, Add, Fn, Mul, Node, Num, Sym, Tree, add, mul, symbols, walk
+from freebody.symbolic.tree import MINUS_ONE, Add, Fn, Node, Num, Sym, Tree, add, mul, walk
 
 PATIENCE = 5.0
 """Seconds after which no further form of an answer is tried."""
@@ -62,24 +63,12 @@ def presented(
 
 def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     """A sum that is linear in some symbols, with one factor for each of them; as it is if it is not linear."""
-    coefficients: dict[Sym, list[Tree]] = {x: [] for x in unknowns}
-    rest: list[Tree] = []
-    if not isinstance(tree, Add):
-        return tree
-    for term in tree.terms:
-        held = symbols(term) & coefficients.keys()
-        factors = list(term.factors) if isinstance(term, Mul) else [term]
-        if not held:
-            rest.append(term)
-            continue
-        x = held.pop()
-        if held or x not in factors:
-            return tree
-        factors.remove(x)
-        if x in symbols(*factors):
-            return tree
-        coefficients[x].append(mul(*factors))
-    return add(*(mul(factored(add(*held)), x) for x, held in coefficients.items() if held), *rest)
+    try:
+        found = linear_in(tree, unknowns) if isinstance(tree, Add) else None
+    except ValueError:
+        found = None
+    held = [(found.coefficients[x], x) for x in unknowns if x in found.coefficients] if found else []
+    return add(*(mul(factored(factor), x) for factor, x in held), found.rest) if found else tree
 
 
 def _by_loads(expression: Any, nomenclature: Nomenclature, patience: float) -> Tree:

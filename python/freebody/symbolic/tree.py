@@ -264,25 +264,29 @@ def addends(node: Node, expand: bool = False) -> list[tuple[int, Node]]:
     return [(1, node)]
 
 
-def canonical(tree: Node) -> Tree:
-    """What a person wrote in numbers, sums, products and rational powers; vectors, matrices and units are none of these."""
+def canonical(
+    tree: Node, leaf: Callable[[Any], Tree] = lambda leaf: leaf, function: Callable[[str, tuple[Tree, ...]], Tree] = Fn
+) -> Tree:
+    """What a person wrote in numbers, sums, products and rational powers; vectors, matrices and units are none of these. A number or
+    symbol stands as ``leaf`` has it, a function as ``function`` makes it of its name and arguments."""
+    of = lambda node: canonical(node, leaf, function)
     match tree:
         case Num() | Sym():
-            return tree
+            return leaf(tree)
         case Add(terms):
-            return add(*map(canonical, terms))
+            return add(*map(of, terms))
         case Mul(factors):
-            return mul(*map(canonical, factors))
-        case Negative(of):
-            return negative(canonical(of))
+            return mul(*map(of, factors))
+        case Negative(inner):
+            return negative(of(inner))
         case Quotient(top, bottom):
-            return over(canonical(top), canonical(bottom))
+            return over(of(top), of(bottom))
         case Pow(base, Fraction() as exponent):
-            return power(canonical(base), exponent)
-        case Pow(base, Num(value)):
-            return power(canonical(base), Fraction(value).limit_denominator(1000))
+            return power(of(base), exponent)
+        case Pow(base, exponent) if isinstance(number := of(exponent), Num):
+            return power(of(base), Fraction(number.value))
         case Fn(name, args):
-            return Fn(name, tuple(map(canonical, args)))
+            return function(name, tuple(map(of, args)))
     raise ValueError(f"{type(tree).__name__} has no canonical form")
 
 

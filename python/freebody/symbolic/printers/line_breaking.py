@@ -4,8 +4,10 @@ Widths are those of Computer Modern, roughly, in em."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import Any, TypeVar
 
 from freebody.symbolic.formula import (
     EQUALS,
@@ -25,6 +27,7 @@ from freebody.symbolic.formula import (
     walk,
 )
 
+Line = TypeVar("Line", bound=Sequence)
 ROOM = 30.0
 """Width of a line of an article with a number beside it."""
 INDENT = 1.0
@@ -39,6 +42,33 @@ _BAR = 0.24
 """What a fraction takes beyond what stands in it."""
 _ROOT = 0.85
 """What the sign of a root takes."""
+
+
+def broken(
+    line: Line,
+    room: float,
+    later: float,
+    width: Callable[[Line], float],
+    split: Callable[[Line, float], Iterable[Line]],
+    begin: Callable[[Line], Line] = lambda piece: piece,
+) -> list[Line]:
+    """A line over several, of at most ``room`` and then ``later``, which ``begin`` with a piece: it is broken where ``split`` does so
+    outside of brackets, and within as many brackets as it takes."""
+
+    def pieces(part: Line, depth: int) -> Iterator[Line]:
+        for each in split(part, depth):
+            if width(each) <= later or len(list(split(each, math.inf))) == 1:
+                yield each
+            else:
+                yield from pieces(each, depth + 1)
+
+    made: list[Any] = []
+    for piece in pieces(line, 0):
+        if made and width(made[-1] + piece) <= (room if len(made) == 1 else later):
+            made[-1] += piece
+        else:
+            made.append(begin(piece))
+    return made
 
 
 def width(formula: Sequence[Part]) -> float:
@@ -66,15 +96,7 @@ def _indented(rows: Sequence[Formula]) -> list[tuple[Formula, Formula]]:
 
 def lines(formula: Formula, room: float = ROOM) -> list[Formula]:
     """The formula on lines of at most ``room``, as far as it can be broken; those after the first begin with their sign."""
-    made: list[list[Part]] = []
-    left = 0.0
-    for part in _parts([*_unstacked(formula, room)], room - INDENT, 0):
-        needed = width(part)
-        if not made or needed > left:
-            made.append([])
-            left = room - INDENT * (len(made) > 1)
-        made[-1] += part
-        left -= needed
+    made = broken([*_unstacked(formula, room)], room, room - INDENT, width, split)
     # Brackets that grow cannot be broken.
     size = "Big" if any(isinstance(part, Fraction) and not part.small for part in walk(formula)) else "big"
     torn = any(sum(turn(part, _GROWING) for part in line) for line in made)
@@ -96,15 +118,6 @@ def _unstacked(formula: Formula, room: float) -> Iterator[Part]:
             yield from (Fraction(one, part.below), GAP, Atom("(", "opening"), *part.above, Atom(")", "closing"))
         else:
             yield part
-
-
-def _parts(parts: list[Part], room: float, depth: int) -> Iterator[list[Part]]:
-    """What stands between the signs that are in at most ``depth`` brackets; in more where that is too wide."""
-    for part in split(parts, depth):
-        if width(part) <= room or not any(isinstance(each, Atom) and each.kind == "infix" for each in part[1:]):
-            yield part
-        else:
-            yield from _parts(part, room, depth + 1)
 
 
 def _width(part: Part) -> float:

@@ -21,29 +21,20 @@ _SPACES = {"\u2009": '<mspace width=".17em"/>', "\u2003": '<mspace width="1em"/>
 _BOLD = (("a", 0x1D41A), ("A", 0x1D400), ("α", 0x1D736))
 
 
-def mathml(formula: Formula) -> str:
+def mathml(parts: Iterable[Part], style: str = "") -> str:
     """A formula in a sentence."""
-    return _math(formula)
-
-
-def broken(formula: Formula) -> str:
-    """A formula on lines of its own: a browser breaks it before =, + and −, within brackets only where it must."""
-    return _terms(formula, 0)
-
-
-def _terms(parts: Sequence[Part], depth: int) -> str:
-    """Each term by itself; one with brackets can be broken within them."""
-    return "".join(
-        f"<span>{_terms(term, depth + 1)}</span>"
-        if any(isinstance(part, Atom) and part.kind in _SIGNS for part in term[1:])
-        else _math(term, ' displaystyle="true"')
-        for term in split(parts, depth, _SIGNS)
-    )
-
-
-def _math(parts: Iterable[Part], style: str = "") -> str:
     inner = "".join(map(_part, parts))
     return f"<math{style}>{inner}</math>" if inner else ""
+
+
+def broken(parts: Sequence[Part], depth: int = 0) -> str:
+    """A formula on lines of its own: a browser breaks it before =, + and −, within brackets (``depth``) only where it must."""
+    return "".join(
+        f"<span>{broken(term, depth + 1)}</span>"
+        if any(isinstance(part, Atom) and part.kind in _SIGNS for part in term[1:])
+        else mathml(term, ' displaystyle="true"')
+        for term in split(parts, depth, _SIGNS)
+    )
 
 
 def _row(formula: Formula) -> str:

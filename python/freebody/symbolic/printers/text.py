@@ -12,6 +12,7 @@ from typing import ClassVar
 from freebody.symbolic.alphabet import columns
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
+from freebody.symbolic.printers.line_breaking import broken
 from freebody.symbolic.printers.printer import Printer
 from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
 from freebody.symbolic.tree import Fn, Num, Pow, Sym, Tree
@@ -40,27 +41,10 @@ def equation_text(
 def folded(lead: str, line: str, width: int = WIDTH) -> str:
     """``lead`` and ``line``, broken before plus and minus signs, outside of brackets where that will do."""
     room = width - columns(lead)
-    indent = " " * columns(lead)
-    made: list[str] = []
-    for piece in _pieces(line, room, 0):
-        if made and columns(made[-1] + piece) <= room:
-            made[-1] += piece
-        else:
-            made.append(piece.lstrip())
-    return lead + f"\n{indent}".join(made)
+    return lead + f"\n{' ' * columns(lead)}".join(broken(line, room, room, columns, _split, str.lstrip))
 
 
-def _pieces(line: str, room: int, depth: int) -> Iterator[str]:
-    parts = list(_split(line, depth))
-    deepest = not any(sign in "([" for sign in line)
-    for part in parts:
-        if columns(part) <= room or (deepest and len(parts) == 1) or depth > 3:
-            yield part
-        else:
-            yield from _pieces(part, room, depth + 1)
-
-
-def _split(line: str, wanted: int) -> Iterator[str]:
+def _split(line: str, wanted: float) -> Iterator[str]:
     """The parts of the line between its ` + ` and ` − ` that stand in at most ``wanted`` brackets."""
     depth = start = 0
     for place, sign in enumerate(line):
