@@ -94,7 +94,7 @@ def _printed(block: Block, document: Document) -> Iterator[str]:
 
 @pytest.mark.parametrize("form", FORMS)
 def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: str) -> None:
-    checker, document = Checker(model), model.equations(form).document
+    checker, document = Checker(model), model.equations(form)
     lines = list(dict.fromkeys(text for block in _stated(document) for text in _printed(block, document)))
     assert len(lines) > 8
     for line in lines:

@@ -102,7 +102,7 @@ def test_the_sketch_with_constraints_has_their_coordinates(model):
     made = mechanism(model).equations("constraints")
     stated = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
     assert sorted(symbol(name) for name in stated) == sorted(each.text for each in drawn(model, each_body=True).scenery.dimensions)
-    html = made.document.html()
+    html = made.html()
     assert html.count("<svg") == 1 and "[Figure" not in html
 
 
@@ -189,7 +189,7 @@ def test_a_direction_that_a_body_does_not_show_is_named():
 
 def test_it_is_in_every_derivation_of_what_moves():
     model = mechanism("19.3.3/model")
-    for document in (model.equations().document, model.equations("brute").document, topic(model, "lagrange")):
+    for document in (model.equations(), model.equations("brute"), topic(model, "lagrange")):
         html = document.html()
         assert html.count("<svg") == 1 and "[Figure" not in html
         own = re.findall(r' id="([^"]*)"', html)

@@ -24,7 +24,6 @@ from freebody.equations import (
     Vector,
     Written,
     latex,
-    nomenclature_table,
     read,
 )
 from freebody.symbolic.alphabet import columns
@@ -64,7 +63,7 @@ DOCUMENT = Document(
         MatrixEquation([[LONG, ZERO], [ZERO, LONG]], [A1, A2], [ZERO, L], "Too wide for brackets"),
         Bullets(["energy", ["the mass ", M1]]),
         Table(("a", "b"), [("1|2", [TH1])], "Some numbers"),
-        nomenclature_table(LETTERS),
+        Table(("symbol", "what it is", "unit"), [([sym(each.name)], each.doc, each.unit) for each in LETTERS.values()]),
         Figure(Shown(), "A sketch", "sketch"),
     ],
     LETTERS,

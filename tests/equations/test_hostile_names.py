@@ -98,7 +98,7 @@ def test_what_is_printed_is_read_back_as_true(seed: int) -> None:
     mechanism = model(seed)
     checker = Checker(mechanism)
     for form in FORMS:
-        document = mechanism.equations(form).document
+        document = mechanism.equations(form)
         stated = [
             block for block in document.blocks if isinstance(block, Equation) and not isinstance(block.right, Matrices | Written)
         ]

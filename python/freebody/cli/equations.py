@@ -16,7 +16,6 @@ from freebody.document.rendering import FORMATS, text
 
 if TYPE_CHECKING:
     from freebody.document.document import Document
-    from freebody.equations.derivation.derive import Equations
     from freebody.model import Mechanism
 
 _ENDINGS = ", ".join(f".{ending}" for ending in FORMATS)
@@ -79,8 +78,8 @@ def equations(
     mechanism, substituted, when = opened(model), pairs(fixed), moment([at] if at else None, before, after)
     try:
         if form == SOLVED:
-            answers = mechanism.solve_in_letters(wanted or None, at_rest=at_rest, set=substituted, limits=pairs(limits), **when)
-            found: Equations | Document = answers.document
+            more = {"at_rest": at_rest, "set": substituted, "limits": pairs(limits)}
+            found: Document = mechanism.solve_in_letters(wanted or None, **more, **when)
         else:
             found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when)
     except KeyError as error:
@@ -104,7 +103,7 @@ def equations(
 
 def derived(
     mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str], when: dict[str, str]
-) -> Equations | Document:
+) -> Document:
     """The equations in a form, or the document of a topic."""
     from freebody.equations.derivation.derive import FORMS
     from freebody.equations.topics import TOPICS, described, topic

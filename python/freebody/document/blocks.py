@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any, Protocol, TypeAlias
 
 from freebody.symbolic.formula import Formula
-from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
@@ -147,12 +146,8 @@ def pieces(words: Words) -> list[str | Side]:
     return [words] if isinstance(words, str) else list(words)
 
 
-def listed(sides: Iterable[Side]) -> list[str | Side]:
-    """Mathematics in a sentence, commas between."""
-    return [piece for i, side in enumerate(sides) for piece in ([", ", side] if i else [side])]
-
-
-def nomenclature_table(nomenclature: Nomenclature) -> Table:
-    """What the symbols mean, for the head of a derivation."""
-    rows = [([Sym(entry.name)], entry.doc, entry.unit) for entry in nomenclature.values()]
-    return Table(("symbol", "what it is", "unit"), rows)
+def listed(sides: Iterable[Side], last: str = ", ") -> list[str | Side]:
+    """Mathematics in a sentence, commas between, or something else before the ``last``."""
+    every = list(sides)
+    between = [", "] * (len(every) - 2) + [last]
+    return [piece for i, side in enumerate(every) for piece in ([between[i - 1], side] if i else [side])]

@@ -69,11 +69,6 @@ class Answers(Document):
     def __getitem__(self, name: str) -> Tree:
         return self.values[name]
 
-    @property
-    def document(self) -> Document:
-        """The equations that give it."""
-        return Document(self.blocks, self.letters)
-
     def sympy(self) -> dict[str, Any]:
         """What was wanted as SymPy expressions."""
         return {name: to_sympy(tree) for name, tree in self.values.items()}

@@ -53,7 +53,7 @@ def test_what_drops_out_of_the_minimal_form_does_so_whatever_the_parameters_are(
 @every_model
 @pytest.mark.parametrize("form", FORMS)
 def test_no_printed_equation_says_nothing(model, form):
-    sides = [(block.left, block.right) for block in derived(model, form).document.blocks if isinstance(block, Equation)]
+    sides = [(block.left, block.right) for block in derived(model, form).blocks if isinstance(block, Equation)]
     assert not [left for left, right in sides if is_tree(left) and is_tree(right) and left == right]
 
 

@@ -114,7 +114,7 @@ def test_reactions(name: str) -> None:
     answers = fb.Mechanism.loads(text).solve_in_letters(list(wanted))
     for what, form in wanted.items():
         assert equal(answers[what], tree(form, letters)), f"{what}: {to_sympy(answers[what])}"
-    stated = [side for block in answers.document.blocks if isinstance(block, Equation) for side in (block.left, block.right)]
+    stated = [side for block in answers.blocks if isinstance(block, Equation) for side in (block.left, block.right)]
     assert stated and not any(x.dots for x in symbols(*stated)), "no acceleration or rate stands in statics"
 
 

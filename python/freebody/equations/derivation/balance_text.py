@@ -14,6 +14,7 @@ from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.balances.virtual_motions import placed
 from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
+from freebody.solve.perturbed_states import extent
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.evaluate import evaluate
@@ -76,7 +77,8 @@ class Stated:
         balance = self.balance
         made: list[Block] = [Heading(self.title, 3)]
         if absent := dropped(subject, self):
-            said = [f"{joined(list(map(_symbol, loads)))} ({agree(why, len(loads))})" for why, loads in absent.items()]
+            names = ([f"the friction of {x.name}" if x.follows else x.symbol for x in loads] for loads in absent.values())
+            said = (f"{joined(of)} ({agree(why, len(of))})" for why, of in zip(absent, names, strict=True))
             made.append(Paragraph(f"Not in this equation: {'; '.join(said)}."))
         what, sign, rate = ("moments", "Σ M = Ḣ", "angular momentum") if balance.turns else ("components", "Σ F = L̇", "momentum")
         unknowns, cancelled = list(balance.linear.coefficients), cancelling(subject, balance)
@@ -91,11 +93,6 @@ class Stated:
         made += [Paragraph(f"Rate of change of {rate}:"), Bullets(inertia)] if inertia else []
         turned = ", with all signs changed," * self._collected[2]
         return [*made, Equation(*self.sides, f"So {sign}{turned} is", self.label)]
-
-
-def _symbol(load: Load) -> str:
-    """The symbol of a load; that which follows from another one has none."""
-    return f"the friction of {load.name}" if load.follows else load.symbol
 
 
 def of_bodies(subject: SymbolicState, centre: str = "") -> list[Stated]:
@@ -135,12 +132,6 @@ def numbers(subject: SymbolicState, balance: Balance) -> Pair:
     x, y = (float(evaluate(tree, subject.values, subject.tables)) for tree in balance.place.xy)
     length = 1.0 if balance.turns else float(np.hypot(x, y)) or 1.0
     return x / length, y / length
-
-
-def extent(free: FreeBodies) -> float:
-    """How far apart loads act, m."""
-    points = np.array([part.point for load in free.loads for part in load.on] or [(0.0, 0.0)])
-    return float(np.hypot(*np.ptp(points, axis=0))) or 1.0
 
 
 def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:

@@ -10,9 +10,8 @@ import numpy as np
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.balances.conserved_momenta import ConservedMomentum, conserved_momenta, independent
 from freebody.equations.balances.reasons import Place, agree, why_absent
-from freebody.equations.derivation.balance_text import extent
 from freebody.equations.derivation.sentences import clause, joined
-from freebody.solve.perturbed_states import moving_states
+from freebody.solve.perturbed_states import extent, moving_states
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import quotient

@@ -42,11 +42,6 @@ class Equations(Document):
     content: Form = field(kw_only=True, repr=False)
 
     @property
-    def document(self) -> Document:
-        """The derivation."""
-        return Document(self.blocks, self.letters)
-
-    @property
     def parts(self) -> tuple[Printed, ...]:
         """The equations with their titles and sides."""
         return self.content.equations

@@ -34,9 +34,11 @@ def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = 
     held, moving = ([row for row in rows if getattr(row, level) is not None] for level in ("value", "rate"))
     made += [Equation(row.value, ZERO, "" if i else "For the positions") for i, row in enumerate(held)]
     try:
-        rates = System.of([_in_rates(row, coordinates) for row in moving], coordinates)
+        found = [linear_in(row.rate, [Sym(name, 1) for name in coordinates]) for row in moving]
+        slopes = [{Sym(x.name, 1): tree for x, tree in row.linear.coefficients.items() if x.dots == 2} for row in moving]
+        rates = System.of([Linear(own, each.rest) for own, each in zip(slopes, found, strict=True)], coordinates)
         made += _together(rates, "Differentiated, for the velocities" if held else "For the velocities")
-    except ValueError:
+    except ValueError:  # some are not linear in the rates
         made += [Equation(row.rate, ZERO, "" if i else "Their rates") for i, row in enumerate(moving)]
     name = "Differentiated once more, for the accelerations" if moving else "For the accelerations"
     return made + accelerations(rows, coordinates, name)
@@ -45,12 +47,6 @@ def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = 
 def accelerations(rows: Sequence[Row], coordinates: Sequence[str], name: str = "") -> list[Block]:
     """Rows, as they are written, at the level of accelerations."""
     return _together(System.of([row.linear for row in rows], coordinates), name)
-
-
-def _in_rates(row: Row, coordinates: Sequence[str]) -> Linear:
-    """The rate of a row, with the factors of its acceleration, which are the same. Raises ``ValueError`` where it is not linear."""
-    found = linear_in(row.rate, [Sym(name, 1) for name in coordinates])
-    return Linear({Sym(x.name, 1): tree for x, tree in row.linear.coefficients.items() if x.dots == 2}, found.rest)
 
 
 def _together(system: System, name: str) -> list[Block]:

@@ -17,6 +17,7 @@ from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import superscript
 from freebody.symbolic.tree import Sym, is_zero
 
+_GUIDED = re.compile(r"^(s|x|y) of (.+) from (.+) at (.+)$")
 _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
 
 
@@ -33,7 +34,7 @@ def configuration(subject: SymbolicState) -> list[Block]:
     said += f" mechanism has {'one degree' if count == 1 else f'{count} degrees' if count else 'no degrees'} of freedom"
     said += f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     said += f". Its configuration is described by {'one coordinate' if number == 1 else f'{number} coordinates'}:"
-    rows = [([Sym(c["name"])], _doc(c["doc"].replace("`", "")), c["dimension"] or "1") for c in subject.coordinates]
+    rows = [([Sym(c["name"])], _GUIDED.sub(_displacement, c["doc"].replace("`", "")), c["dimension"] or "1") for c in subject.coordinates]
     made += [Paragraph(said), Table(("coordinate", "meaning", "unit"), rows)]
     made.append(Figure(Configuration(subject.source, subject.state), _CAPTION, "sketch"))
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
@@ -52,13 +53,10 @@ def unloaded(subject: SymbolicState) -> list[Block]:
     return [Paragraph(f"At this state {said} no load, so that {here} in no equation here; give a state at which {they} one.")]
 
 
-def _doc(doc: str) -> str:
-    """What a coordinate measures; a way along a guide in more words than the core's."""
-    way = re.fullmatch(r"(s|x|y) of (.+) from (.+) at (.+)", doc)
-    if not way:
-        return doc
-    letter, second, first, joint = way.groups()
-    return f"displacement of {second} along {joint}, on {first}" if letter == "s" else f"{letter} of {second}, seen from {first}"
+def _displacement(found: re.Match[str]) -> str:
+    """What a coordinate of a guide measures, in more words than the core's."""
+    word, second, first, joint = found.groups()
+    return f"displacement of {second} along {joint}, on {first}" if word == "s" else f"{word} of {second}, seen from {first}"
 
 
 def degrees(subject: SymbolicState) -> int:

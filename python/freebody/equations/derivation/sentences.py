@@ -63,8 +63,9 @@ def readable(block: Block, elsewhere: str) -> Block:
     match block:
         case Bullets(items):
             sizes = [_signs(pieces(item)) for item in items]
-            shown = zip(items, sizes, strict=True)
-            kept = [words if size <= LONGEST else [*_texts(words), f"an expression of {size} signs"] for words, size in shown]
+            texts = ([piece for piece in pieces(words) if isinstance(piece, str)] for words in items)
+            long = ([*said, f"an expression of {size} signs"] for said, size in zip(texts, sizes, strict=True))
+            kept = [words if size <= LONGEST else said for words, size, said in zip(items, sizes, long, strict=True)]
             return replace(block, items=kept)
         case Equation(_, Matrices((Matrix(rows),))):
             size = max(map(_signs, rows), default=0)
@@ -78,10 +79,6 @@ def readable(block: Block, elsewhere: str) -> Block:
         return block
     name = [*pieces(block.name), ": "] if block.name else []
     return Paragraph([*name, f"an expression of {size} signs, too long to be read; {elsewhere}."])
-
-
-def _texts(words: Words) -> list[str]:
-    return [piece for piece in pieces(words) if isinstance(piece, str)]
 
 
 def _signs(parts: Sequence[object]) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, Words
+from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, Words, listed
 from freebody.equations.balances.smallest import COUNT, SmallestSet, smallest_set
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.form import Form
@@ -44,20 +44,14 @@ def _following(subject: SymbolicState, form: Form, free: Sequence[str], rows: Se
     several = [x for x in form.system.unknowns if x.dots and x.name not in free]
     ones = [x for x in form.system.unknowns if x.dots and x.name in free]
     none = "is no unknown of its own: it follows" if len(several) == 1 else "are no unknowns of their own: they follow"
-    source = [" from ", *_listed(ones)] if ones else []
-    said = [*_listed(several), f" {none}", *source, f", since {loop_closure.what(rows)}:"]
+    source = [" from ", *listed(ones, " and ")] if ones else []
+    said = [*listed(several, " and "), f" {none}", *source, f", since {loop_closure.what(rows)}:"]
     accelerations = loop_closure.accelerations(loop_closure.written(rows), subject.names)
     return [Heading("Accelerations that follow"), Paragraph(said), *accelerations]
 
 
-def _listed(shown: Sequence[Sym]) -> list:
-    """``a, b and c``."""
-    last = len(shown) - 1
-    return [piece for i, x in enumerate(shown) for piece in (*([" and " if i == last else ", "] if i else []), x)]
-
-
 def _introduction(found: SmallestSet) -> Words:
-    number, names = len(found.equations), _listed([_symbol(name) for name in found.values])
+    number, names = len(found.equations), listed(map(_symbol, found.values), " and ")
     if number == 1:
         return ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
     smaller = " and no other unknown; no smaller set determines "
