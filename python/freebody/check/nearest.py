@@ -78,10 +78,10 @@ def nearest(case: Case, equation: Equation) -> str:
 
 def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
     """Balances of bodies that hang together, about points and along directions that have a name."""
-    twists, _ = named_motions(given, points)
+    twists = sorted(named_motions(given, points), key=lambda twist: twist.rank)
     for group in groups(given)[0]:
         bodies = [given.bodies[i] for i in group]
-        for twist in sorted(twists, key=lambda twist: twist.rank):
+        for twist in twists:
             if twist.question is not None:
                 how = "moments about" if "about" in twist.question else "forces along"
                 words = f"the balance of {how} {twist.name} for {' + '.join(bodies)}"
