@@ -17,7 +17,7 @@ MAY_USE = {
     "impact": CORE | {"model", "solve"},
     "run": CORE | {"model", "solve"},
     "views": SOLVED | {"document"},
-    "codegen": CORE | {"model", "solve"},
+    "codegen": CORE | {"model", "solve", "document"},
     "equations": SOLVED | {"document", "views", "codegen"},
     "check": SOLVED | {"equations"},
     "catalogue": SOLVED | {"document", "equations", "check"},

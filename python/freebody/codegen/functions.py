@@ -5,15 +5,21 @@ name and is computed once."""
 
 from __future__ import annotations
 
+import json
 import keyword
 import re
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-from freebody.codegen.languages import LANGUAGES
-from freebody.codegen.source import Language, Writer
+from freebody.codegen.languages import LANGUAGES, Language
+from freebody.codegen.source import Writer
+from freebody.document.templates import template
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import ascii_name
 from freebody.symbolic.tree import PI, Entries, Sym, Tree, symbols
+
+if TYPE_CHECKING:
+    from freebody.codegen.systems import Systems
 
 _WORDS_OF_C = (
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
@@ -27,8 +33,10 @@ _HELP = {
 }  # fmt: skip
 
 
-def generate(functions: Mapping[str, Entries], nomenclature: Nomenclature, language: str = "python") -> str:
-    """Source code with one function for every name.
+def generate(
+    functions: Mapping[str, Entries], nomenclature: Nomenclature, language: str = "python", systems: Systems | None = None
+) -> str:
+    """Source code with one function for every name; of the functions of ``systems``, also what solves with them.
 
     A function takes ``q, u, p, t``: coordinates, their rates, parameters and constants as arrays in the order of the symbols,
     and time; behind them ``a`` (accelerations) and ``r`` (unknowns) if any of the functions needs those. In Python it returns a
@@ -42,12 +50,20 @@ def generate(functions: Mapping[str, Entries], nomenclature: Nomenclature, langu
             raise ValueError(f"{name!r} cannot be the name of a function; letters, digits and underscores can")
     flat = {name: _flatten(entries) for name, entries in functions.items()}
     used, given = symbols(*(tree for trees, _ in flat.values() for tree in trees)), _arguments(nomenclature)
-    places = {symbol: "t" if x == "t" else f"{x}[{i}]" for x, members in given.items() for i, symbol in enumerate(members)}
-    for symbol in sorted(used - places.keys() - {Sym(PI)}, key=str):
+    for symbol in sorted(used - {Sym(PI)}.union(*given.values()), key=str):
         raise ValueError(f"{symbol.name!r} differentiated {symbol.dots} times is no argument; say what it is in the nomenclature")
-    arrays = [x for x, members in given.items() if x in "qupt" or used & set(members)]
-    made = [_function(name, trees, shape, places, arrays, spelling) for name, (trees, shape) in flat.items()]
-    return spelling.file(_header(nomenclature, arrays), made)
+    given = {x: members for x, members in given.items() if x in "qupt" or used & set(members)}
+    made = [_function(name, trees, shape, given, spelling) for name, (trees, shape) in flat.items()]
+    codes = [code for each in made for code in (*each["results"], *(value for _, value in each["steps"]))]
+    return template(__package__, f"program.{spelling.ending}.j2").render(
+        header=_header(nomenclature, given),
+        arrays=list(given),
+        functions=made,
+        signs=any("sign(" in code for code in codes),
+        systems=systems,
+        quoted=json.dumps,
+        repr=repr,
+    )
 
 
 def _arguments(nomenclature: Nomenclature) -> dict[str, list[Sym]]:
@@ -68,32 +84,30 @@ def _flatten(entries: Entries) -> tuple[list[Tree], tuple[int, ...]]:
     return [tree for trees, _ in parts for tree in trees], (len(parts), *parts[0][1])
 
 
-def _header(nomenclature: Nomenclature, arrays: Sequence[str]) -> list[str]:
-    given, lines = _arguments(nomenclature), []
-    for array in arrays:
+def _header(nomenclature: Nomenclature, given: Mapping[str, Sequence[Sym]]) -> list[str]:
+    lines = []
+    for array, members in given.items():
         lines.append(f"{array}: {_HELP[array]}")
-        for place, symbol in enumerate(given[array] if array in "qpr" else ()):
-            symbol = nomenclature[symbol.name]
+        for place, member in enumerate(members if array in "qpr" else ()):
+            symbol = nomenclature[member.name]
             unit = f" [{symbol.unit}]" if symbol.unit else ""
             lines.append(f"    {array}[{place}] {symbol.name}{unit}{f': {symbol.doc}' if symbol.doc else ''}")
     return lines + [str(said) for name, said in nomenclature.renamed.items() if name in nomenclature]
 
 
 def _function(
-    name: str,
-    trees: Sequence[Tree],
-    shape: tuple[int, ...],
-    places: Mapping[Sym, str],
-    arrays: Sequence[str],
-    spelling: Language,
-) -> str:
-    used, named = symbols(*trees), dict[Sym, str]()
-    for symbol in (each for each in places if each in used):
-        named[symbol] = "t" if places[symbol] == "t" else _identifier(symbol, set(named.values()))
+    name: str, trees: Sequence[Tree], shape: tuple[int, ...], given: Mapping[str, Sequence[Sym]], spelling: Language
+) -> dict[str, Any]:
+    """What a template needs to know of a function; ``idle``: the arguments that it does not use."""
+    used, named, steps = symbols(*trees), dict[Sym, str](), []
+    for array, members in given.items():
+        for i, symbol in enumerate(members):
+            if symbol in used:
+                named[symbol] = "t" if array == "t" else _identifier(symbol, set(named.values()))
+                steps += [] if array == "t" else [(named[symbol], f"{array}[{i}]")]
     writer = Writer(spelling, named)
-    results = writer.write(trees)
-    loaded = [(name, places[symbol]) for symbol, name in named.items() if name != places[symbol]]
-    return spelling.function(name, arrays, loaded + writer.steps, results, shape)
+    results, idle = writer.write(trees), [array for array, members in given.items() if not used & set(members)]
+    return {"name": name, "shape": shape, "steps": steps + writer.steps, "results": results, "idle": idle}
 
 
 def _identifier(symbol: Sym, taken: set[str]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from freebody.codegen.functions import generate
-from freebody.codegen.languages import LANGUAGES
 from freebody.codegen.refusals import CannotGenerate, check
 from freebody.codegen.systems import systems
 from freebody.core import CompiledModel, State
@@ -21,4 +20,4 @@ def program(source: CompiledModel, state: State, language: str = "python") -> st
         raise CannotGenerate(
             "loops and motions ask more of the accelerations than their loads can give; release a joint or a motion"
         )
-    return generate(found.functions(), found.nomenclature, language) + LANGUAGES[language].solvers(found)
+    return generate(found.functions(), found.nomenclature, language, found)

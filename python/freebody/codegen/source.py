@@ -1,18 +1,15 @@
-"""What the languages of generated code have in common: numbers, brackets, and the sharing of subexpressions."""
+"""Expressions of generated code: numbers, brackets, and the sharing of subexpressions."""
 
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any
 
+from freebody.codegen.languages import Language
 from freebody.symbolic.tree import PI, Add, Fn, Mul, Num, Pow, Sym, Tree, children
-
-if TYPE_CHECKING:
-    from freebody.codegen.systems import Systems
 
 _SUM, _PRODUCT, _ATOM = range(3)
 _LONGEST_POWER = 4  # whole powers up to it are products
@@ -20,36 +17,6 @@ Step = tuple[str, str]
 """A name and the expression that it stands for."""
 Code = tuple[str, int]
 """An expression, and how strongly it binds."""
-
-
-class Language(ABC):
-    """A language: the ``word`` that asks for it, the ``ending`` of its files, and what it is in a few words; how its ``functions`` are
-    called."""
-
-    word: ClassVar[str]
-    ending: ClassVar[str]
-    doc: ClassVar[str]
-    functions: ClassVar[Mapping[str, str]]
-
-    def call(self, name: str, args: Sequence[str]) -> str:
-        """A function of printed arguments."""
-        if name not in self.functions:
-            raise ValueError(f"{name!r} is a table of the model; generated code knows only {', '.join(self.functions)}")
-        return self.functions[name].format(*args)
-
-    @abstractmethod
-    def function(
-        self, name: str, arrays: Sequence[str], steps: Sequence[Step], results: Sequence[str], shape: tuple[int, ...]
-    ) -> str:
-        """One function."""
-
-    @abstractmethod
-    def file(self, header: Sequence[str], functions: Sequence[str]) -> str:
-        """Functions below a comment."""
-
-    @abstractmethod
-    def solvers(self, systems: Systems) -> str:
-        """What solves the equations of a mechanism by such functions: names and numbers, accelerations, reactions, first-order form."""
 
 
 class Writer:
