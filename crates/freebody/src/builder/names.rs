@@ -3,7 +3,7 @@
 use super::answers::{of_joint, ACTING, LIMIT, MOTION};
 use crate::error::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
-use crate::gauges::{ModelExpr, ModelVariable};
+use crate::gauges::{is_measured, ModelExpr, ModelVariable};
 use crate::joints::{Joint as _, Kind};
 use crate::mechanism::Marker;
 use serde::Serialize;
@@ -241,12 +241,14 @@ impl Names {
     }
 }
 
-/// Refuses time derivatives of what is found by solving an instant: they would need the equations differentiated.
+/// Refuses time derivatives beyond the first of what is found by solving an instant: that is taken by differences.
 fn check_derivatives(law: &ModelExpr, ast: &Ast) -> Result<(), ExprError> {
-    let found = |variable: &ModelVariable| matches!(variable, ModelVariable::Reading(_));
-    if law.derivatives().any(|(inner, _)| inner.variables().any(found)) {
-        let hint = "`rate` and `accel` take expressions of the configuration; sample the quantity over a run instead";
-        return Err(Message::new("a time derivative of a force, a momentum or an energy", hint).at(&ast.span));
+    let beyond = |(inner, second): (&ModelExpr, bool)| {
+        !is_measured(inner) && (second || inner.derivatives().any(|(within, _)| !is_measured(within)))
+    };
+    if law.derivatives().any(beyond) {
+        let what = "a second time derivative of a force, a momentum, an energy or a rate";
+        return Err(Message::new(what, "take the first, and sample that over a run").at(&ast.span));
     }
     Ok(())
 }

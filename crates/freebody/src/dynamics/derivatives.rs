@@ -133,6 +133,27 @@ impl Workspace<'_> {
         Ok(responses.into_iter().map(|response| response.of_laws).collect())
     }
 
+    /// The time derivatives of expressions along the motion from the present state; `works` as those of
+    /// [`Workspace::evaluate`].
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub(super) fn rates_along_motion(&mut self, of: &[&ModelExpr], works: &[f64]) -> Result<Vec<f64>, DynamicsError> {
+        if of.is_empty() {
+            return Ok(vec![]);
+        }
+        self.solve()?;
+        let mut accelerations = vec![0.0; self.m.freedom()];
+        if !self.mode().resting {
+            self.accelerations(&mut accelerations);
+        }
+        let mut powers: Vec<f64> = (0..self.m.forces.len()).map(|f| loads::unaccounted_power(self.at(), f)).collect();
+        powers.extend(self.solved_view().drive_powers());
+        powers.push(self.friction_power());
+        let along = Direction { t: 1.0, q: self.at().u.to_vec(), u: accelerations, p: vec![], works: powers };
+        Ok(self.derivatives(of, works, &[along])?.remove(0))
+    }
+
     /// The derivatives along up to [`LANES`] directions, those of friction by its law not yet followed.
     fn respond(
         &self,
@@ -174,7 +195,7 @@ impl Workspace<'_> {
         };
         let works = seeded(works, |d| &d.works);
         let read = |reading| seen.read(reading, &works, Some(determinacy));
-        let observed = Observed { at, bodies: &found.bodies, accelerations: &accelerations, read: &read };
+        let observed = Observed { at, bodies: &found.bodies, accelerations: &accelerations, read: &read, rates: &[] };
         let laws: Vec<Lanes> = laws.iter().map(|law| law.eval(&observed)).collect();
         let by_law = seen.friction_by_law();
         let lane =

@@ -4,7 +4,7 @@ use super::energy::{angular_momentum, kinetic, kinetic_energy, potential, whole_
 use super::{
     force_power, force_value, Determinacy, DynamicsError, JointLoad, Route, SolvedView, TermScales, Workspace,
 };
-use crate::gauges::{Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
+use crate::gauges::{is_measured, Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
 use crate::kinematics::Observed;
 use crate::mechanism::FrictionSource;
 use crate::mode::ContactMode;
@@ -164,6 +164,10 @@ impl Workspace<'_> {
     /// As [`Workspace::solve`].
     pub fn evaluate(&mut self, laws: &[&ModelExpr], works: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         let needs = Needs::of(laws);
+        let derivatives = laws.iter().flat_map(|law| law.derivatives());
+        let solved: Vec<&ModelExpr> = derivatives.map(|(of, _)| of).filter(|of| !is_measured(of)).collect();
+        let rates = self.rates_along_motion(&solved, works)?;
+        let rates: Vec<(&ModelExpr, f64)> = solved.into_iter().zip(rates).collect();
         let mut accelerations = vec![0.0; self.m.freedom()];
         if needs.solution {
             self.solve()?;
@@ -172,8 +176,13 @@ impl Workspace<'_> {
         let determinacy = needs.reactions.then(|| self.determinacy());
         let seen = self.solved_view();
         let read = |reading| seen.read(reading, works, determinacy.as_ref());
-        let observed =
-            Observed { at: seen.at, bodies: &self.solved.bodies, accelerations: &accelerations, read: &read };
+        let observed = Observed {
+            at: seen.at,
+            bodies: &self.solved.bodies,
+            accelerations: &accelerations,
+            read: &read,
+            rates: &rates,
+        };
         Ok(laws.iter().map(|law| law.eval(&observed)).collect())
     }
 }

@@ -96,13 +96,16 @@ impl<L: Clone + PartialEq> Expr<L> {
     pub fn lookup(self, table: usize) -> Self {
         self.extend(|of| Op::Table(table, of))
     }
-    /// The time derivative. `None` when there is a time derivative in it already.
-    pub fn rate(self) -> Option<Self> {
-        self.derivative(Op::Rate)
+    /// The time derivative.
+    pub fn rate(self) -> Self {
+        match &self.ops[..] {
+            [Op::Rate(inner)] => Expr { ops: vec![Op::Accel(inner.clone())] },
+            _ => self.derivative(Op::Rate),
+        }
     }
     /// The second time derivative. `None` when there is a time derivative in it already.
     pub fn accel(self) -> Option<Self> {
-        self.derivative(Op::Accel)
+        (!self.depends_on_rates()).then(|| self.derivative(Op::Accel))
     }
     /// Whether it is below another; `kink` names the switch.
     pub fn less(self, other: Self, discontinuity: usize) -> Condition<L> {
@@ -125,14 +128,11 @@ impl<L: Clone + PartialEq> Expr<L> {
         }
     }
 
-    fn derivative(self, op: fn(Box<Self>) -> Op<L>) -> Option<Self> {
-        if self.depends_on_rates() {
-            return None;
-        }
-        Some(match self.is_constant() {
+    fn derivative(self, op: fn(Box<Self>) -> Op<L>) -> Self {
+        match self.is_constant() {
             true => Self::constant(0.0),
             false => Expr { ops: vec![op(Box::new(self))] },
-        })
+        }
     }
 
     /// The expression with `value` in place of a leaf; of one without time derivatives.

@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 pub trait Env<S, L> {
     /// The value of a leaf.
     fn variable(&self, variable: &L) -> S;
-    /// The time derivative of an expression, which holds no further derivative.
+    /// The time derivative of an expression.
     fn rate(&self, of: &Expr<L>) -> S;
     /// The second time derivative of an expression, which holds no further derivative.
     fn accel(&self, of: &Expr<L>) -> S;

@@ -214,20 +214,19 @@ where
     L: Clone + PartialEq,
     C: Scope<L> + ?Sized,
 {
-    let derivative = match name {
-        "abs" => return Ok(x.abs(scope.discontinuity())),
-        "sign" => return Ok(x.sign(scope.discontinuity())),
+    Ok(match name {
+        "abs" => x.abs(scope.discontinuity()),
+        "sign" => x.sign(scope.discontinuity()),
         "step" => {
             let positive = Expr::constant(0.0).less(x, scope.discontinuity());
-            return Ok(positive.choose(Expr::constant(1.0), Expr::constant(0.0)));
+            positive.choose(Expr::constant(1.0), Expr::constant(0.0))
         }
         "rate" => x.rate(),
-        _ => x.accel(),
-    };
-    match derivative {
-        Some(expr) => Ok(expr),
-        None => error_at(ast, format!("`{name}` of a time derivative"), "for the second derivative, write `accel(…)`"),
-    }
+        _ => match x.accel() {
+            Some(expr) => expr,
+            None => return error_at(ast, "`accel` of a time derivative", "write `rate` of it"),
+        },
+    })
 }
 
 fn extreme<L, C>(ast: &Ast, name: &str, arguments: &[Ast], scope: &mut C) -> Resolved<Expr<L>>

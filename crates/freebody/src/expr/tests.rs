@@ -230,8 +230,7 @@ fn meanings_are_checked_where_they_stand() {
         ("sin(x, y)", 0..9, "takes 1 argument, not 2", ""),
         ("if(x, 1, 2)", 3..4, "a condition is needed", "x > 0"),
         ("2*(x < y)", 3..8, "a number is needed", "if("),
-        ("rate(rate(x))", 0..13, "time derivative", "accel"),
-        ("accel(2 + rate(x))", 0..18, "time derivative", ""),
+        ("accel(2 + rate(x))", 0..18, "time derivative", "rate"),
         ("x + 1/0", 6..7, "infinite", "division by 0"),
         ("min(x)", 0..6, "two arguments", ""),
     ] {
@@ -340,6 +339,9 @@ fn leaves_and_derivatives_are_known() {
     assert_eq!(expr.variables().collect::<String>(), "xyz");
     assert_eq!(expr.derivatives().map(|(_, second)| second).collect::<Vec<_>>(), [false, true]);
     assert!(expr.depends_on_rates() && expr.depends_on_accelerations() && !expr.is_constant());
+    let expr = resolve("rate(x*rate(y))").unwrap();
+    assert_eq!(expr.variables().collect::<String>(), "xy");
+    assert!(expr.depends_on_accelerations() && resolve("rate(rate(x))") == resolve("accel(x)"));
     let expr = resolve("abs(ramp(1) - 2)*3").unwrap();
     assert!(expr.is_constant() && !expr.depends_on_rates() && expr.literal().is_none());
     let lookups: Vec<_> = resolve("x + ramp(2*x)").unwrap().lookups().map(|(table, of)| (table, print(&of))).collect();

@@ -148,9 +148,8 @@ impl<L> Expr<L> {
     }
 
     /// Its operations, then those inside its time derivatives.
-    pub(super) fn all(&self) -> impl Iterator<Item = &Op<L>> {
-        // A time derivative holds no further one.
-        self.ops.iter().chain(self.ops.iter().filter_map(Op::inner).flat_map(|inner| &inner.ops))
+    pub(super) fn all(&self) -> Box<dyn Iterator<Item = &Op<L>> + '_> {
+        Box::new(self.ops.iter().chain(self.ops.iter().filter_map(Op::inner).flat_map(Expr::all)))
     }
 
     /// Its leaves, those inside time derivatives included; one may come more than once.
@@ -166,9 +165,9 @@ impl<L> Expr<L> {
         self.ops.iter().any(|op| op.inner().is_some())
     }
 
-    /// Whether it holds a second time derivative, `accel(…)`.
+    /// Whether it holds a second time derivative, `accel(…)` or the rate of what holds a rate.
     pub fn depends_on_accelerations(&self) -> bool {
-        self.ops.iter().any(|op| matches!(op, Op::Accel(_)))
+        self.derivatives().any(|(inner, second)| second || inner.depends_on_rates())
     }
 
     /// Its time derivatives: the expression inside, and whether the derivative is the second.

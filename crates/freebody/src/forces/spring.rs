@@ -49,7 +49,7 @@ pub(super) fn elastic(gauge: ModelExpr, fields: &mut Fields, rest: &str) -> Resu
 }
 
 fn drag(gauge: ModelExpr, damping: ModelExpr) -> GaugeForce {
-    let rate = gauge.clone().rate().expect("a gauge of the configuration has a rate");
+    let rate = gauge.clone().rate();
     GaugeForce { gauge, value: -(damping * rate), bodies: vec![], conservative: false }
 }
 

@@ -34,3 +34,8 @@ pub enum ModelVariable {
 
 /// An expression of a model.
 pub type ModelExpr = Expr<ModelVariable>;
+
+/// Whether an expression is measured from the configuration and time alone, so that jets give its derivatives.
+pub fn is_measured(of: &ModelExpr) -> bool {
+    !of.depends_on_rates() && !of.variables().any(|variable| matches!(variable, ModelVariable::Reading(_)))
+}

@@ -90,6 +90,8 @@ pub struct Observed<'a, S = f64> {
     pub accelerations: &'a [S],
     /// What a reading is.
     pub read: &'a dyn Fn(Reading) -> S,
+    /// Expressions that are not measured from the configuration alone, with their time derivatives.
+    pub rates: &'a [(&'a ModelExpr, S)],
 }
 
 impl<S: Scalar> Observed<'_, S> {
@@ -113,7 +115,8 @@ impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
         }
     }
     fn rate(&self, of: &ModelExpr) -> S {
-        jet(&self.moving(), of).d1
+        let known = self.rates.iter().find(|(expr, _)| std::ptr::eq(*expr, of));
+        known.map_or_else(|| jet(&self.moving(), of).d1, |(_, rate)| *rate)
     }
     fn accel(&self, of: &ModelExpr) -> S {
         jet(&self.moving(), of).d2
