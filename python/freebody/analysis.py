@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from freebody.core import MotionError, Settings
 from freebody.model.answers import fault, numbers
 from freebody.model.errors import ModelFileError, Problem
-from freebody.model.start import evaluate, many_turns
+from freebody.model.start import many_turns, quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -270,7 +270,7 @@ class Moving:
         from a time on (s, or ``"200 ms"``). Raises ``NoImpact``."""
         from freebody.impact.impacts import find
 
-        return find(self.simulate(), number, of=of, after=None if at is None else evaluate(at, {}))
+        return find(self.simulate(), number, of=of, after=None if at is None else quantity("at", at, "s"))
 
     def strike(self: Builder, point: str, direction: Any = 0, impulse: Any = 1.0, *, frame: str = "fixed") -> AppliedImpulse:
         """What an ``impulse`` (N·s) at a named point does to the model, which stands still as at its start; see
@@ -305,7 +305,7 @@ class Moving:
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
         asked = self.run_numbers()
-        end = asked.until if until is None else evaluate(until, {})
+        end = asked.until if until is None else quantity("until", until, "s")
         if end is None:
             hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
             raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])

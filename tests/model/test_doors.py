@@ -3,12 +3,13 @@
 import math
 import os
 import random
+import tracemalloc
 from itertools import product
 
 import pytest
 
 from freebody.core import cards
-from freebody.model import names, units
+from freebody.model import expand, names, units
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.mechanism import Mechanism
 
@@ -193,6 +194,61 @@ def test_what_a_run_keeps_has_a_limit(word, value):
 def test_a_method_of_fixed_steps_needs_one(method):
     with pytest.raises(ModelFileError, match="needs a fixed step"):
         Mechanism.loads(PENDULUM).simulate(1.0, method=method)
+
+
+REPEATED = {
+    "a product": ("bodies: {'a[i = 1 .. 999][j = 1 .. 999]': BALL}", {}),
+    "items of items": ("bodies: {'a[i = 1 .. 999]': {mass: 1, points: {'p[j = 1 .. 99]': [0, i]}}}", {}),
+    "within parts": ("parts: {'p[k = 1 .. 90]': {file: p.yaml}}", {"p": "bodies: {'a[i = 1 .. 999]': BALL}"}),
+    "parts of parts": (
+        "parts: {'p[k = 1 .. 30]': {file: p.yaml}}",
+        {"p": "parts: {'q[k = 1 .. 30]': {file: q.yaml}}", "q": "bodies: {'a[i = 1 .. 900]': BALL}"},
+    ),
+    "large items": ("bodies: {'a[i = 1 .. 999]': {mass: 1, outline: [" + "O, " * 999 + "O]}}", {}),
+}
+
+
+@pytest.mark.parametrize("kind", REPEATED)
+def test_what_repetitions_make_has_a_limit_before_memory_is_taken(kind, tmp_path, monkeypatch):
+    monkeypatch.setattr(expand, "MAX_ITEMS", 1000)
+    monkeypatch.setattr(expand, "MAX_NODES", 40_000)
+    whole, parts = REPEATED[kind]
+    for name, text in {"m": whole, **parts}.items():
+        (tmp_path / f"{name}.yaml").write_text(f"freebody: 1\n{text.replace('BALL', '{shape: particle, mass: 1}')}\n")
+    tracemalloc.start()
+    with pytest.raises(ModelFileError) as caught:
+        Mechanism.load(tmp_path / "m.yaml").compile()
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    (problem,) = caught.value.problems
+    assert "the model has more than" in problem.what and problem.where.line == 2 and peak < 30e6
+
+
+@pytest.mark.parametrize("ask", [{"every": 1e-5}, {"t_eval": range(20_000_000)}])
+def test_rows_and_columns_of_a_run_have_a_limit(ask):
+    chain = "".join(f"  b{i}: {{shape: particle, mass: 1}}\n" for i in range(20))
+    with pytest.raises(ValueError, match=r"1e\+08 figures are kept"):
+        Mechanism.loads(f"freebody: 1\nbodies:\n{chain}").simulate(9.0, **ask)
+
+
+@pytest.mark.parametrize(("option", "value"), [*product(["until"], ["inf", "nan", "3 kg", "3x", "1e400", "soon"]),
+                                               *product(["rtol"], [math.inf, math.nan, -1.0, 0.0])])  # fmt: skip
+def test_an_option_that_cannot_be_is_answered_with_its_name_its_value_and_an_example(option, value):
+    with pytest.raises((ModelFileError, ModelProblem)) as caught:
+        Mechanism.loads(PENDULUM).simulate(**{"until": 1.0} | {option: value})
+    stated = str(caught.value)
+    what, hint = (caught.value.problems[0].what, caught.value.problems[0].hint) if hasattr(caught.value, "problems") else caught.value.args
+    assert f"`{option}` is" in what and str(value).split(".")[0] in what and hint, stated
+
+
+def test_what_is_said_of_many_places_is_one_complaint():
+    forces = "".join(f"  f{i}: {{type: force, at: b.end, x: {i}*push}}\n" for i in range(10))
+    hinges = "".join(f"  h{i}: {{type: hinge, of: [ground.O, rod.start]}}\n" for i in range(5))
+    with pytest.raises(ModelFileError) as caught:
+        Mechanism.loads(PENDULUM.replace("joints: {p: ", "joints:\n  p: ").replace("theta}}", "theta}") + hinges + "forces:\n" + forces).compile()
+    hinge, push = caught.value.problems
+    assert hinge.what == "there is no body `rod`" and [place.path for place in hinge.also] == [f"joints.h{i}.of[1]" for i in range(1, 5)]
+    assert push.what == "nothing is called `push`" and len(push.also) == 9 and "and 5 more" in str(push)
 
 
 def test_parts_of_parts_have_a_limit(tmp_path):

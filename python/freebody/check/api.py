@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
-from freebody.model.start import evaluate
+from freebody.model.start import quantity
 from freebody.symbolic.errors import StatementError
 
 from .case import Case, StatementSymbols
@@ -94,7 +94,7 @@ class Checker:
         times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
         times |= {event.name: event.t for event in reversed(run.events)}
         try:
-            return run, times[name] if name in times else evaluate(name, {})
+            return run, times[name] if name in times else quantity("at", name, "s")
         except ModelProblem:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"

@@ -156,7 +156,7 @@ def certify(
     until: Until = None,
     method: Method = None,
     rtol: Rtol = None,
-    digits: Annotated[int, typer.Option(metavar="NUMBER", help="How many digits each route must agree to.")] = 5,
+    digits: Annotated[int, typer.Option(metavar="NUMBER", min=1, max=15, help="How many digits each route must agree to.")] = 5,
     as_json: AsJson = False,
 ) -> None:
     """Find the motion again by independent routes, and say to how many digits they agree and which link is the weakest."""

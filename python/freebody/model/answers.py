@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 from freebody.core import BEFORE, EXTREMES, ReportItem, Settings, cards
@@ -19,6 +19,8 @@ from .writer import Writer
 _STATISTIC = re.compile(rf"\s*({'|'.join(EXTREMES)})\s+of\s+(.+)", re.DOTALL)
 _OVER = re.compile(r"(.+?)\s+over\s+(.+?)\s*\.\.\s*(.+)", re.DOTALL)
 _WORDS = ("start", "end")
+_UNITS = {"until": "s", "rtol": "", "every": "s", "step": "s", "max_step": "s"}
+"""Of the settings that are numbers."""
 MAX_ROWS = 1_000_000
 """Rows of output, and fixed steps, that a run may be asked for."""
 
@@ -28,22 +30,21 @@ Moment = str | float
 
 def timed(item: ReportItem, values: Mapping[str, float]) -> ReportItem:
     """The item with its times as numbers, at these parameters. Raises ``ModelProblem``."""
-    time = lambda moment: start.evaluate(moment[1:], values) if isinstance(moment, str) and moment.startswith("=") else moment
+    time = lambda moment: start.quantity(item.label, moment[1:], "s", values) if isinstance(moment, str) and moment.startswith("=") else moment
     return replace(item, at=time(item.at), over=item.over and (float(time(item.over[0])), float(time(item.over[1]))))
 
 
 def numbers(given: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, Any]:
     """What is given of ``Settings``, its numbers worked out at these parameters. Raises ``ModelProblem``."""
-    words = {field.name for field in fields(Settings) if field.type == "str"}
-    return {name: v if v is None or name in words else start.evaluate(v, values) for name, v in given.items()}
+    return {n: v if v is None or n not in _UNITS else start.quantity(n, v, _UNITS[n], values) for n, v in given.items()}
 
 
 def fault(settings: Settings) -> tuple[str, str, str] | None:
     """The setting with which there is no run, what is wrong with it, and what to try."""
-    for name in ("until", "rtol", "step", "max_step", "every"):
+    for name, unit in _UNITS.items():
         value = getattr(settings, name)
         if value is not None and not (math.isfinite(value) and (value > 0 or (name == "until" and value == 0))):
-            return name, f"`{name}` is {value:g}, and must be above 0", "check its sign and its size"
+            return name, f"`{name}` is {value:g}, and must be above 0", f"write e.g. {'`5 s` or `200 ms`' if unit else '`1e-9`'}"
     if settings.rtol >= 1:
         return "rtol", f"`rtol` is {settings.rtol:g}; a relative tolerance is below 1", f"by default it is {Settings.rtol:g}"
     method = cards.methods().get(settings.method)
@@ -59,10 +60,9 @@ def fault(settings: Settings) -> tuple[str, str, str] | None:
 def run(write: Writer) -> dict[str, Any]:
     """What the model says of ``Settings``; some may be expressions of parameters."""
     stated = write.scope.model.run or Run()
-    units_of = {"until": "s", "every": "s", "max_step": "s", "step": "s", "rtol": ""}
     given = stated.model_dump(exclude_none=True)
-    found = {n: write.number(("run", n), v, units_of[n]) if n in units_of else v for n, v in given.items()}
-    sizes = {n: write.size(v) if n in units_of else v for n, v in given.items()}
+    found = {n: write.number(("run", n), v, _UNITS[n]) if n in _UNITS else v for n, v in given.items()}
+    sizes = {n: write.size(v) if n in _UNITS else v for n, v in given.items()}
     if None not in sizes.values() and (wrong := fault(Settings(**sizes))):
         write.scope.complain(("run", wrong[0]), *wrong[1:])
     return found

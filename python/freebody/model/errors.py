@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+SHOWN = 4  # of the places of one complaint, beside its first
 
 Path = tuple[str | int, ...]
 """Keys and indices from the top of a model to one of its items, e.g. ``("joints", "pivot", "of", 1)``."""
@@ -29,11 +31,12 @@ class Where:
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong: the place, a sentence about it, and what to try (may be empty)."""
+    """One thing that is wrong: the first place, a sentence about it, what to try (may be empty), and the other places."""
 
     where: Where
     what: str
     hint: str = ""
+    also: tuple[Where, ...] = ()
 
     def __str__(self) -> str:
         lines = [f"{self.where}: {self.what}"]
@@ -41,16 +44,25 @@ class Problem:
             lines.append(f"    {self.where.excerpt.rstrip()}")
             if self.where.column:
                 lines.append("    " + " " * (self.where.column - 1) + "^")
+        if self.also:
+            rest = f" and {len(self.also) - SHOWN} more" if len(self.also) > SHOWN else ""
+            lines.append(f"  the same in {', '.join(map(str, self.also[:SHOWN]))}{rest}")
         if self.hint:
             lines.append(f"  {self.hint}")
         return "\n".join(lines)
 
 
 class ModelFileError(ValueError):
-    """A model that cannot be used. ``problems`` lists all that was found, in the order of the file."""
+    """A model that cannot be used. ``problems`` lists all that was found, in the order of the file; what is said of several places is
+    one problem."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
-        self.problems = sorted(dict.fromkeys(problems), key=lambda p: (p.where.file, p.where.line, p.where.column))
+        found: dict[tuple[str, str], Problem] = {}
+        for each in sorted(dict.fromkeys(problems), key=lambda p: (p.where.file, p.where.line, p.where.column)):
+            first = found.setdefault((each.what, each.hint), each)
+            if first is not each:
+                found[each.what, each.hint] = replace(first, also=(*first.also, each.where, *each.also))
+        self.problems = list(found.values())
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
 

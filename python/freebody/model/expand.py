@@ -4,34 +4,56 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from .errors import ModelProblem, Path
+from .errors import ModelFileError, ModelProblem, Path
 from .names import replace_names, work_out_indices
 
 if TYPE_CHECKING:
     from .scope import Scope
 
 MAX_ITEMS = 100_000
+"""That the repetitions of a whole model make, parts included."""
+MAX_NODES = 4_000_000
+"""Names and values of a whole model, written out, parts included."""
 
 _REPEAT = re.compile(r"\[\s*([^\W\d]\w*)\s*=\s*(.+?)\s*\.\.\s*([^\]]+?)\s*\]")
 _AS_WRITTEN = {("name",), ("freebody",)}
+
+
+@dataclass
+class Size:
+    """How large a whole model has become: its items from repetitions, and all its names and values."""
+
+    items: int = 0
+    nodes: int = 0
+
+    def grow(self, scope: Scope, path: Path, items: int, nodes: int) -> None:
+        """Raises ``ModelFileError`` where it is too large, with what made it so."""
+        self.items, self.nodes = self.items + items, self.nodes + nodes
+        for what, made, most in (("items by repetition", self.items, MAX_ITEMS), ("names and values", self.nodes, MAX_NODES)):
+            if made > most:
+                scope.complain(path, f"the model has more than {most} {what}, parts included", "repeat fewer, or smaller items", True)
+                raise ModelFileError(scope.problems)
 
 
 class Expansion:
     """Plain data with repetitions written out.
 
     ``whole`` works out a whole number of parameters. ``origin`` leads from the path of a written-out item to that of the
-    item that made it. What is wrong is noted in ``scope``; too many items raise ``ModelProblem``.
+    item that made it. What is wrong is noted in ``scope``; too many items raise ``ModelFileError``.
     """
 
-    def __init__(self, whole: Callable[[str], int], scope: Scope) -> None:
-        self.whole, self.scope = whole, scope
+    def __init__(self, whole: Callable[[str], int], scope: Scope, size: Size) -> None:
+        self.whole, self.scope, self.size = whole, scope, size
         self.origin: dict[Path, Path] = {}
 
     def of(self, data: Any, path: Path = (), source: Path = (), index: dict[str, int] | None = None) -> Any:
         """The data written out; ``index`` holds the values of the indices around it."""
         index = index or {}
+        self.size.grow(self.scope, source, 0, 1)
         if isinstance(data, dict):
             return self._mapping(data, path, source, index)
         if isinstance(data, list):
@@ -47,7 +69,7 @@ class Expansion:
         for key, value in data.items():
             inner, names = (*source, key), [(key, index)]
             with self.scope.noting(inner, True):
-                names = list(self._repeated(key, index))
+                names = list(islice(self._repeated(key, index), MAX_ITEMS + 1))
             for name, inside in names:
                 if name in out:
                     what = f"`{name}` is used twice, once from a repetition"
@@ -55,8 +77,7 @@ class Expansion:
                     continue
                 if name != key:
                     self.origin[(*path, name)] = inner
-                    if len(self.origin) > MAX_ITEMS:
-                        raise ModelProblem(f"repetitions make more than {MAX_ITEMS} items", "repeat fewer")
+                    self.size.grow(self.scope, inner, 1, 0)
                 out[name] = self.of(value, (*path, name), inner, inside)
         return out
 

@@ -17,10 +17,11 @@ from freebody.symbolic.dimensions import Dimension
 
 from . import elements, reading
 from .errors import Consequence, ModelFileError, ModelProblem, Path, Problem, Where
-from .expand import Expansion, repeats
+from .expand import Expansion, Size, repeats
 from .names import suggestion
 from .parameters import Parameters
 from .schema import Model
+from .source import Source
 
 MAX_DEPTH = 16
 MAX_PARTS = 1000  # of a whole model, parts of parts included
@@ -37,12 +38,15 @@ class Places(Protocol):
 
 @dataclass
 class Folder:
-    """Where parts are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far."""
+    """Where parts are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far, and
+    ``size`` what they have made; a file is ``read`` once."""
 
     here: FilePath
     root: FilePath
     opened: tuple[FilePath, ...] = ()
     parts: list[FilePath] = field(default_factory=list)
+    size: Size = field(default_factory=Size)
+    read: dict[FilePath, tuple[Model, Source]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, file: str | FilePath | None) -> Folder:
@@ -73,7 +77,7 @@ class Folder:
 
     def inside(self, path: FilePath) -> Folder:
         """The folder as seen from a part."""
-        return Folder(path.parent, self.root, (*self.opened, path), self.parts)
+        return Folder(path.parent, self.root, (*self.opened, path), self.parts, self.size, self.read)
 
 
 @dataclass
@@ -130,7 +134,7 @@ def open_scope(
     model: Model, places: Places, folder: Folder, problems: list[Problem], prefix: str = "", overruled: Overruled | None = None
 ) -> Scope:
     """The model in use. What is wrong goes to ``problems``; the scope is then as complete as can be."""
-    parameters, model, origin = _written_out(model, places, problems, overruled or {})
+    parameters, model, origin = _written_out(model, places, problems, overruled or {}, folder.size)
     scope = Scope(prefix, model, places, parameters, problems, origin)
     for name, fault in parameters.faults.items():
         with scope.noting(("parameters", name)):
@@ -141,16 +145,16 @@ def open_scope(
 
 
 def _written_out(
-    model: Model, places: Places, problems: list[Problem], overruled: Overruled
+    model: Model, places: Places, problems: list[Problem], overruled: Overruled, size: Size
 ) -> tuple[Parameters, Model, dict[Path, Path]]:
     data, parameters = model.written(), Parameters(model.parameters, overruled)
     if not repeats(data):
         return parameters, model, {}
     scope = Scope("", model, places, parameters, problems)
     with scope.noting(()):
-        given = Expansion(parameters.whole, scope).of(data.get("parameters", {}), ("parameters",), ("parameters",))
+        given = Expansion(parameters.whole, scope, size).of(data.get("parameters", {}), ("parameters",), ("parameters",))
         parameters = Parameters(given, overruled)
-        expansion = Expansion(parameters.whole, scope)
+        expansion = Expansion(parameters.whole, scope, size)
         written = expansion.of(data | {"parameters": given})
         try:
             return parameters, Model.model_validate(written), expansion.origin
@@ -166,12 +170,13 @@ def _open_part(scope: Scope, name: str, folder: Folder) -> None:
     with scope.noting(at):
         path = folder.file(part.file)
         try:
-            model, source = reading.read(path)
+            model, source = folder.read[path] = folder.read.get(path) or reading.read(path)
         except ModelFileError as error:
             if not path.exists():
                 raise ModelProblem(f"there is no file `{part.file}`", error.problems[0].hint) from None
             scope.problems += error.problems
             return
+        folder.size.grow(scope, at, 0, len(source.values))
         overruled: Overruled = {}
         for parameter, text in part.parameters.items():
             with scope.noting((*at[:2], "parameters", parameter), parameter not in model.parameters):

@@ -18,6 +18,7 @@ from .writer import Number, Writer
 
 _SIGNS = {"positive": 1, "negative": -1}
 _RESTLESS = ("`at_rest` and `rates` contradict each other", "leave one of them out")
+_LIKE = {"s": "`5` or `200 ms`", "": "`1e-9`"}
 WORDS = ("rates", "at_rest", "guess", "points", "branch")
 
 
@@ -149,9 +150,14 @@ def evaluate(number: Any, values: Mapping[str, float]) -> float:
     return _plain("the number", number, None, values)
 
 
-def quantity(name: str, number: Any, unit: str) -> float:
-    """A number in SI, or a quantity that fits a ``unit``; ``name`` says what it is of. Raises ``ModelProblem``."""
-    return _plain(name, number, units.unit(unit).dimension, {})
+def quantity(name: str, number: Any, unit: str, values: Mapping[str, float] | None = None) -> float:
+    """A number in SI, a quantity that fits a ``unit``, or an expression of parameters with these ``values``; ``name`` says what it is of.
+    Raises ``ModelProblem``."""
+    try:
+        return _plain(name, number, units.unit(unit).dimension, values or {})
+    except ModelProblem as problem:
+        stated = problem.what if problem.what.startswith(f"`{name}` ") else f"`{name}` is `{number}`: {problem.what}"
+        raise ModelProblem(stated, problem.hint or f"write e.g. {_LIKE.get(unit, 'a number')}") from None
 
 
 def _plain(name: str, number: Any, dimension: Dimension | None, values: Mapping[str, float]) -> float:

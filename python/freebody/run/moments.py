@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import CompiledModel, State
-from freebody.model.start import evaluate
+from freebody.model.start import quantity
 from freebody.run.simulation import Run, simulate
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def state_of(
     what the motion does not reach."""
     if sum(each is not None for each in (at, before, after)) > 1:
         raise ValueError("at, before and after are one moment: give one of them")
-    t, named = start.t if at is None else evaluate(at, {}), before or after
+    t, named = start.t if at is None else quantity("at", at, "s"), before or after
     if t < start.t:
         raise Unreached(f"the motion begins at {start.t:g} s: there is nothing at {t:g} s")
     happen = _at_start(mechanism)

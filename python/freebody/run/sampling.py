@@ -6,9 +6,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from freebody.core import Array, Trajectory
+from freebody.core import Array, Settings, Trajectory
 
 Times = Sequence[float] | Array
+MAX_FIGURES = 100_000_000
+"""That the table of a run may be asked to hold, rows × columns: 800 MB."""
+
+
+def check_size(columns: int, settings: Settings, start: float, t_eval: Times | None) -> None:
+    """Raises ``ValueError`` for a table that is too large, before anything is computed; ``start`` in s."""
+    end = start if settings.until is None else settings.until
+    rows = len(t_eval) if t_eval is not None else (end - start) / settings.every if settings.every else 0
+    if rows * columns > MAX_FIGURES:
+        asked = f"{rows} times" if t_eval is not None else f"`every: {settings.every:g}` until {end:g} s"
+        what = f"{asked} makes {rows:.3g} rows of {columns} columns; at most {MAX_FIGURES:.0e} figures are kept"
+        raise ValueError(f"{what}: ask for fewer times, or give `every` a larger value")
 
 
 def output_times(motion: Trajectory, every: float | None = None, t_eval: Times | None = None) -> Array:

@@ -29,7 +29,7 @@ from freebody.run.records import (
     reduce,
     unit_of,
 )
-from freebody.run.sampling import Times, output_times
+from freebody.run.sampling import Times, check_size, output_times
 from freebody.solve.instant import Instant, Reaction, Reactions, refuse_indeterminate
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ def simulate(
     progress: Progress | None = None,
 ) -> Run:
     """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
+    if settings.every or t_eval is not None:
+        check_size(len(columns_of(source.metadata, ())), settings, start.t, t_eval)
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
     trajectory = source.simulate(start, progress=progress, **options)
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
     from freebody.run.simulation import Run
 
+MAX_FRAMES = 20_000
+"""Of a film: ten minutes at 30 a second."""
+
 
 def animate(run: Run, path: str | Path, fps: int = 30, speed: float = 1.0, traces: Sequence[str] | None = None) -> Path:
     """Write the motion as ``.gif``, ``.mp4`` (needs ffmpeg) or, with a path ending in ``.svg``, numbered SVG frames.
@@ -41,7 +44,10 @@ def animate(run: Run, path: str | Path, fps: int = 30, speed: float = 1.0, trace
 def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
     """Times (nf,) of evenly spaced frames; the nearest saved times where a run is known at those only."""
     start, end = run.edges[0], run.edges[-1]
-    times = np.linspace(start, end, max(2, round((end - start) / speed * fps) + 1))
+    frames = max(2, round((end - start) / speed * fps) + 1)
+    if frames > MAX_FRAMES:
+        raise ValueError(f"the film would have {frames} frames; at most {MAX_FRAMES} are drawn: take a shorter run, or a higher speed")
+    times = np.linspace(start, end, frames)
     if not run.recorded:
         return times
     return np.unique(run.t[np.abs(run.t[:, None] - times).argmin(axis=0)])
