@@ -114,8 +114,6 @@ def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
 
 
 def _in_figures(case: Case) -> Verdict | None:
-    """The verdict where an equation is true whose dimensions fit if figures stand for measures in SI units."""
-    if misfit(case.program, case.meaning.symbols.dimensions, figures=True):
-        return None
+    """The verdict where an equation is true whose dimensions do not fit, since figures in it are measures in SI units."""
     verdict = judged(replace(case, correcting=False))
     return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None

@@ -28,7 +28,7 @@ from .vocabulary import Vocabulary
 _WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _BEYOND = re.compile(
-    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum)\("
+    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|centre_[xy])\("
     rf"|\.({_FORCES}|friction|force|value|power|work)\b"
 )
 """What reads more than the configuration."""
@@ -122,7 +122,7 @@ class StatementSymbols:
 
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
-        loads = self.sampler.core.free_bodies(self.sampler.first).loads
+        loads = self.sampler.core.free_bodies(self.sampler.own).loads
         named = [Sym(load.symbol) for load in loads if load.unknown and load.determinate]
         known = [n for n in named if n.name in self.symbols.meanings and _meant(self._one(n).texts) not in said]
         return known if len(known) <= _MANY else []

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, FreeBodies, ModelError, MotionError, State, Trajectory
+from freebody.core import Array, CompiledModel, FreeBodies, ModelError, MotionError, State, Trajectory, quote
 from freebody.model.errors import ModelProblem
 from freebody.model.start import Start, evaluate, initial_state
 from freebody.run.moments import START, Unreached, state_of
@@ -210,7 +210,7 @@ class MotionSampler:
         pairs = [force["with"]["between"] for force in self.spec["forces"] if "between" in force["with"]]
         pairs += [joint["with"]["of"] for joint in self.spec["joints"] if joint["type"] == "polar"]
         read = re.findall(r"distance\([^()]*\)", json.dumps(self.spec, ensure_ascii=False))
-        return [*(f"distance({a}, {b})" for a, b in pairs), *read]
+        return [*(f"distance({quote(a)}, {quote(b)})" for a, b in pairs), *read]
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""

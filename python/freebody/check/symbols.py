@@ -122,7 +122,7 @@ class Symbols:
                 hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
                 raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
         program = parse(text, self.names, self.still)
-        taken = {folded(name) for name in self.meanings}
+        taken = {folded(name) for name in (*self.meanings, *(line.name.name for line in program.assignments))}
         for part in ("plain", "momenta"):  # what printed equations call things comes after the symbols of the model
             if not self._unknown(program):
                 break
