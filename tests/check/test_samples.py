@@ -145,3 +145,66 @@ initial: {x: 0, y: HEIGHT, a: 0}
 def test_a_force_that_no_sample_has_decides_nothing(height: str, statement: str, kind: Kind) -> None:
     verdict = Checker(Mechanism.loads(ABOVE.replace("HEIGHT", height))).check(statement)
     assert verdict.kind is kind, str(verdict)
+
+
+# What holds at the start stays so: a lock, a stop, a rough floor, a taut string, the sense of sliding. All else varies.
+_HELD = {
+    "a locked bead": """
+parameters: {l: 0.7 m, m: 2 kg, M: 1.5 kg}
+bodies: {rod: {shape: rod, length: l, mass: m}, bead: {shape: particle, mass: M}}
+joints:
+  O: {type: hinge, of: [ground.O, rod.start], coordinate: theta}
+  along: {type: slot, along: [rod.start, rod.end], point: bead.centre, coordinate: r}
+initial: {theta: -1.2, r: 0.3 m}
+events: {hold: {at: start, then: {lock: r}}}
+""",
+    "a cart at a stop": """
+parameters: {m: 2 kg, F: 4 N}
+bodies: {cart: {shape: particle, mass: m}}
+joints: {rail: {type: slot, along: {through: ground.O, angle: 0}, point: cart.centre, coordinate: x}}
+forces: {push: {type: force, at: cart.centre, x: -F, y: 0}}
+stops: {end: {of: x, least: 0.1}}
+initial: {x: 0.1 m}
+""",
+    "a disk on a rough slope": """
+parameters: {m: 2 kg, r: 0.3 m, al: 0.2}
+bodies: {w: {shape: disk, radius: r, mass: m}}
+ground: {lines: {s: {through: ground.O, angle: -al}}}
+joints: {f: {type: free, of: [ground.O, w.centre], coordinates: [x, y, phi]}}
+contacts: {c: {of: [w, ground.s], rough: true}}
+initial: {x: r*sin(al), y: r*cos(al), phi: 0, at_rest: true}
+""",
+    "two weights on a string": """
+parameters: {m: 2 kg, M: 3 kg, h: 0.5 m}
+ground: {points: {A: [0, 1], B: [1, 1]}}
+bodies: {a: {shape: particle, mass: m}, b: {shape: particle, mass: M}}
+joints:
+  ja: {type: slot, along: {through: ground.A, angle: -90 deg}, point: a.centre, coordinate: p}
+  jb: {type: slot, along: {through: ground.B, angle: -90 deg}, point: b.centre, coordinate: q}
+strings: {s: {ends: [a.centre, b.centre], over: [ground.A, ground.B]}}
+initial: {p: h, q: 0.7 m, at_rest: true}
+""",
+    "a block that is pushed over a rough bed": """
+parameters: {m: 2 kg, mu: 0.2, F: 9 N}
+bodies: {b: {mass: m}}
+joints: {j: {type: slider, along: {through: ground.O, angle: 0}, line: {through: b.origin, angle: 0}, coordinate: s, friction: mu}}
+forces: {push: {type: force, at: b.origin, x: F, y: 0}}
+initial: {s: 0, at_rest: true}
+""",
+}  # fmt: skip
+_OF_HELD = [
+    ("a locked bead", {"r' = 0": T, "r = 0.3 m": W, "θ = -1.2": W, "θ' = 0": W, "(m l^2/3 + M r^2) θ'' = -(m l/2 + M r) g cos θ": T,
+                       "(m l^2/3 + 0.09 M) θ'' = -(m l/2 + 0.3 M) g cos θ": W}),
+    ("a cart at a stop", {"end.N = F": T, "end.N = 4 N": W, "end.N = 2 F": W, "x = 0.1 m": T, "m x'' = 0": T}),
+    ("a disk on a rough slope", {"φ'' = -2/3 g sin(al)/r": T, "x' = -r φ' cos(al)": T, "x' = 0": W, "φ' = 0": W, "y = r cos(al)": W,
+                                 "abs(c.T) = m g sin(al)/3": T, "abs(c.T) = m g sin(al)/2": W}),
+    ("two weights on a string", {"s.tension = 2 m M g/(m+M)": T, "p' + q' = 0": T, "p' = 0": W, "p = h": W, "p + q = h + 0.7 m": W}),
+    ("a block that is pushed over a rough bed", {"m s'' = F - mu m g": T, "m s'' = F": W, "s' = 0": W, "s = 0": W, "F > mu m g": W,
+                                                 "abs(j.friction) = mu m g": T}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "statement", "kind"), [(name, *each) for name, of in _OF_HELD for each in of.items()])
+def test_nothing_is_true_since_it_was_not_varied(name: str, statement: str, kind: Kind) -> None:
+    verdict = Checker(Mechanism.loads(f"freebody: 1\n{_HELD[name]}")).check(statement, correcting=False)
+    assert verdict.kind is kind, str(verdict)

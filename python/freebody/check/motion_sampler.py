@@ -328,8 +328,8 @@ class MotionSampler:
     @cached_property
     def frictions(self) -> list[str]:
         """Free parameters that are a coefficient of friction."""
-        rough = [*self.spec.get("contacts", []), *self.spec["joints"]]
-        written = [item.get(word) for item in rough for word in ("friction", "static_friction")]
+        rough = [*self.spec["contacts"], *(joint.get("friction") or {} for joint in self.spec["joints"])]
+        written = [item.get(word) for item in rough for word in ("friction", "static_friction", "kinetic", "fixed")]
         return [name for name in self.free_parameters if name in written]
 
     @cached_property
@@ -389,13 +389,6 @@ def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
     """Derivatives of several numbers, a row each, by central differences."""
     columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T if columns else np.zeros((1, 0))
-
-
-def _same(a: tuple[Any, ...], b: tuple[Any, ...]) -> bool:
-    """Whether two modes are one; what slides without friction does so in either sense."""
-    pairs = zip(a, b, strict=False)
-    alike = (x == y or (isinstance(x, tuple) and x[0] == y[0] and 0 in (x[1], y[1])) for x, y in pairs)
-    return len(a) == len(b) and all(alike)
 
 
 def _about(rng: np.random.Generator) -> float:

@@ -41,6 +41,7 @@ _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])")
 _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
+_NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _SHORT = {"Fx": "x", "Fy": "y"}
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
@@ -226,7 +227,7 @@ class Symbols:
     def _reactions(self) -> dict[str, Meaning]:
         """Forces by the names of what makes them, in two spellings."""
         out: dict[str, Meaning] = {}
-        rough = {joint["name"] for joint in self.spec["joints"] if joint["with"].get("friction")}
+        rough = {joint["name"] for joint in self.spec["joints"] if joint.get("friction")}
         joints = {joint["name"]: joint for joint in self.metadata["joints"] if joint["reaction"]}
         for owner, kind in self.named.owners.items():
             if kind == "joint" and owner not in joints:
@@ -242,11 +243,15 @@ class Symbols:
         return out
 
     def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
+        if not _NAME.fullmatch(name):
+            hint = "begin it with a letter, and leave out blanks and signs"
+            raise ModelProblem(f"`{' '.join(name.split())}` is no name of a symbol", hint)
         bodies = [b["name"] for b in self.metadata["bodies"]]
         particles = frozenset(b["name"] for b in self.metadata["bodies"] if b.get("particle"))
         joints = {j["name"]: (j["first"], j["second"]) for j in self.metadata["joints"]}
         try:
-            self._put(name, Reader(self._measured, joints, bodies, particles).read(said))
+            read = Reader(self._measured, joints, bodies, particles).read
+            self._put(name, read(" ".join(said.split()) if isinstance(said, str) else said))
         except ModelProblem as problem:
             raise ModelProblem(f"symbol `{name}`: {problem.what}", problem.hint) from None
 
