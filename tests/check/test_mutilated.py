@@ -51,7 +51,9 @@ def test_it_is_judged_or_refused_with_a_place(seed: str) -> None:
         model, letters, says = rng.choice(stated())
         text = mutilated(says, rng)
         letters = letters | ({mutilated("q", rng): mutilated("2*t", rng)} if rng.random() < 0.2 else {})
-        letters = {n: mutilated(said, rng) if isinstance(said, str) and rng.random() < 0.1 else said for n, said in letters.items()}
+        letters = {
+            n: mutilated(said, rng) if isinstance(said, str) and rng.random() < 0.1 else said for n, said in letters.items()
+        }
         checker = checkers.get(model) or checkers.setdefault(model, Checker(fb.Mechanism.load(model)))
         try:
             assert isinstance(checker.check(text, letters, correcting=False), Verdict)

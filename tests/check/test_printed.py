@@ -121,7 +121,7 @@ def _documents(mechanism: fb.Mechanism, state: State, asked: dict[str, float]) -
     """What a model is derived to, in every form that there is for it."""
     for form in (*FORMS, *TOPICS):
         with suppress(NotHere, fb.MotionError):
-            yield topic(mechanism, form, state) if form in TOPICS else mechanism.equations(form, **asked).document
+            yield topic(mechanism, form, state) if form in TOPICS else mechanism.equations(form, **asked)
 
 
 def _alone(document: Document) -> Iterator[str]:
