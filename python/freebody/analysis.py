@@ -143,7 +143,7 @@ class Moving:
         """Code of functions that compute accelerations and all reactions without this package: ``python`` (with NumPy) or ``c``
         (C99). Changed parameters become the defaults; a changed place says no more than on which branch things are. Raises
         ``CannotGenerate`` for contacts, strings, friction, laws with cases and tables; see ``freebody.codegen``."""
-        from freebody.codegen.program import program
+        from freebody.codegen.systems import program
 
         state, _ = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():

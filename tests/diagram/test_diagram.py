@@ -15,7 +15,6 @@ from freebody.views.diagram.names import symbol
 from freebody.views.diagram.paper import round_below
 from freebody.views.diagram.rows import MARGIN
 from freebody.views.labels import Label, Obstacles, placed
-from freebody.views.scene import drawn
 
 GUN = "systems/S19.17/model.yaml"
 TRACK = r"N_{\text{track}}"
@@ -80,7 +79,7 @@ def test_a_follower_is_drawn_on_its_side_and_its_force_where_it_touches(way, sid
     normal = next(mark for mark in cut.forces if mark.action.name == "touch")
     assert normal.at == pytest.approx(panel.scenery.scale * np.array([0, 2]), abs=1e-6)
     assert panel.scenery.centres["wheel"] == pytest.approx(panel.scenery.scale * np.array([0, 2 + side * 0.3]))
-    hatches = [stroke.points for stroke in drawn(panel.scenery.sketch).strokes() if stroke.style == "hatch"]
+    hatches = [stroke.points for stroke in panel.scenery.sketch.strokes() if stroke.style == "hatch"]
     assert hatches and all(np.sign(np.hypot(*line[1]) - np.hypot(*line[0])) == -side for line in hatches)
 
 

@@ -99,7 +99,7 @@ def test_a_scene_of_a_state_is_that_of_the_run(four_bar):
 def test_every_joint_symbol_can_be_drawn():
     source, state = zoo()
     scene = drawn(sketch_of_state(source, state))
-    styles = {stroke.style for figure in scene.figures for stroke in figure.strokes}
+    styles = {stroke.style for figure in scene.figures.values() for stroke in figure.strokes}
     assert {"body", "band", "mass", "mark", "slot", "pin", "weld", "rail", "hatch", "dash", "block"} <= styles
     assert {pair.kind for pair in scene.pairs} == {"spring", "damper", "link", "belt"}
     drawing(source, state)

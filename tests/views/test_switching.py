@@ -136,7 +136,7 @@ def test_the_report_shows_what_switched(run):
 
 
 def test_surfaces_are_hatched_on_the_solid_side(run):
-    ground = of_run(run).figures[0]
+    ground = of_run(run).figures["ground"]
     hatch = np.vstack([stroke.points for stroke in ground.strokes if stroke.style == "hatch"])
     assert len(hatch) > 8 and hatch[:, 1].min() < -1e-3 and hatch[:, 1].max() == 0
 

@@ -4,15 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from freebody.catalogue.answers import Answer, Question
 from freebody.catalogue.case import Case
-
-if TYPE_CHECKING:
-    pass
 
 ROUTES = ("minimal", "newton_euler", "constraints")
 STATES_OF_A_RUN = 4

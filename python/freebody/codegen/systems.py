@@ -1,4 +1,4 @@
-"""The two linear systems of generated code, read from the core: Lagrange's equations, and the balances of all bodies."""
+"""A whole mechanism as code that computes by itself: two linear systems, Lagrange's equations and the balances of all bodies."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from freebody.codegen.functions import generate
+from freebody.codegen.refusals import CannotGenerate, check
 from freebody.core import CompiledModel, State
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.linear import Linear, linear_in
@@ -67,6 +69,21 @@ class Systems:
         found["balance_matrix"] = _matrix(every, [*accelerations, *loads])
         found["balance_right_hand_side"] = tuple(negative(equation.rest) for equation in every)
         return found
+
+
+def program(source: CompiledModel, state: State, language: str = "python") -> str:
+    """Code of the equations of a mechanism, in one of ``LANGUAGES``.
+
+    ``state`` says what is in place, and on which branch; the functions hold for all coordinates q, rates u, parameters p and times t.
+    Raises ``CannotGenerate`` for what switches (contacts, strings, friction, laws with cases) or comes from a table, and where
+    reactions are not determined; ``MotionError`` for a state without an answer."""
+    check(source, source.free_bodies(state))
+    found = systems(source, state)
+    if not found.is_square:
+        raise CannotGenerate(
+            "loops and motions ask more of the accelerations than their loads can give; release a joint or a motion"
+        )
+    return generate(found.functions(), found.nomenclature, language, found)
 
 
 def systems(source: CompiledModel, state: State) -> Systems:

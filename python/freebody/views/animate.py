@@ -13,7 +13,8 @@ from freebody.core import Array
 from freebody.formats import Formats, replacing
 from freebody.views.impact_markers import LASTING
 from freebody.views.render import frame_axes, render, render_markers
-from freebody.views.scene import Scene, of_run
+from freebody.views.scene import of_run
+from freebody.views.sketch import Sketch
 from freebody.views.style import axes, colour, quiet
 
 if TYPE_CHECKING:
@@ -35,10 +36,10 @@ def animate(run: Run, path: str | Path, fps: int = 30, speed: float = 1.0, trace
     """
     path = Path(path)
     write = FORMATS.of(path)
-    scene = of_run(run, frame_times(run, fps, speed), traces)
+    sketch = of_run(run, frame_times(run, fps, speed), traces)
     with quiet():
-        ax = _canvas(scene)
-        return write(path, ax.figure, _frames(scene, ax, LASTING * speed), len(scene.t), fps)
+        ax = _canvas(sketch)
+        return write(path, ax.figure, _frames(sketch, ax, LASTING * speed), len(sketch.t), fps)
 
 
 def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
@@ -78,32 +79,31 @@ def _write_frames(path: Path, figure: Figure, frames: Iterator[None], count: int
 FORMATS = Formats("an animation is", {".gif": _write_film, ".mp4": _write_film, ".svg": _write_frames})
 
 
-def _canvas(scene: Scene) -> Axes:
+def _canvas(sketch: Sketch) -> Axes:
     """Axes whose shape is that of the motion, with an even number of pixels both ways, as video wants it."""
-    x0, x1, y0, y1 = scene.bounds()
+    x0, x1, y0, y1 = sketch.bounds()
     tall = np.clip((y1 - y0) / max(x1 - x0, 1e-12), 0.45, 1.6)
     width, height = (6.4, 6.4 * tall) if tall < 1 else (6.4 / tall, 6.4)
     even = [2 * round(side * 110 / 2) / 110 for side in (width, height)]
     ax = axes(None, (even[0], even[1]))
     ax.set_axis_off()
-    frame_axes(scene, ax)
+    frame_axes(sketch, ax)
     return ax
 
 
-def _frames(scene: Scene, ax: Axes, lasting: float) -> Iterator[None]:
+def _frames(sketch: Sketch, ax: Axes, lasting: float) -> Iterator[None]:
     """Draw frame by frame on the same axes; an impact is seen for ``lasting`` s."""
     paths, lines = [], []
-    for name in scene.traces:
-        i = next(i for i, figure in enumerate(scene.figures) if name in figure.points)
-        point = np.array([scene.figures[i].points[name]])
-        paths.append(np.array([scene.place(i, point, k)[0] for k in range(len(scene.t))]))
-        lines += ax.plot([], [], color=colour(i - 1), lw=1.2, alpha=0.7, zorder=1.5)
+    for name in sketch.traces:
+        body, at = sketch.at[name]
+        paths.append(np.array([sketch.moved(body, at[None], k)[0] for k in range(len(sketch.t))]))
+        lines += ax.plot([], [], color=colour(sketch.names.index(body) - 1), lw=1.2, alpha=0.7, zorder=1.5)
     clock = ax.text(0.01, 0.99, "", transform=ax.transAxes, va="top", fontsize=10)
     shown: list[Artist] = []
-    for k, t in enumerate(scene.t):
+    for k, t in enumerate(sketch.t):
         for artist in shown:
             artist.remove()
-        shown = render(scene, ax, k) + render_markers(scene, ax, t, lasting)
+        shown = render(sketch, ax, k) + render_markers(sketch, ax, t, lasting)
         for line, path in zip(lines, paths, strict=True):
             line.set_data(*path[: k + 1].T)
         clock.set_text(f"t = {t:.2f} s")

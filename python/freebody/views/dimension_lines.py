@@ -114,7 +114,9 @@ def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
         name = body["name"]
         joint = {"type": "free", "with": {"of": [f"{GROUND}.O", f"{name}.G"]}}
         place = sketch.place(f"{name}.G") - sketch.place(f"{GROUND}.O")
-        yield from (_Asked(f"{axis}_{name}", joint, GROUND, name, axis, "m", x) for axis, x in zip("xy", place.tolist(), strict=True))
+        yield from (
+            _Asked(f"{axis}_{name}", joint, GROUND, name, axis, "m", x) for axis, x in zip("xy", place.tolist(), strict=True)
+        )
         if not body["particle"]:
             angle = float(sketch.poses[0, sketch.names.index(name), 2])
             yield _Asked(f"phi_{name}", joint, GROUND, name, _OWN_ANGLE, "rad", angle)

@@ -33,10 +33,10 @@ UNNAMED = ("origin", "G", "centre", "start", "end")
 
 
 class _Drawing:
-    """The drawing in the making: axes, labels waiting for a place, and the lines of what was added to the scene."""
+    """The drawing in the making: axes, labels waiting for a place, and the lines of what was added to the sketch."""
 
     def __init__(self, sketch: Sketch, ax: Axes) -> None:
-        self.sketch, self.scene, self.ax = sketch, drawn(sketch), ax
+        self.sketch, self.ax = drawn(sketch), ax
         self.labels: list[Label] = []
         self.lines: list[Array] = []
 
@@ -51,7 +51,7 @@ class _Drawing:
     def force(self, vector: Array, at: Array, text: str) -> None:
         """An arrow of one length that ends where a force acts, unless the force is 0."""
         if size := float(np.hypot(*vector)):
-            tail = at - vector / size * 6 * self.scene.size
+            tail = at - vector / size * 6 * self.sketch.size
             self.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
             self.label(text, tail, _LOAD)
 
@@ -66,20 +66,20 @@ def drawing(source: CompiledModel, state: State, ax: Axes | None = None, layers:
         ax = axes(ax, (8.0, 6.0))
         sheet = _Drawing(sketch_of_state(source, state), ax)
         ax.set_axis_off()
-        frame_axes(sheet.scene, ax, margin=6.0)
-        render(sheet.scene, ax)
+        frame_axes(sheet.sketch, ax, margin=6.0)
+        render(sheet.sketch, ax)
         for layer in LAYERS if layers is None else layers:
             LAYERS[layer](sheet)
         _make_room(sheet)
         _draw_axes_and_gravity(sheet)
-        ax.set_title(sheet.scene.name.replace("$", r"\$"))
+        ax.set_title(sheet.sketch.spec.get("name", "").replace("$", r"\$"))
         _write_labels(sheet)
     return ax
 
 
 def _make_room(sheet: _Drawing) -> None:
     """Wider axes for arrows that leave them, and lower ones where something is drawn in the corners of axes and gravity."""
-    ax, lines, room = sheet.ax, [*sheet.scene.lines(), *sheet.lines], 3.0 * sheet.scene.size
+    ax, lines, room = sheet.ax, [*sheet.sketch.lines(), *sheet.lines], 3.0 * sheet.sketch.size
     ends = np.vstack(lines or [np.zeros((1, 2))])
     low, high = ends.min(axis=0) - room, ends.max(axis=0) + room
     x0, x1 = min(ax.get_xlim()[0], low[0]), max(ax.get_xlim()[1], high[0])
@@ -99,7 +99,7 @@ def _write_labels(sheet: _Drawing) -> None:
     sheet.ax.figure.canvas.draw()
     pt = 72 / sheet.ax.figure.dpi
     paper = sheet.ax.transData + Affine2D().scale(pt)
-    layers = ((sheet.scene.lines(), _OVER_LINES), (sheet.lines, _OVER_ARROWS))
+    layers = ((sheet.sketch.lines(), _OVER_LINES), (sheet.lines, _OVER_ARROWS))
     obstacles = Obstacles.of(*((shapes.dense([paper.transform(line) for line in lines]), cost) for lines, cost in layers))
     wanted = [replace(label, anchors=paper.transform(label.anchors)) for label in sheet.labels]
     write(sheet.ax, placed(wanted, obstacles, pt * sheet.ax.get_window_extent().get_points()), paper.inverted().transform)
@@ -107,9 +107,11 @@ def _write_labels(sheet: _Drawing) -> None:
 
 def _draw_bodies(sheet: _Drawing) -> None:
     for i, body in enumerate(sheet.sketch.spec["bodies"], start=1):
-        strokes = [stroke.points for stroke in sheet.scene.figures[i].strokes] or [np.zeros((1, 2))]
+        strokes = [stroke.points for stroke in sheet.sketch.figures[body["name"]].strokes] or [np.zeros((1, 2))]
         largest = max(strokes, key=lambda points: float(np.prod(np.ptp(points, axis=0)) + np.ptp(points)))
-        sheet.label(body["name"], sheet.scene.place(i, largest.mean(axis=0)[None])[0], colour(i - 1), size=10.5, bold=True)
+        sheet.label(
+            body["name"], sheet.sketch.moved(body["name"], largest.mean(axis=0)[None])[0], colour(i - 1), size=10.5, bold=True
+        )
 
 
 def _draw_joints(sheet: _Drawing) -> None:
@@ -126,7 +128,7 @@ def _draw_points(sheet: _Drawing) -> None:
     for name in sheet.sketch.at:
         place = sheet.sketch.place(name)
         stated = name.rpartition(".")[2] not in UNNAMED
-        if stated and not any(np.allclose(place, other, atol=0.2 * sheet.scene.size) for other in seen):
+        if stated and not any(np.allclose(place, other, atol=0.2 * sheet.sketch.size) for other in seen):
             seen.append(place)
             sheet.line(np.array([place, place]), INK, marker="o", ms=3)
             sheet.label(name, place, GREY, size=8.5)
@@ -150,7 +152,7 @@ def _draw_forces(sheet: _Drawing) -> None:
         if force["type"] == "torque" and fields["on"] != GROUND:
             x, y, _ = sheet.sketch.poses[0, sheet.sketch.names.index(fields["on"])]
             sense = np.sign(sheet.sketch.number(fields["value"])) or 1.0
-            bow = shapes.arc((x, y), 2.2 * sheet.scene.size, -sense * 0.7, sense * 3.4)
+            bow = shapes.arc((x, y), 2.2 * sheet.sketch.size, -sense * 0.7, sense * 3.4)
             sheet.line(bow, _LOAD, arrow=True, lw=1.6)
             sheet.label(force["name"], bow[-1], _LOAD)
         elif force["type"] == "force":
@@ -176,10 +178,10 @@ def _vector(sketch: Sketch, fields: Mapping[str, Any]) -> Array:
 
 
 def _draw_springs(sheet: _Drawing) -> None:
-    for name, pair in {pair.name: pair for pair in sheet.scene.pairs if pair.kind in ("spring", "damper")}.items():
-        ends = [sheet.scene.place(i, np.array([[x, y]]))[0] for i, x, y in pair.ends]
+    for name, pair in {pair.name: pair for pair in sheet.sketch.pairs if pair.kind in ("spring", "damper")}.items():
+        ends = [sheet.sketch.moved(sheet.sketch.names[i], np.array([[x, y]]))[0] for i, x, y in pair.ends]
         sheet.label(name, np.mean(ends, axis=0), GREY)
-    for cord in sheet.scene.cords:
+    for cord in sheet.sketch.cords:
         if cord.shown[0]:
             sheet.label(*string_label(sheet.sketch, cord), GREY)
 

@@ -1,4 +1,4 @@
-"""A scene on matplotlib axes."""
+"""A sketch on matplotlib axes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
-from freebody.views.scene import Drawn, Scene
+from freebody.views.sketch import Drawn, Sketch
 from freebody.views.style import GROUND, IMPACT, INK, PAPER
 
 if TYPE_CHECKING:
@@ -17,25 +17,25 @@ if TYPE_CHECKING:
 ORDER = ("hatch", "dash", "band", "body", "rail", "block", "mark", "slot", "mass", "weld", "pin")
 
 
-def render(scene: Scene, ax: Axes, frame: int = 0) -> list[Artist]:
+def render(sketch: Sketch, ax: Axes, frame: int = 0) -> list[Artist]:
     """Draw one frame; returns what was added."""
-    artists: list[Artist] = [ax.add_patch(patch(stroke)) for stroke in scene.strokes(frame)]
-    for pair in scene.pairs:
-        for line in scene.pair_lines(pair, frame):
+    artists: list[Artist] = [ax.add_patch(patch(stroke)) for stroke in sketch.strokes(frame)]
+    for pair in sketch.pairs:
+        for line in sketch.pair_lines(pair, frame):
             artists += ax.plot(*line.T, color=INK, lw=1.3, zorder=2.37, solid_joinstyle="round")
-    for cord in scene.cords:
+    for cord in sketch.cords:
         if cord.shown[frame]:
             look = {"color": INK, "lw": 1.2} if cord.taut[frame] else {"color": GROUND, "lw": 1.0}
             artists += ax.plot(*cord.path[frame].T, **look, zorder=2.38, solid_joinstyle="round")
     return artists
 
 
-def render_markers(scene: Scene, ax: Axes, t: float, lasting: float) -> list[Artist]:
+def render_markers(sketch: Sketch, ax: Axes, t: float, lasting: float) -> list[Artist]:
     """The impacts of the last ``lasting`` s before a time; returns what was added."""
     artists: list[Artist] = []
-    for marker in scene.impact_markers:
+    for marker in sketch.impact_markers:
         if glow := marker.glow(t, lasting):
-            for ray in marker.rays(scene.spark):
+            for ray in marker.rays(sketch.spark):
                 artists += ax.plot(*ray.T, color=IMPACT, lw=1.6, alpha=glow, zorder=3, solid_capstyle="round")
     return artists
 
@@ -65,8 +65,8 @@ def _look(style: str, tint: str) -> dict[str, Any]:
     return {"fill": False, "edgecolor": tone, "lw": width, "ls": (0, (5, 3)) if style == "dash" else "-"}
 
 
-def frame_axes(scene: Scene, ax: Axes, margin: float = 2.0) -> None:
+def frame_axes(sketch: Sketch, ax: Axes, margin: float = 2.0) -> None:
     """Equal scales and room for the whole motion."""
-    x0, x1, y0, y1 = scene.bounds()
-    room = margin * scene.size
+    x0, x1, y0, y1 = sketch.bounds()
+    room = margin * sketch.size
     ax.set(xlim=(x0 - room, x1 + room), ylim=(y0 - room, y1 + room), aspect="equal")

@@ -1,13 +1,8 @@
-"""What there is to draw, as pure data: figures, what is stretched between them, and the figures' poses over time.
-
-Matplotlib and the browser draw the same scene.
-"""
+"""Everything that is drawn of a mechanism: its bodies, and by way of their own modules joints, forces, contacts and strings."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import cached_property
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +11,8 @@ from freebody.core import GROUND, Array, State
 from freebody.views import shapes
 from freebody.views.contact_glyphs import draw_contacts, draw_strings
 from freebody.views.glyphs import draw_forces, draw_joints
-from freebody.views.impact_markers import LASTING, ImpactMarker, impact_markers
-from freebody.views.sketch import Cord, Figure, Pair, Sketch, Stroke, named_points
-from freebody.views.style import GROUND as GREY
-from freebody.views.style import colour
+from freebody.views.impact_markers import impact_markers
+from freebody.views.sketch import Figure, Sketch, Stroke, named_points
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -27,131 +20,25 @@ if TYPE_CHECKING:
 _OWN_POINTS = ("origin", "G", "centre", "start")
 
 
-@dataclass(frozen=True)
-class Drawn:
-    """A stroke where its body is, points (k, 2); ``tint`` and ``body``: colour and name of its body."""
-
-    style: str
-    points: Array
-    tint: str
-    closed: bool
-    body: str
-
-    @property
-    def line(self) -> Array:
-        """Its polyline (k, 2), back to the first point where it is closed."""
-        return np.vstack([self.points, self.points[:1]]) if self.closed else self.points
-
-
-@dataclass(frozen=True)
-class Scene:
-    """Figures (ground first), pairs, strings, and the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols;
-    impacts flash up."""
-
-    name: str
-    size: float
-    figures: list[Figure]
-    pairs: list[Pair]
-    cords: list[Cord]
-    t: Array
-    poses: Array
-    traces: list[str]
-    impact_markers: list[ImpactMarker] = field(default_factory=list)
-
-    def place(self, figure: int, points: Array, frame: int = 0) -> Array:
-        """Points (k, 2) of a figure in the fixed axes."""
-        x, y, angle = self.poses[frame, figure]
-        return shapes.turn(points, angle, (x, y))
-
-    def pair_lines(self, pair: Pair, frame: int = 0) -> list[Array]:
-        """A pair's polylines in the fixed axes; none where it is not there."""
-        if not pair.shown[frame]:
-            return []
-        a, b = (self.place(i, np.array([[x, y]]), frame)[0] for i, x, y in pair.ends)
-        length = np.hypot(*(b - a)) or 1.0
-        left = np.array([a[1] - b[1], b[0] - a[0]]) / length
-        return [a + line[:, :1] * (b - a) + line[:, 1:] * left for line in pair.lines]
-
-    def lines(self, frame: int = 0) -> list[Array]:
-        """Everything that is drawn at a time, as polylines in the fixed axes; of a small solid mass, the inside as well."""
-        found = [line for pair in self.pairs for line in self.pair_lines(pair, frame)]
-        found += [cord.path[frame] for cord in self.cords if cord.shown[frame]]
-        for stroke in self.strokes(frame):
-            line, inside = stroke.line, (0.7, 0.4) if stroke.style == "mass" else ()
-            found += [line, *(line.mean(axis=0) + part * (line - line.mean(axis=0)) for part in inside)]
-        return found
-
-    def strokes(self, frame: int = 0) -> Iterator[Drawn]:
-        """The strokes of all figures in the fixed axes."""
-        for i, figure in enumerate(self.figures):
-            for each in figure.strokes:
-                if each.shown is None or each.shown[frame]:
-                    tint = colour(i - 1) if i else GREY
-                    yield Drawn(each.style, self.place(i, each.points, frame), tint, each.closed, figure.name)
-
-    def bounds(self) -> tuple[float, float, float, float]:
-        """x from, x to, y from, y to: a box about everything that is drawn at any time."""
-        frames = np.unique(np.linspace(0, len(self.t) - 1, 80).astype(int))
-        everything = np.vstack([line for k in frames for line in self.lines(k)] or [np.zeros((1, 2))])
-        (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
-        return float(x0), float(x1), float(y0), float(y1)
-
-    @cached_property
-    def spark(self) -> float:
-        """The size of what flashes up, in m: seen well, however small the symbols are beside the whole."""
-        x0, x1, y0, y1 = self.bounds()
-        return max(2.5 * self.size, 0.02 * float(np.hypot(x1 - x0, y1 - y0)))
-
-    def to_json(self) -> dict[str, Any]:
-        """The scene for the browser, figures rounded to what a screen can show."""
-        digits = 3 - int(np.floor(np.log10(self.size)))
-        places = np.concatenate([self.poses[..., :2].round(digits), self.poses[..., 2:].round(5)], axis=2)
-        at = {name: (i, place) for i, figure in enumerate(self.figures) for name, place in figure.points.items()}
-
-        def short(values: Any) -> Any:
-            return values.round(digits).tolist() if isinstance(values, np.ndarray) else values
-
-        def item(each: Stroke | Pair | Cord, **stated: Any) -> dict[str, Any]:
-            sometimes = {} if each.shown is None or each.shown.all() else {"shown": each.shown.tolist()}
-            return {key: short(value) for key, value in stated.items()} | sometimes
-
-        return {
-            "size": self.size,
-            "bounds": self.bounds(),
-            "t": self.t.tolist(),
-            "poses": places.reshape(len(self.t), -1).tolist(),
-            "figures": [
-                {"name": f.name, "strokes": [item(s, points=s.points, style=s.style, closed=s.closed) for s in f.strokes]}
-                for f in self.figures
-            ],
-            "pairs": [item(p, kind=p.kind, ends=p.ends, lines=[line.round(max(digits, 4)).tolist() for line in p.lines])
-                      for p in self.pairs],
-            "cords": [item(c, path=c.path.reshape(len(self.t), -1), taut=c.taut.tolist()) for c in self.cords],
-            "traces": [{"name": name, "figure": at[name][0], "at": at[name][1]} for name in self.traces],
-            "flashes": [{"t": each.t, "rays": short(each.rays(self.spark))} for each in self.impact_markers],
-            "lasting": LASTING,
-        }  # fmt: skip
-
-
-def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Sequence[str] | None = None) -> Scene:
-    """The scene of a run at times within it (default: its output times)."""
+def of_run(run: Run, times: Sequence[float] | Array | None = None, traces: Sequence[str] | None = None) -> Sketch:
+    """A run drawn at times within it (default: its output times)."""
     shown = run if times is None else run.at(times)
     start = State(run.start.p, float(shown.t[0]), shown.q[0], shown.u[0])
-    scene = drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
-    return replace(scene, impact_markers=impact_markers(run))
+    sketch = drawn(Sketch(run.source, start, shown.t, shown.q, shown.poses, shown), traces)
+    sketch.impact_markers = impact_markers(run)
+    return sketch
 
 
-def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Scene:
-    """Everything drawn; ``traces`` names the points to be traced (default: a few worth it)."""
+def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Sketch:
+    """The sketch with everything drawn on it; ``traces`` names the points to be traced (default: a few worth it)."""
     for body in sketch.spec["bodies"]:
         _draw_body(sketch, body)
     draw_joints(sketch)
     draw_forces(sketch)
     draw_contacts(sketch)
     draw_strings(sketch)
-    figures = [sketch.figures[name] for name in sketch.names]
-    chosen = _worth_tracing(sketch) if traces is None else list(traces)
-    return Scene(sketch.spec.get("name", ""), sketch.size, figures, sketch.pairs, sketch.cords, sketch.t, sketch.poses, chosen)
+    sketch.traces = _worth_tracing(sketch) if traces is None else list(traces)
+    return sketch
 
 
 def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:

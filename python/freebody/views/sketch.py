@@ -1,4 +1,5 @@
-"""What a mechanism is drawn on: outlines in body frames, the frames' poses over time, and the model's numbers and points.
+"""What a mechanism is drawn on, and all that is drawn: outlines in body frames, the frames' poses over time, and the model's numbers
+and points. Matplotlib and the browser draw the same sketch.
 
 Everything moves in one of three ways: a ``Stroke`` with its body's frame, a ``Pair`` stretched between two points, a ``Cord`` as
 it is laid anew at every time.
@@ -6,14 +7,18 @@ it is laid anew at every time.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.core import GROUND, Array, Limit, MotionError, State, quote, there
 from freebody.views import shapes
+from freebody.views.impact_markers import LASTING, ImpactMarker
+from freebody.views.style import GROUND as GREY
+from freebody.views.style import colour
 
 if TYPE_CHECKING:
     from freebody.core import CompiledModel
@@ -73,9 +78,26 @@ class Cord:
     shown: Array
 
 
+@dataclass(frozen=True)
+class Drawn:
+    """A stroke where its body is, points (k, 2); ``tint`` and ``body``: colour and name of its body."""
+
+    style: str
+    points: Array
+    tint: str
+    closed: bool
+    body: str
+
+    @property
+    def line(self) -> Array:
+        """Its polyline (k, 2), back to the first point where it is closed."""
+        return np.vstack([self.points, self.points[:1]]) if self.closed else self.points
+
+
 class Sketch:
-    """What symbols are drawn with: the model's numbers and points, and the figures to draw on. ``run``: where the times are
-    from, None for a state by itself."""
+    """What symbols are drawn with: the model's numbers and points; what they are drawn on: figures (ground first), pairs and strings, with
+    the figures' poses (nt, nf, 3) at times (nt,); ``size`` in m is that of symbols, impacts flash up. ``run``: where the times are from,
+    None for a state by itself."""
 
     def __init__(self, source: CompiledModel, state: State, t: Array, q: Array, poses: Array, run: Run | None = None) -> None:
         self.spec = source.spec
@@ -90,6 +112,8 @@ class Sketch:
         """Of a slider by the name of its joint: its body, and where its two faces are (2, 2) in the body's frame, beside the joint's point."""
         self.pairs: list[Pair] = []
         self.cords: list[Cord] = []
+        self.traces: list[str] = []
+        self.impact_markers: list[ImpactMarker] = []
         self.at: dict[str, tuple[str, Array]] = {}
         self.owners: dict[str, str] = {}
         for name, place in source.points(state.p).items():
@@ -215,10 +239,82 @@ class Sketch:
         body, at = self.at[point]
         return self.moved(body, at[None])[0]
 
-    def moved(self, body: str, points: Array) -> Array:
-        """Points (k, 2) of a body in the fixed axes."""
-        x, y, angle = self.poses[0, self.names.index(body)]
+    def moved(self, body: str, points: Array, frame: int = 0) -> Array:
+        """Points (k, 2) of a body in the fixed axes, by default at the start."""
+        x, y, angle = self.poses[frame, self.names.index(body)]
         return shapes.turn(points, angle, (x, y))
+
+    def pair_lines(self, pair: Pair, frame: int = 0) -> list[Array]:
+        """A pair's polylines in the fixed axes; none where it is not there."""
+        if not pair.shown[frame]:
+            return []
+        a, b = (self.moved(self.names[i], np.array([[x, y]]), frame)[0] for i, x, y in pair.ends)
+        length = np.hypot(*(b - a)) or 1.0
+        left = np.array([a[1] - b[1], b[0] - a[0]]) / length
+        return [a + line[:, :1] * (b - a) + line[:, 1:] * left for line in pair.lines]
+
+    def lines(self, frame: int = 0) -> list[Array]:
+        """Everything that is drawn at a time, as polylines in the fixed axes; of a small solid mass, the inside as well."""
+        found = [line for pair in self.pairs for line in self.pair_lines(pair, frame)]
+        found += [cord.path[frame] for cord in self.cords if cord.shown[frame]]
+        for stroke in self.strokes(frame):
+            line, inside = stroke.line, (0.7, 0.4) if stroke.style == "mass" else ()
+            found += [line, *(line.mean(axis=0) + part * (line - line.mean(axis=0)) for part in inside)]
+        return found
+
+    def strokes(self, frame: int = 0) -> Iterator[Drawn]:
+        """The strokes of all figures in the fixed axes."""
+        for i, figure in enumerate(self.figures.values()):
+            for each in figure.strokes:
+                if each.shown is None or each.shown[frame]:
+                    tint = colour(i - 1) if i else GREY
+                    yield Drawn(each.style, self.moved(figure.name, each.points, frame), tint, each.closed, figure.name)
+
+    def bounds(self) -> tuple[float, float, float, float]:
+        """x from, x to, y from, y to: a box about everything that is drawn at any time."""
+        frames = np.unique(np.linspace(0, len(self.t) - 1, 80).astype(int))
+        everything = np.vstack([line for k in frames for line in self.lines(k)] or [np.zeros((1, 2))])
+        (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
+        return float(x0), float(x1), float(y0), float(y1)
+
+    @cached_property
+    def spark(self) -> float:
+        """The size of what flashes up, in m: seen well, however small the symbols are beside the whole."""
+        x0, x1, y0, y1 = self.bounds()
+        return max(2.5 * self.size, 0.02 * float(np.hypot(x1 - x0, y1 - y0)))
+
+    def to_json(self) -> dict[str, Any]:
+        """What is drawn for the browser, figures rounded to what a screen can show."""
+        digits = 3 - int(np.floor(np.log10(self.size)))
+        places = np.concatenate([self.poses[..., :2].round(digits), self.poses[..., 2:].round(5)], axis=2)
+
+        def short(values: Any) -> Any:
+            return values.round(digits).tolist() if isinstance(values, np.ndarray) else values
+
+        def item(each: Stroke | Pair | Cord, **stated: Any) -> dict[str, Any]:
+            sometimes = {} if each.shown is None or each.shown.all() else {"shown": each.shown.tolist()}
+            return {key: short(value) for key, value in stated.items()} | sometimes
+
+        return {
+            "size": self.size,
+            "bounds": self.bounds(),
+            "t": self.t.tolist(),
+            "poses": places.reshape(len(self.t), -1).tolist(),
+            "figures": [
+                {"name": f.name, "strokes": [item(s, points=s.points, style=s.style, closed=s.closed) for s in f.strokes]}
+                for f in self.figures.values()
+            ],
+            "pairs": [item(p, kind=p.kind, ends=p.ends, lines=[line.round(max(digits, 4)).tolist() for line in p.lines])
+                      for p in self.pairs],
+            "cords": [item(c, path=c.path.reshape(len(self.t), -1), taut=c.taut.tolist()) for c in self.cords],
+            "traces": [
+                {"name": name, "figure": self.names.index(body), "at": self.figures[body].points[name]}
+                for name in self.traces
+                for body in [self.at[name][0]]
+            ],
+            "flashes": [{"t": each.t, "rays": short(each.rays(self.spark))} for each in self.impact_markers],
+            "lasting": LASTING,
+        }  # fmt: skip
 
 
 def sketch_of_state(source: CompiledModel, state: State) -> Sketch:

@@ -75,50 +75,43 @@ def fits(row: Row) -> bool:
 
 def laid(row: Row) -> Laid:
     """Panels beside each other with the bodies at one height, or below each other where the column is too narrow."""
-    widths = [high[0] - low[0] for low, high in (panel.box() for panel in row.panels)]
-    signs = len(widths) - 1 + 2 * row.vanishes
-    made = (_beside if sum(widths) + BETWEEN * signs <= row.column - 2 * MARGIN else _below)(row)
+    boxes = [panel.box() for panel in row.panels]
+    sizes = [high - low for low, high in boxes]
+    beside = sum(size[0] for size in sizes) + BETWEEN * (len(sizes) - 1 + 2 * row.vanishes) <= row.column - 2 * MARGIN
+    shifts, signs, width, y = [], [], 0.0, -row.head
+    if beside:
+        heights = np.concatenate([stroke.points[:, 1] for stroke in row.panels[0].scenery.strokes] or [np.zeros(1)])
+        top, bottom = max(high[1] for _, high in boxes), min(low[1] for low, _ in boxes)
+        level = y - top + float((heights.min() + heights.max()) / 2)  # of the middle of the bodies
+        for (low, _), size in zip(boxes, sizes, strict=True):
+            if shifts:
+                signs.append(np.array([width + BETWEEN / 2, level]))
+                width += BETWEEN
+            shifts.append(np.array([width - low[0], y - top]))
+            width += size[0]
+        if row.vanishes:
+            signs.append(np.array([width + BETWEEN, level]))
+            width += 2 * BETWEEN
+        y -= top - bottom
+    else:
+        for (low, high), size in zip(boxes, sizes, strict=True):
+            indent = BETWEEN * bool(shifts)
+            if shifts:
+                y -= LINE
+                signs.append(np.array([BETWEEN / 2, y - size[1] / 2]))
+            shifts.append(np.array([indent - low[0], y - high[1]]))
+            width, y = max(width, indent + size[0]), y - size[1]
+        if row.vanishes:
+            signs.append(np.array([BETWEEN, y - 1.5 * LINE]))
+            y -= 2 * LINE
+    panels = list(zip(row.panels, shifts, strict=True))
     if row.apart is not None:  # one more panel below all
         low, high = row.apart.box()
-        y = -made.size[1] - LINE
-        size = np.array([max(made.size[0], high[0] - low[0]), high[1] - low[1] - y])
-        made = Laid([*made.panels, (row.apart, np.array([-low[0], y - high[1]]))], made.signs, size)
+        y -= LINE
+        panels.append((row.apart, np.array([-low[0], y - high[1]])))
+        width, y = max(width, high[0] - low[0]), y - (high[1] - low[1])
     written = [*(extent(line, TITLE, True)[0] for line in row.heading), *(extent(line, NOTE)[0] for line in row.lines)]
-    return Laid(made.panels, made.signs, np.array([max([made.size[0], *written]), made.size[1] + row.foot]))
-
-
-def _beside(row: Row) -> Laid:
-    boxes = [panel.box() for panel in row.panels]
-    top, bottom = max(high[1] for _, high in boxes), min(low[1] for low, _ in boxes)
-    shifts, signs, x, y = [], [], 0.0, -row.head - top
-    heights = np.concatenate([stroke.points[:, 1] for stroke in row.panels[0].scenery.strokes] or [np.zeros(1)])
-    level = y + float((heights.min() + heights.max()) / 2)  # of the middle of the bodies
-    for i, (low, high) in enumerate(boxes):
-        if i:
-            signs.append(np.array([x + BETWEEN / 2, level]))
-            x += BETWEEN
-        shifts.append(np.array([x - low[0], y]))
-        x += high[0] - low[0]
-    if row.vanishes:
-        signs.append(np.array([x + BETWEEN, level]))
-        x += 2 * BETWEEN
-    return Laid(list(zip(row.panels, shifts, strict=True)), signs, np.array([x, row.head + top - bottom]))
-
-
-def _below(row: Row) -> Laid:
-    shifts, signs, width, y = [], [], 0.0, -row.head
-    for i, (low, high) in enumerate(panel.box() for panel in row.panels):
-        indent = BETWEEN * bool(i)
-        if i:
-            y -= LINE
-            signs.append(np.array([BETWEEN / 2, y - (high[1] - low[1]) / 2]))
-        shifts.append(np.array([indent - low[0], y - high[1]]))
-        width, y = max(width, indent + high[0] - low[0]), y - (high[1] - low[1])
-    if row.vanishes:
-        y -= LINE
-        signs.append(np.array([BETWEEN, y - LINE / 2]))
-        y -= LINE
-    return Laid(list(zip(row.panels, shifts, strict=True)), signs, np.array([width, -y]))
+    return Laid(panels, signs, np.array([max([width, *written]), row.foot - y]))
 
 
 def _lines(text: str, column: float, letter: float) -> list[str]:

@@ -16,8 +16,8 @@ from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import symbol
 from freebody.views.dimension_lines import DimensionLine, dimension_lines
 from freebody.views.draw import UNNAMED
-from freebody.views.scene import Drawn, Scene, drawn
-from freebody.views.sketch import Sketch, sketch_of_state
+from freebody.views.scene import drawn
+from freebody.views.sketch import Drawn, Sketch, sketch_of_state
 
 SYMBOL = 5.0  # pt, the size of symbols; a slender body is 1.6 times that thick
 _ROOM = 130.0, 115.0  # pt, what a single body may take
@@ -107,11 +107,11 @@ def scenery(
     """The bodies of a group as large as the paper allows, or ``size`` of that."""
     width, height = _ROOM if len(group) == 1 else _WIDER if len(group) <= CROWD else _WIDEST
     room = size * width, size * height
-    sketch, scene, scale = _fitted(source, state, room, lambda scene, _: [each.points for each in _strokes(scene, group, 1.0)])
-    strokes = _strokes(scene, group, scale)
+    sketch, scale = _fitted(source, state, room, lambda sketch: [each.points for each in _strokes(sketch, group, 1.0)])
+    strokes = _strokes(sketch, group, scale)
     strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
-    inner = [scale * line for line in _joining(scene, {load.name for load in free.inside(*group)})]
+    inner = [scale * line for line in _joining(sketch, {load.name for load in free.inside(*group)})]
     pinned = {joint["name"] for joint in sketch.metadata["joints"] if joints()[joint["type"]].pinned}
     cut = [(load, part) for load in free.loads if load.name in pinned for part in load.on if part.body in group]
     places = np.reshape([attached(load, part, sketch) for load, part in cut], (-1, 2))
@@ -127,15 +127,15 @@ def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension
     allows."""
     names = [body["name"] for body in source.metadata["bodies"]]
 
-    def seen(scene: Scene, sketch: Sketch) -> list[Array]:
-        lines = [stroke.points for stroke in _strokes(scene, [GROUND, *names], 1.0)] + _joining(scene)
+    def seen(sketch: Sketch) -> list[Array]:
+        lines = [stroke.points for stroke in _strokes(sketch, [GROUND, *names], 1.0)] + _joining(sketch)
         across = float(np.hypot(*np.ptp(np.vstack(lines), axis=0)))
         far = _FURTHER * across if across > _POINT * sketch.size else np.inf
         return lines + [m.arrow for m in measured(sketch, _RADIUS) if np.hypot(*np.ptp(m.arrow, axis=0)) < far]
 
-    sketch, scene, scale = _fitted(source, state, _WIDEST, seen)
-    strokes = _strokes(scene, [GROUND, *names], scale, hidden=())
-    inner = [scale * line for line in _joining(scene)]
+    sketch, scale = _fitted(source, state, _WIDEST, seen)
+    strokes = _strokes(sketch, [GROUND, *names], scale, hidden=())
+    inner = [scale * line for line in _joining(sketch)]
     centres = {name: scale * sketch.place(f"{name}.G") for name in names}
     far, wanted = float(np.hypot(*_WIDEST)), measured(sketch, _RADIUS)
     dimensions = _dimensions(sketch, [GROUND, *names], strokes, scale, False, far, wanted)
@@ -146,23 +146,23 @@ def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension
 
 
 def _fitted(
-    source: CompiledModel, state: State, room: tuple[float, float], seen: Callable[[Scene, Sketch], list[Array]]
-) -> tuple[Sketch, Scene, float]:
+    source: CompiledModel, state: State, room: tuple[float, float], seen: Callable[[Sketch], list[Array]]
+) -> tuple[Sketch, float]:
     """What is drawn, and the scale in pt for each m at which what is ``seen`` of it fills the room."""
-    sketch = sketch_of_state(source, state)
-    scene, least = drawn(sketch), sketch.size
+    sketch = drawn(sketch_of_state(source, state))
+    least = sketch.size
     for _ in range(2):  # the thickness of slender parts depends on the scale, and the extent on it
-        extent = np.ptp(np.vstack(seen(scene, sketch) or [np.zeros((1, 2))]), axis=0)
+        extent = np.ptp(np.vstack(seen(sketch) or [np.zeros((1, 2))]), axis=0)
         scale = float(min([size / along for size, along in zip(room, extent, strict=True) if along > 0] + [_LARGEST / least]))
         sketch = sketch_of_state(source, state)
         sketch.size = SYMBOL / scale
-        scene = drawn(sketch)
-    return sketch, scene, scale
+        drawn(sketch)
+    return sketch, scale
 
 
-def _strokes(scene: Scene, group: Collection[str], scale: float, hidden: Collection[str] = _CUT) -> list[Drawn]:
+def _strokes(sketch: Sketch, group: Collection[str], scale: float, hidden: Collection[str] = _CUT) -> list[Drawn]:
     """All strokes of the group's bodies but those of some styles, by default the symbols of joints."""
-    seen = (stroke for stroke in scene.strokes() if stroke.body in group and stroke.style not in hidden)
+    seen = (stroke for stroke in sketch.strokes() if stroke.body in group and stroke.style not in hidden)
     return [replace(stroke, points=scale * stroke.points) for stroke in seen]
 
 
@@ -183,10 +183,10 @@ def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collect
     return arms
 
 
-def _joining(scene: Scene, among: Collection[str] | None = None) -> list[Array]:
+def _joining(sketch: Sketch, among: Collection[str] | None = None) -> list[Array]:
     """Springs, links and strings, all of them or those of some names."""
-    lines = [line for pair in scene.pairs if among is None or pair.name in among for line in scene.pair_lines(pair)]
-    return lines + [cord.path[0] for cord in scene.cords if (among is None or cord.name in among) and cord.shown[0]]
+    lines = [line for pair in sketch.pairs if among is None or pair.name in among for line in sketch.pair_lines(pair)]
+    return lines + [cord.path[0] for cord in sketch.cords if (among is None or cord.name in among) and cord.shown[0]]
 
 
 def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], scale: float) -> list[Tag]:

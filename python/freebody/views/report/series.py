@@ -77,7 +77,9 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     couples = [(name, reaction.M) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
     sizes = [(name, r.size) for name, r in known]
     made = [_plot("Reactions, size of the force", "N", run, sizes, note)] if known or silent else []
-    held, turned = ([(plain(text), y) for each in held_by(run, unit).values() for text, y in each.items()] for unit in ("N", "N*m"))
+    held, turned = (
+        [(plain(text), y) for each in held_by(run, unit).values() for text, y in each.items()] for unit in ("N", "N*m")
+    )
     what = "Contacts, strings, stops, locks and motions"
     made += [_plot(what, "N", run, held)] if held else []
     made += [_plot(f"{what}, couple", "N*m", run, turned)] if turned else []
