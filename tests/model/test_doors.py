@@ -72,6 +72,11 @@ def test_a_speed_beside_a_coordinate_of_another_name_is_a_speed():
     assert end["r"] == pytest.approx(3, rel=1e-12) and end["rate(r)"] == pytest.approx(2, rel=1e-12)
 
 
+@pytest.mark.parametrize("written", ["1e400 kg", "1e308 t", "2*1e400 kg", "1e400", "9" * 310, "9" * 400, "-.inf", ".nan"])
+def test_a_number_beyond_all_floating_point_numbers_is_refused(written):
+    refused(PENDULUM.replace("mass: m1", f"mass: {written}"))
+
+
 @pytest.mark.parametrize("written", ["10/s", "10 1/s", "10 Hz", "0.01/ms", "600/min"])
 def test_a_rate_as_people_write_it(written):
     m = Mechanism.loads(PENDULUM.replace("al: 10 deg", f"w: {written}"))

@@ -22,7 +22,7 @@ from .names import nearest
 MAX_BYTES = 64 * 2**20
 MAX_NODES = 4_000_000
 MAX_DEPTH = 64
-MAX_DIGITS = 400  # of a whole number: what has more is beyond all floating-point numbers
+MAX_DIGITS = 308  # of a whole number: what has more is beyond all floating-point numbers
 
 Mark = tuple[int, int]
 _OWN = str(FilePath(__file__).parent.parent)

@@ -245,8 +245,10 @@ def convert(text: str) -> tuple[float, Dimension]:
 
 
 def _rounded(number: str, size: Fraction) -> float:
-    """The product, rounded once; numbers of absurd exponents take the ordinary way."""
+    """The product, rounded once; numbers of absurd exponents take the ordinary way. Raises ``ModelProblem``."""
     value = float(number.replace(" ", ""))
+    if math.isinf(value * float(size)):
+        raise ModelProblem(f"`{number}` is too large a number", "the largest is 1.79e308")
     if value != 0 and not 1e-60 < abs(value) < 1e60:
         return value * float(size)
     return float(Fraction(number.replace(" ", "")) * size)

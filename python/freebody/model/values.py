@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import re
+import sys
 from collections.abc import Callable
 from numbers import Integral, Real
 from typing import Annotated, Any, TypeVar
@@ -87,7 +87,7 @@ def _number(value: Any) -> float | int | str:
         raise refuse(f"`{value}` is a date, no number", "for a difference of numbers leave spaces around the `-`")
     if isinstance(value, str) and value.strip():
         return str(value)
-    if isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value):
+    if isinstance(value, Real) and not isinstance(value, bool) and abs(value) <= sys.float_info.max:
         return int(value) if isinstance(value, Integral) else float(value)
     shown = "nothing stands here" if value is None else f"`{value}` is no number"
     raise refuse(shown, "write a number, a quantity like `400 mm`, or an expression of parameters")
