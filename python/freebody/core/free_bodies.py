@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -146,6 +147,16 @@ class FreeBodies:
         rows = (Row(item.get("name", ""), item["coefficients"], item["right"]) for item in data.get("rows", ()))
         loads, accelerations = tuple(map(_load, data["loads"])), data.get("accelerations", {})
         return cls({body.name: body for body in bodies}, loads, tuple(rows), accelerations)
+
+    @cached_property
+    def extent(self) -> float:
+        """The size of the mechanism: how far its mass centres and the points of its loads lie apart, m; 1 m where all are in one."""
+        places = [part.point for load in self.loads for part in load.on] + [body.G for body in self.bodies.values()]
+        return float(np.hypot(*np.ptp(places, axis=0))) or 1.0
+
+    def units(self, coordinates: Sequence[Mapping[str, Any]]) -> Array:
+        """What each coordinate is measured by, (n,): an angle by 1 rad, a length by the size of the mechanism."""
+        return np.array([1.0 if c["dimension"] == "rad" else self.extent for c in coordinates])
 
     def on(self, *group: str) -> tuple[Load, ...]:
         """The loads on the diagram of a body, or of a group of bodies cut free together: those inside the group are left out."""

@@ -24,8 +24,6 @@ _NAME = "blow"
 _SYMBOLS = ("J", "J0", "J_blow")
 _ROUND_OFF = 1e-12
 """Of the impulse over the mass of all bodies, below which a rate is what is left of 0."""
-_STILL = 1e-9
-"""Rate, m/s or rad/s, below which a model is at rest."""
 
 
 @dataclass(frozen=True)
@@ -94,7 +92,7 @@ def strike(
     axis of the ``frame``, ``fixed`` or ``body``. Where joints alone hold it, rates
     that it had before stay and the jumps add to them. Raises ``NoImpact`` where it moves and may touch something, ``ModelFileError``
     for a point that there is not."""
-    if np.abs(state.u).max(initial=0.0) > _STILL and mechanism.source().metadata["limits"]:
+    if state.u.any() and mechanism.source().metadata["limits"]:
         raise NoImpact(
             "the model moves at its start, and it has contacts, strings or stops, which then decide by that motion what an impact does; "
             "what is struck here stands still: give the start no rates, or let a run strike it"

@@ -13,12 +13,14 @@ from freebody.solve.perturbed_states import Closing
 if TYPE_CHECKING:
     from freebody.core import Array, CompiledModel
 
+# Coordinates are angles in rad, and lengths as parts of the size of the mechanism.
 _STEPS = 60
 _LONGEST = 0.2
-"""Step of Newton's method, rad or m, beyond which it is shortened."""
+"""Step of Newton's method beyond which it is shortened."""
 _SLOPE = 1e-6
+"""Step over which slopes are differences: the cube root of round-off, about."""
 _FOUND = 1e-11
-"""Step, rad or m, below which the place is found."""
+"""Step below which the place is found."""
 _SMALL = 1e-9
 """Part of the largest slope below which nothing holds a perturbation."""
 
@@ -27,7 +29,8 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
     """The place of rest that Newton's method comes to on closed loops, from a state, and with closed what touches in it, or in
     another; None if to none."""
     names = [c["name"] for c in source.metadata["coordinates"]]
-    closing = Closing(source, touching or state, source.free_bodies(touching or state))
+    free = source.free_bodies(touching or state)
+    closing, units = Closing(source, touching or state, free), free.units(source.metadata["coordinates"])
     by_contacts = bool(closing.closed) and not any(motion["engaged"] for motion in source.metadata["motions"])
 
     def closed(q: Array) -> Array:
@@ -42,12 +45,13 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
 
     def step(q: Array) -> Array:
         """Of Newton, along the perturbations that keep loops closed."""
-        rows = closing.rows(source.free_bodies(state.at(q)))
-        _, sizes, directions = np.linalg.svd(rows)
-        ways = directions[int((sizes > _SMALL * max(1.0, sizes.max(initial=0.0))).sum()) :]
-        ahead, behind = (np.array([accelerations(closed(q + s * way)) for way in ways]) for s in (_SLOPE, -_SLOPE))
-        slopes = ((ahead - behind) / (2 * _SLOPE)).reshape(len(ways), len(q)).T
-        return ways.T @ np.linalg.lstsq(slopes, -accelerations(q), rcond=_SMALL)[0]
+        rows = closing.rows(source.free_bodies(state.at(q))) * units
+        lengths = np.linalg.norm(rows, axis=1, keepdims=True)
+        _, sizes, directions = np.linalg.svd(rows / np.where(lengths, lengths, 1.0))
+        ways = directions[int((sizes > _SMALL).sum()) :]
+        ahead, behind = (np.array([accelerations(closed(q + s * units * way)) for way in ways]) for s in (_SLOPE, -_SLOPE))
+        slopes = ((ahead - behind) / (2 * _SLOPE)).reshape(len(ways), len(q)).T / units[:, None]
+        return ways.T @ np.linalg.lstsq(slopes, -accelerations(q) / units, rcond=_SMALL)[0]
 
     try:
         q = np.array(state.q, dtype=float)
@@ -55,7 +59,7 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
         for _ in range(_STEPS):
             change = step(q)
             longest = float(np.abs(change).max(initial=0.0))
-            q = closed(q + change * min(1.0, _LONGEST / (longest or 1.0)))
+            q = closed(q + units * change * min(1.0, _LONGEST / (longest or 1.0)))
             if longest < _FOUND:
                 found = state.at(q)
                 return None if Instant(source, found).nonequilibrium() else found

@@ -45,7 +45,7 @@ def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()
     first = replace(first, accelerations={c["name"]: first.accelerations[c["name"]] for c in coordinates})
     found = [first]
     rng = np.random.default_rng(SEED)
-    steps = np.array([STEP["rad"] if c["dimension"] == "rad" else STEP["m"] * extent(first) for c in coordinates])
+    steps = np.array([STEP["rad"] if c["dimension"] == "rad" else STEP["m"] * first.extent for c in coordinates])
     changes = [p - state.p for p in parameters] or [np.zeros_like(state.p)]
     part = 1.0
     for _ in range(TRIES):
@@ -70,7 +70,7 @@ def others(source: CompiledModel, state: State) -> list[State]:
     time of its own. The same things act there, and what slides or bears on a tooth does so in the same sense."""
     first = source.free_bodies(state)
     rng = np.random.default_rng(SEED)
-    scale = np.array([1.0 if c["dimension"] == "rad" else extent(first) for c in source.metadata["coordinates"]])
+    scale = first.units(source.metadata["coordinates"])
     closing, found = Closing(source, state, first), []
     steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
     for q in (closing.place(state.q + step) for step in steps):
@@ -122,7 +122,7 @@ class Closing:
         self.normal = np.array([load.kind != "friction" for _, load in held], bool)
         self.slopes = self.rows(replace(first, rows=tuple(row for row, _ in held)))
         self.back = np.linalg.pinv(self.slopes, rcond=DEPENDENT) if held else np.zeros((len(self.names), 0))
-        self.size = extent(first)
+        self.size = first.extent
 
     def near(self, q: Array) -> FreeBodies | None:
         """The free bodies where loops and gaps are closed near ``q``; None where they do not close."""
@@ -181,11 +181,6 @@ class Closing:
         if any(limit.is_open and limit.gap < 0 for limit in stated):
             return None
         return np.array([stated[i].gap for i in self.closed]) * self.normal
-
-
-def extent(free: FreeBodies) -> float:
-    """The size of the mechanism: how far its places lie apart, m; 1 m where all are in one."""
-    return float(np.hypot(*np.ptp(_places(free), axis=0))) or 1.0
 
 
 def _places(free: FreeBodies) -> Array:

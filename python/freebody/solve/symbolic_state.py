@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
-from freebody.solve.perturbed_states import extent, nearby
+from freebody.solve.perturbed_states import nearby
 from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.linear import Linear
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
@@ -317,7 +317,7 @@ class SymbolicState:
         springs = (load for load in self.free.loads if load.name in stretched)
         if not any(len({part.point for part in load.on}) == 1 for load in springs):
             return self.state
-        units = np.array([1.0 if c["dimension"] == "rad" else extent(self.free) for c in self.coordinates])
+        units = self.free.units(self.coordinates)
         return replace(self.state, q=self.state.q + _ASIDE * units * (1 + np.arange(len(units)) % 7 / 3))
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:

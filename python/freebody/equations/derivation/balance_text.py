@@ -114,7 +114,7 @@ def dropped(subject: SymbolicState, stated: Stated) -> dict[str, list[Load]]:
     for contribution in balance.contributions:
         load, summed = subject.free.loads[contribution.load], contribution.load in cancelled
         if load.unknown and (contribution.absent or summed) and not (summed and load.follows):
-            found.setdefault(why_absent(load, balance.bodies, place, extent(subject.free), summed), []).append(load)
+            found.setdefault(why_absent(load, balance.bodies, place, subject.free.extent, summed), []).append(load)
     return found
 
 
@@ -137,7 +137,7 @@ def numbers(subject: SymbolicState, balance: Balance) -> Pair:
 def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:
     """The name of a point: a pin there, else a mass centre, else another named point of the bodies, by its own name if no other
     body has one of that name."""
-    free, near = subject.free, _SAME * extent(subject.free)
+    free, near = subject.free, _SAME * subject.free.extent
     for load in free.loads:
         if load.axis and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
             return pin(load.name)
@@ -152,7 +152,7 @@ def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:
 
 def is_at(free: FreeBodies, point: tuple[str, float, float], at: Pair) -> bool:
     """Whether a point (body, x, y in its frame) is at a place."""
-    return point[0] in free.bodies and float(np.hypot(*np.subtract(placed(free, *point), at))) < _SAME * extent(free)
+    return point[0] in free.bodies and float(np.hypot(*np.subtract(placed(free, *point), at))) < _SAME * free.extent
 
 
 def pin(name: str) -> str:

@@ -155,7 +155,7 @@ def _written(subject: SymbolicState, found: ConservedMomentum, balance: Balance)
 
 def _reason(subject: SymbolicState, found: ConservedMomentum, where: str) -> str:
     """Why no load from outside changes it; known loads that each would are said to cancel."""
-    place, length = Place("AMB" if found.turns else "LMB", where, found.at, False), extent(subject.free)
+    place, length = Place("AMB" if found.turns else "LMB", where, found.at, False), subject.free.extent
     said: dict[str, list[str]] = {}
     for i, load in enumerate(subject.free.loads):
         if load.follows or load.inside(found.bodies) or not np.any(load.unit(found.bodies)):

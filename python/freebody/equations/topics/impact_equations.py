@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 _NOTHING = 1e-9
-"""Lengths in m, rates in m/s and arms in m below which they are 0: what an event leaves of them."""
+"""Part of the mechanism's size, or of its largest rate, below which a length, an arm or a rate is 0: what an event leaves of it."""
 _HALF = Fraction(1, 2)
 MOST_OPERATIONS = 300
 """In a system, or in an answer before it is shortened, above which none is sought symbolically."""
@@ -175,20 +175,17 @@ class Impact:
         values = self.values | dict.fromkeys(self.impulses, 1.0)  # in numbers: symbols may not see what touches
         grow = [self.subject.blow.grows(load) for load in self.subject.free.loads]
         parts = [c.tree for balance in balances for c in balance.contributions if not c.internal and grow[c.load]]
-        if any(abs(float(evaluate(part, values, self.subject.tables))) >= _NOTHING for part in parts):
+        if any(abs(float(evaluate(part, values, self.subject.tables))) >= _NOTHING * self.subject.free.extent for part in parts):
             return []
         return [(e.title, b.with_trees(self.with_roots)) for e, b in zip(found, balances, strict=True)]
 
     @cached_property
     def zeros(self) -> dict[Sym, Tree]:
         """Coordinates, and rates before the impact, that are 0 there; and coordinates that are then as long as what holds."""
-        state, names = self.subject.state, self.subject.names
-        rest = [
-            Sym(n, dots)
-            for dots, of in enumerate((state.q, state.u))
-            for n, x in zip(names, of, strict=True)
-            if abs(x) < _NOTHING
-        ]
+        state, names, units = self.subject.state, self.subject.names, self.subject.free.units(self.subject.coordinates)
+        fastest = np.abs(state.u / units).max(initial=0.0)
+        sizes = (np.abs(state.q / units), np.abs(state.u / units) / (fastest or 1.0))
+        rest = [Sym(n, dots) for dots, of in enumerate(sizes) for n, x in zip(names, of, strict=True) if x < _NOTHING]
         zeros: dict[Sym, Tree] = dict.fromkeys(rest, ZERO)
         along: dict[Sym, Tree] = {}  # a coordinate that is all of a distance where others are 0: y = −l of what hangs below
         for under, root in self.roots.items():
@@ -234,13 +231,13 @@ class Impact:
 
     def vanishes(self, rate: Tree) -> bool:
         """Whether a rate is 0 just before the impact."""
-        return abs(float(evaluate(rate, self.values, self.subject.tables))) < _NOTHING
+        return abs(float(evaluate(rate, self.values, self.subject.tables))) < _NOTHING * self._usual_rate
 
     def holds(self, condition: Condition) -> bool:
         """Whether a condition holds after the impact, to the rounding of the rates."""
         values = self.values | self.rates_after
         one, other = (float(evaluate(side, values, self.subject.tables)) for side in self.sides(condition))
-        return abs(one - other) <= self._rounding
+        return abs(one - other) <= 10 * AGREES * self._usual_rate
 
     def sides(self, condition: Condition) -> tuple[Tree, Tree]:
         """Of its equation: the rate after the impact, and what it is; not one less than nothing."""
@@ -252,7 +249,7 @@ class Impact:
     def agrees(self, solution: Mapping[Sym, Tree]) -> bool:
         """Whether rates after the impact are those that happened."""
         pairs = [(float(evaluate(solution[x], self.values, self.subject.tables)), u) for x, u in self.rates_after.items()]
-        return all(abs(one - other) <= self._rounding for one, other in pairs)
+        return all(abs(one - other) <= 10 * AGREES * self._usual_rate for one, other in pairs)
 
     def otherwise(self) -> str:
         """Why an impact is not what its equations say."""
@@ -263,11 +260,14 @@ class Impact:
             )
         return f"the run takes another law of impact. {self.change.note}".strip()
 
-    @property
-    def _rounding(self) -> float:
-        before, now = self.change.before, self.change.after
-        rates = [*(before.u.values() if before else ()), *(now.u.values() if now else ())]
-        return 10 * AGREES * (max(map(abs, rates), default=1.0) or 1.0)
+    @cached_property
+    def _usual_rate(self) -> float:
+        """What rates of what holds are measured by: the largest rate before and after, rad/s, or m/s over the mechanism's size; times
+        this size where that is less, since some are those of lengths."""
+        free, coordinates = self.subject.free, self.subject.coordinates
+        sides = [list(each.u.values()) for each in (self.change.before, self.change.after) if each]
+        largest = max((np.abs(u / free.units(coordinates)).max(initial=0.0) for u in sides), default=0.0)
+        return float(largest or 1.0) * min(1.0, free.extent)
 
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""

@@ -24,13 +24,11 @@ from freebody.symbolic.tree import (
     ZERO,
     Add,
     Fn,
-    Num,
     Pow,
     Sym,
     Tree,
     add,
     is_zero,
-    minus,
     mul,
     negative,
     operations,
@@ -236,11 +234,11 @@ class _System:
 
     def _enough(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> list[_Sides]:
         """The first equations that together give what is wanted, at the numbers of the impact."""
-        values = self._numbers()
+        values, largest = self._numbers(), max(map(abs, self.found.sizes().values()), default=1.0) or 1.0
 
         def factor(x: Sym, tree: Tree) -> float:
-            one, none = (replace(tree, {x: Num(value)}) for value in (1, 0))
-            return float(evaluate(minus(one, none), values, self.found.subject.tables))
+            much, none = (evaluate(tree, values | {x: size}, self.found.subject.tables) for size in (largest, 0.0))
+            return float(much - none) / largest
 
         table = np.array([[factor(x, left) for x in wanted] for left, _ in equations])
         return [equations[i] for i in independent(table)]

@@ -69,7 +69,7 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     subject = SymbolicState(mechanism.source(), rest, at_rest=True)
     _require_regular(subject)
     made, found, follow = _perturbations(subject, chosen)
-    said, stability, eigenvalues = character(subject, found, _symbols_of(subject))
+    said, stability, eigenvalues = character(subject, found, _symbols_of(subject)) if found.coordinates else ([], None, ())
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
     more = [SymbolEntry("s", "indeterminate", "1/s", "eigenvalue"), *_symbols_of(subject).values()]
