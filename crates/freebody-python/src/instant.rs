@@ -18,27 +18,27 @@ pub fn solution<'py>(
     let determinate = solved.determinate.concat();
     let known = |(x, sure): (&f64, &bool)| if *sure { *x } else { f64::NAN };
     // Of locks only those in place.
-    let is_told = |d: &usize| m.drives[*d].kind != DriveKind::Lock || solved.drives_in_place.contains(d);
+    let is_in_place = |d: &usize| m.drives[*d].kind != DriveKind::Lock || solved.drives_in_place.contains(d);
     let drives = |kind: DriveKind| -> PyResult<Bound<'py, PyDict>> {
         let forces = PyDict::new(py);
-        for d in (0..m.drives.len()).filter(|&d| m.drives[d].kind == kind).filter(is_told) {
+        for d in (0..m.drives.len()).filter(|&d| m.drives[d].kind == kind).filter(is_in_place) {
             forces.set_item(&m.drives[d].name, known((&solved.drives[d], &solved.drives_determinate[d])))?;
         }
         Ok(forces)
     };
-    let told = PyDict::new(py);
-    told.set_item("accelerations", array(py, solved.accelerations.clone(), [solved.accelerations.len()])?)?;
-    told.set_item("body_accelerations", by_body(&solved.bodies)?)?;
-    told.set_item("body_residuals", by_body(&solved.residuals)?)?;
-    told.set_item("reactions", array(py, least.iter().zip(&determinate).map(known).collect(), [joints, 3])?)?;
-    told.set_item("least_reactions", array(py, least, [joints, 3])?)?;
-    told.set_item("determinate", array(py, determinate, [joints, 3])?)?;
-    told.set_item("motions", drives(DriveKind::Motion)?)?;
-    told.set_item("couplings", drives(DriveKind::Coupling)?)?;
-    told.set_item("locks", drives(DriveKind::Lock)?)?;
-    told.set_item("residual", solved.residual)?;
-    told.set_item("sizes", (solved.sizes.load, solved.sizes.acceleration))?;
-    told.set_item("limits", plain(py, &solved.contacts())?)?;
-    told.set_item("rank", plain(py, &solved.rank(freedom))?)?;
-    Ok(told)
+    let answer = PyDict::new(py);
+    answer.set_item("accelerations", array(py, solved.accelerations.clone(), [solved.accelerations.len()])?)?;
+    answer.set_item("body_accelerations", by_body(&solved.bodies)?)?;
+    answer.set_item("body_residuals", by_body(&solved.residuals)?)?;
+    answer.set_item("reactions", array(py, least.iter().zip(&determinate).map(known).collect(), [joints, 3])?)?;
+    answer.set_item("least_reactions", array(py, least, [joints, 3])?)?;
+    answer.set_item("determinate", array(py, determinate, [joints, 3])?)?;
+    answer.set_item("motions", drives(DriveKind::Motion)?)?;
+    answer.set_item("couplings", drives(DriveKind::Coupling)?)?;
+    answer.set_item("locks", drives(DriveKind::Lock)?)?;
+    answer.set_item("residual", solved.residual)?;
+    answer.set_item("sizes", (solved.sizes.load, solved.sizes.acceleration))?;
+    answer.set_item("limits", plain(py, &solved.contacts())?)?;
+    answer.set_item("rank", plain(py, &solved.rank(freedom))?)?;
+    Ok(answer)
 }

@@ -125,7 +125,7 @@ impl Mechanism {
         plain(py, &freebody::free_bodies::free_bodies(&mut workspace).map_err(errors::motion)?)
     }
 
-    fn letters<'py>(
+    fn symbolic_answers<'py>(
         &self,
         py: Python<'py>,
         state: State<'py>,
@@ -240,7 +240,7 @@ fn heard(py: Python<'_>, progress: Option<&Py<PyAny>>, now: f64) -> PyResult<boo
     }
 }
 
-/// A setting and questions in letters.
+/// A setting and symbolic questions.
 fn questions(setting: &Bound<'_, PyAny>, questions: &Bound<'_, PyAny>) -> PyResult<(Setting, Vec<Query>)> {
     let wrong = |e: serde_json::Error| errors::motion(DynamicsError::WrongQuestion(e.to_string()));
     Ok((data(setting)?.map_err(wrong)?, data(questions)?.map_err(wrong)?))

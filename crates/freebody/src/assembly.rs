@@ -46,6 +46,9 @@ const UNDAMPED: f64 = 1e-6;
 /// First damping where a full step does not help, in squares of rows of size 1, and that beyond which no step does.
 const DAMPED: f64 = 1e-4;
 const HOPELESS: f64 = 1e9;
+/// What a step that helps makes of the damping, and one that does not: it rises as fast as it falls (Marquardt's ν).
+const EASED: f64 = 0.2;
+const STIFFENED: f64 = 1.0 / EASED;
 /// Attempts from other starts.
 const ATTEMPTS: usize = 64;
 
@@ -108,8 +111,8 @@ fn attempt(
 
 /// Damped least squares on all rows; returns the largest gap left.
 fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)], q: &mut Vec<f64>) -> f64 {
-    let still = vec![0.0; q.len()];
-    workspace.move_to(t, q, &still);
+    let at_rest = vec![0.0; q.len()];
+    workspace.move_to(t, q, &at_rest);
     let mut present = rows(workspace, held);
     // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
     let mut damping = 0.0;
@@ -123,17 +126,17 @@ fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)],
         workspace.to_user(&step, &mut user);
         let longest = user.iter().zip(workspace.units()).map(|(d, unit)| (d / unit).abs()).fold(1.0, f64::max);
         let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
-        workspace.move_to(t, &trial, &still);
+        workspace.move_to(t, &trial, &at_rest);
         let next = rows(workspace, held);
         if norm(workspace, &next) < size {
             (*q, present) = (trial, next);
-            damping = if damping < UNDAMPED { 0.0 } else { 0.2 * damping };
+            damping = if damping < UNDAMPED { 0.0 } else { EASED * damping };
         } else {
-            workspace.move_to(t, q, &still);
+            workspace.move_to(t, q, &at_rest);
             if gap <= OPEN || damping > HOPELESS {
                 break;
             }
-            damping = (5.0 * damping).max(DAMPED);
+            damping = (STIFFENED * damping).max(DAMPED);
         }
     }
     worst(workspace, &present)

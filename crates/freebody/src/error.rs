@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Why a state has no answer. An item of the model is told by its path, e.g. `joints.pivot`.
+/// Why a state has no answer. An item of the model goes by its path, e.g. `joints.pivot`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DynamicsError {
     /// Something (in words) can move without inertia: words, item.
@@ -80,7 +80,7 @@ pub enum DynamicsError {
     /// A time outside the run: t, first, last.
     OutOfRange(f64, f64, f64),
     /// A change of a run, by its place, that is no impact.
-    NoBlow(usize),
+    NotAnImpact(usize),
     /// An integrator of an unknown name: name, those that there are.
     UnknownMethod(String, Vec<&'static str>),
     /// A question about a name that nothing bears: what is wrong and what to try.
@@ -111,11 +111,11 @@ impl DynamicsError {
     }
     /// Its fixed name, e.g. `singular_mass`.
     pub fn name(&self) -> &'static str {
-        self.told().0
+        self.description().0
     }
     /// One sentence: what happened, and after a semicolon what to do.
     pub fn sentence(&self) -> String {
-        self.told().1
+        self.description().1
     }
     /// What happened, and what to do.
     pub fn what_and_hint(&self) -> (String, String) {
@@ -125,10 +125,10 @@ impl DynamicsError {
     }
     /// The item of the model that it is about, where there is one.
     pub fn path(&self) -> Option<&str> {
-        self.told().2
+        self.description().2
     }
 
-    fn told(&self) -> (&'static str, String, Option<&str>) {
+    fn description(&self) -> (&'static str, String, Option<&str>) {
         let quoted = |names: &[String]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
         match self {
             Self::ZeroInertia(what, at) => (
@@ -205,10 +205,10 @@ impl DynamicsError {
                 Some(at),
             ),
             Self::CannotAssemble(gaps, at) => {
-                let told: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
+                let listed: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
                 (
                     "cannot_assemble",
-                    format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", told.join(", ")),
+                    format!("the parts do not fit together: at the nearest approach the gaps (m or rad) are {}; check the lengths and the values under `initial`, or give approximate ones under `guess`", listed.join(", ")),
                     at.as_deref(),
                 )
             }
@@ -218,10 +218,10 @@ impl DynamicsError {
                 None,
             ),
             Self::InconsistentRates(left, at) => {
-                let told: Vec<String> = left.iter().map(|(name, off)| format!("{name} is off by {off:.3}")).collect();
+                let listed: Vec<String> = left.iter().map(|(name, off)| format!("{name} is off by {off:.3}")).collect();
                 (
                     "inconsistent_velocities",
-                    format!("the motions, loops and given rates contradict each other: at best {} (m/s or rad/s); remove one of them, or make them agree", told.join(", ")),
+                    format!("the motions, loops and given rates contradict each other: at best {} (m/s or rad/s); remove one of them, or make them agree", listed.join(", ")),
                     at.as_deref(),
                 )
             }
@@ -231,13 +231,13 @@ impl DynamicsError {
                 format!("at {} no friction force fits the load that it causes; lower the friction", quoted(names)),
                 None,
             ),
-            Self::Paradox(paradox, told, at) => {
+            Self::Paradox(paradox, reason, at) => {
                 let name = match paradox {
                     Paradox::Inconsistent => "painleve_inconsistent",
                     Paradox::Indeterminate => "painleve_indeterminate",
                     Paradox::Unsolved => "contact_unsolved",
                 };
-                (name, told.clone(), Some(at))
+                (name, reason.clone(), Some(at))
             }
             Self::UndecidedPress(names, at) => (
                 "painleve_indeterminate",
@@ -258,9 +258,9 @@ impl DynamicsError {
             Self::ImpulsesCreateEnergy(t, energy) => {
                 ("no_impact", format!("the impulses found at t = {t:.12} s would create the energy {energy:.6e} J"), None)
             }
-            Self::SimultaneousImpact(names, told) => (
+            Self::SimultaneousImpact(names, ways) => (
                 "simultaneous_impact",
-                format!("{names} strike at once, and rigid bodies do not decide what follows: {}; choose a rule, `impacts: newton`, `poisson` or `sequential`", told.join("; ")),
+                format!("{names} strike at once, and rigid bodies do not decide what follows: {}; choose a rule, `impacts: newton`, `poisson` or `sequential`", ways.join("; ")),
                 None,
             ),
             Self::EndlessImpacts(rounds) => (
@@ -279,7 +279,7 @@ impl DynamicsError {
             Self::OutOfRange(t, first, last) => {
                 ("out_of_range", format!("t = {t} s is outside the run, {first} s to {last} s"), None)
             }
-            Self::NoBlow(change) => ("no_blow", format!("change {change} of the run is no impact"), None),
+            Self::NotAnImpact(change) => ("not_an_impact", format!("change {change} of the run is no impact"), None),
             Self::UnknownMethod(name, known) => {
                 ("unknown_method", format!("no integrator is called `{name}`; there is {}", known.join(", ")), None)
             }

@@ -60,7 +60,7 @@ def nearest(case: Case, equation: Equation) -> str:
     level = max((s.dots for s in said), default=0)
     found = []
     for (words, _), answer in zip(asked, stated.answers[1:], strict=True):
-        there = frozenset(read(each["letter"]) for each in answer["linear"]["coefficients"])
+        there = frozenset(read(each["symbol"]) for each in answer["linear"]["coefficients"])
         found.append(_True(words, read(answer["left"]), read(answer["right"]), there))
     for row in stated.answers[0]:  # what loops ask of the configuration, the rates or the accelerations
         tree = read(row[_LEVELS[level]])

@@ -131,7 +131,7 @@ class CompiledModel:
         """What is asked of a state symbolically; crates/freebody/src/symbolic/query.rs lists the questions. Symbols among
         ``numbers`` are these numbers."""
         setting = {"at_rest": at_rest, "numbers": dict(numbers or {})}
-        return SymbolicAnswers.read(self.mechanism.letters(state.arrays, setting, list(questions)))
+        return SymbolicAnswers.read(self.mechanism.symbolic_answers(state.arrays, setting, list(questions)))
 
     def evaluate(self, texts: Sequence[str], state: State) -> Array:
         """Values (k,) of expressions; works count as 0."""

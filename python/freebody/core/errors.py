@@ -39,7 +39,7 @@ class OutcomeKind(str, Enum):
     HANDS_OVER_AT_ONCE = "hands_over_at_once"
     BACKWARD = "backward"
     OUT_OF_RANGE = "out_of_range"
-    NO_BLOW = "no_blow"
+    NOT_AN_IMPACT = "not_an_impact"
     FOREIGN_HISTORY = "foreign_history"
     NOT_FINITE = "not_finite"
     WRONG_SIZE = "wrong_size"

@@ -54,7 +54,7 @@ class Impulses:
     """The impulses of an impact: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
     second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
     ``drives`` (motions and couplings) and ``locks`` along what they hold; ``works`` of motions in J. ``restitution`` is that of what
-    was struck; ``spared`` was reached too, but would have had to pull."""
+    collided; ``spared`` was reached too, but would have had to pull."""
 
     contacts: Mapping[str, tuple[float, float]]
     joints: Mapping[str, tuple[float, float, float]]
@@ -137,15 +137,15 @@ class Motion:
         return Change(**plain, of=tuple(of), note=note or "", impulses=impulses and self._impulses(**impulses),
                       **dict(zip(("before", "after"), sides, strict=True)))  # fmt: skip
 
-    def _impulses(self, limits: Any, joints: Any, struck: Any, spared: list[str], drives: Any = (), works: Any = ()) -> Impulses:
+    def _impulses(self, limits: Any, joints: Any, contact_impulses: Any, spared: list[str], drives: Any = (), works: Any = ()) -> Impulses:
         stops = {limit["name"] for limit in self.metadata["limits"] if limit["type"] == "stop"}
         names = [joint["name"] for joint in self.metadata["joints"]]
         locks = {lock["name"] for lock in self.metadata["locks"]}
         return Impulses(
             contacts={name: tuple(p) for name, p in limits if name not in stops},
             joints={name: tuple(p) for name, p in zip(names, joints, strict=True) if any(p)},
-            stops={each["name"]: each["normal"] for each in struck if each["name"] in stops},
-            restitution={each["name"]: each["restitution"] for each in struck},
+            stops={each["name"]: each["normal"] for each in contact_impulses if each["name"] in stops},
+            restitution={each["name"]: each["restitution"] for each in contact_impulses},
             spared=tuple(spared),
             drives={name: p for name, p in drives if name not in locks},
             locks={name: p for name, p in drives if name in locks},

@@ -78,4 +78,4 @@ class SymbolicAnswers:
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> SymbolicAnswers:
         """As the core gives them."""
-        return cls(data["answers"], data["letters"], data["laws"])
+        return cls(data["answers"], data["symbols"], data["laws"])

@@ -19,7 +19,7 @@ class Linear:
     @classmethod
     def read(cls, data: Mapping[str, Any]) -> Linear:
         """From an answer."""
-        return cls({read(each["letter"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
+        return cls({read(each["symbol"]): read(each["tree"]) for each in data["coefficients"]}, read(data["rest"]))
 
     def with_trees(self, put: Callable[[Tree], Tree]) -> Linear:
         """The same, every expression as ``put``, which is linear, makes it."""

@@ -111,7 +111,7 @@ impl Symbol {
     pub fn tree(self) -> Tree {
         with(|arena| arena.tree(self.id))
     }
-    /// The same, as a sum of one term for each of `letters` that occurs linearly, and the rest.
+    /// The same, as a sum of one term for each of `variables` that occurs linearly, and the rest.
     pub fn tree_by(self, variables: &[Variable]) -> Tree {
         with(|arena| {
             let variables: Vec<_> = variables.iter().map(|variable| arena.variable_id(variable)).collect();

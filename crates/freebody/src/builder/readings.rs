@@ -185,7 +185,7 @@ fn accel(place: ModelExpr) -> ModelExpr {
 impl expr::Scope<ModelVariable> for Scope<'_> {
     fn name(&mut self, name: &str) -> Result<ModelExpr, Message> {
         let n = self.names;
-        // A curve's own letter hides a parameter of that name.
+        // A curve's own symbol hides a parameter of that name.
         if name == "s" && self.reach == Reach::Curve {
             return Ok(ModelExpr::variable(ModelVariable::Local));
         }

@@ -15,13 +15,13 @@ impl Instant {
 
     /// What every contact, stop and string does.
     pub fn contacts(&self) -> Value {
-        let told = |l: &ContactLoad| {
+        let data = |l: &ContactLoad| {
             json!({
                 "state": l.state, "gap": l.gap, "normal": l.along[0], "friction": l.along[1],
                 "force": [l.force.x, l.force.y], "at": l.at.map(|p| [p.x, p.y]), "determinate": l.determinate,
             })
         };
-        Value::Array(self.contacts.iter().map(told).collect())
+        Value::Array(self.contacts.iter().map(data).collect())
     }
 }
 

@@ -31,6 +31,8 @@ pub(super) enum Force {
 
 /// Share of a row in a dependence, or of a body in a motion, whose size is 1, below which it is round-off.
 const PART: f64 = 1e-6;
+/// How many times the shift of a body's joint its turn makes of the characteristic length where it only spins there.
+const SPINS: f64 = 1e3;
 /// Largest contradiction of the rows, over the largest of their terms, that is put down to round-off.
 pub(super) const CONTRADICTION: f64 = 1e-7;
 
@@ -143,7 +145,7 @@ impl Workspace<'_> {
         let words: Vec<String> = moving
             .iter()
             .map(|&i| {
-                let turning = bodies[i].w.abs() * self.length > 1e3 * bodies[i].v.norm();
+                let turning = bodies[i].w.abs() * self.length > SPINS * bodies[i].v.norm();
                 let joint = self.m.bodies[i].tree_joint.map_or("", |b| self.m.joints[b.joint].name.as_str());
                 if turning {
                     format!("`{}` can spin about `{joint}`", self.m.bodies[i].name)

@@ -12,6 +12,8 @@ use crate::solve::{Lu, Matrix, Orthogonal};
 const CORRECTIONS: usize = 12;
 /// Gap, relative to the characteristic length, at which a loop counts as closed.
 pub(crate) const CLOSED: f64 = 1e-14;
+/// Gap of a contact, in parts of that: it is told to the round-off of places, and to lessen it further is work for nothing.
+const SHUT: f64 = 0.1 * CLOSED;
 /// Gap above which the closing of a loop has failed.
 pub(crate) const OPEN: f64 = 1e-9;
 /// Part of what turns make of a row below which shifts make nothing of it.
@@ -94,8 +96,7 @@ impl Workspace<'_> {
         for _ in 0..CORRECTIONS {
             self.move_to(t, q, u);
             let gap = self.worst_gap_with(held);
-            // Gaps of contacts are told to the round-off of places: to lessen them further is work for nothing.
-            let shut = gap <= 0.1 * CLOSED && self.m.closures.is_empty();
+            let shut = gap <= SHUT && self.m.closures.is_empty();
             if gap == 0.0 || shut || (gap >= 0.5 * last && gap <= OPEN) {
                 return Ok(moved);
             }

@@ -6,6 +6,9 @@
 use super::Workspace;
 use crate::plane::Wrench;
 
+/// Load, N, and acceleration, m/s², of a mechanism in which there are none: above 0, to divide by, and below any that counts.
+const VANISHING: f64 = 1e-300;
+
 /// The largest term of any body's balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TermScales {
@@ -18,7 +21,7 @@ pub struct TermScales {
 impl Workspace<'_> {
     /// The sizes of the last solution's terms.
     pub fn term_scales(&self) -> TermScales {
-        let mut sizes = TermScales { load: self.least_load(), acceleration: 1e-300 };
+        let mut sizes = TermScales { load: self.least_load(), acceleration: VANISHING };
         self.parts_of_accelerations().iter().zip(&self.n.mass).for_each(|(a, m)| sizes.include(a * m, *a));
         for (load, &mass) in self.loads.iter().zip(&self.n.mass) {
             let force = self.strength(load);
@@ -36,7 +39,7 @@ impl Workspace<'_> {
     /// Round-off of m v²/l, the force that would turn a body's motion within the characteristic length: below it a load is none.
     fn least_load(&self) -> f64 {
         let turning = |i: usize| self.n.mass[i] * self.centre(i).1.dot(self.centre(i).1) / self.length;
-        (1..self.m.bodies.len()).map(turning).fold(1e-300, |most, force| most.max(f64::EPSILON * force))
+        (1..self.m.bodies.len()).map(turning).fold(VANISHING, |most, force| most.max(f64::EPSILON * force))
     }
 
     fn strength(&self, load: &Wrench) -> f64 {

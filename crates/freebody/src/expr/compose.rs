@@ -8,6 +8,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// How far back an equal operation is looked for.
 const MEMORY: usize = 64;
+/// Whole exponent from which on a power is not a product of that many factors any more.
+const MOST_FACTORS: f64 = 1e6;
 
 impl<L: Clone + PartialEq> Expr<L> {
     /// A number.
@@ -57,7 +59,7 @@ impl<L: Clone + PartialEq> Expr<L> {
     /// A real power of a positive base; a base of 0 is allowed with exponents above 1.
     pub fn powf(self, exponent: Self) -> Self {
         match (self.literal(), exponent.literal()) {
-            (_, Some(n)) if n.fract() == 0.0 && n.abs() < 1e6 => self.powi(n as i32),
+            (_, Some(n)) if n.fract() == 0.0 && n.abs() < MOST_FACTORS => self.powi(n as i32),
             (_, Some(0.5)) => self.sqrt(),
             (Some(base), Some(exponent)) => Self::constant(power(base, exponent)),
             _ => self.join(exponent, Op::Power),
@@ -122,7 +124,7 @@ impl<L: Clone + PartialEq> Expr<L> {
 
     pub(super) fn apply(self, function: Function) -> Self {
         match self.literal() {
-            // Elsewhere its digits would be cut: cos(pi/2) is 0 in letters.
+            // Elsewhere its digits would be cut: cos(pi/2) is 0 symbolically.
             Some(0.0) => Self::constant(function.apply(0.0)),
             _ => self.extend(|a| Op::Apply(function, a)),
         }

@@ -26,11 +26,11 @@ pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, DynamicsError
     let values: Vec<f64> = found.iter().map(|(value, _)| value.unwrap_or(1.0)).collect();
     relate_friction(at, &mut all, &values);
     let entries: Vec<Value> = all.iter().zip(found).map(|(load, size)| load_data(workspace, load, size)).collect();
-    let still = vec![0.0; m.freedom()];
+    let at_rest = vec![0.0; m.freedom()];
     let wrenches = |of_coordinates: &[f64]| at.k.propagate_user_motion(m, at.n, of_coordinates);
-    let drift = wrenches(&still);
+    let drift = wrenches(&at_rest);
     let unit = |j: usize| -> Vec<Twist> {
-        let mut one = still.clone();
+        let mut one = at_rest.clone();
         one[j] = 1.0;
         wrenches(&one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
     };

@@ -91,9 +91,9 @@ impl Canonical for HybridSystem<'_> {
         let mut u_dot = vec![0.0; n];
         self.workspace.accelerations(&mut u_dot);
         let along: Vec<Dual<1>> = q.iter().zip(&u).map(|(&q, &u)| Dual { re: q, du: [u] }).collect();
-        let still: Vec<Dual<1>> = u.iter().map(|&u| Dual::constant(u)).collect();
+        let held: Vec<Dual<1>> = u.iter().map(|&u| Dual::constant(u)).collect();
         let p: Vec<Dual<1>> = self.workspace.at().n.p.iter().map(|&p| Dual::constant(p)).collect();
-        let drift = momenta(self.workspace.m, &self.workspace.m.bind(&p), &along, &still);
+        let drift = momenta(self.workspace.m, &self.workspace.m.bind(&p), &along, &held);
         let mass = self.mass_times(q, &u_dot);
         dz[..n].copy_from_slice(&u);
         for i in 0..n {

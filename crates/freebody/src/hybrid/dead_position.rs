@@ -74,8 +74,8 @@ impl HybridSystem<'_> {
         let moving =
             self.workspace.at().drives().filter(|(_, drive)| drive.is_motion() && drive.level != Level::Position);
         let held: Vec<_> = moving.map(|(_, drive)| (drive.of.clone(), self.gauge_ahead(drive, later))).collect();
-        let still = vec![0.0; q.len()];
-        self.workspace.project_positions_with(&self.mode, t + later, &mut q, &still, &held)
+        let at_rest = vec![0.0; q.len()];
+        self.workspace.project_positions_with(&self.mode, t + later, &mut q, &at_rest, &held)
     }
 
     /// The gauge of a motion a time `later`, as it goes at the present state.

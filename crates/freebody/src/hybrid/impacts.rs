@@ -10,6 +10,8 @@ use crate::plane::Vec2;
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
 /// its height comes near the round-off of the gap.
 const SHORTEST_FLIGHT: f64 = 1e-5;
+/// Largest ratio of one bounce to the one before of which a series is summed: nearer to 1 its end would be infinitely far.
+const SUMMABLE: f64 = 0.999;
 /// Part of the kinetic energy by which it may rise in an impact, as round-off.
 const RISE: f64 = 1e-11;
 /// Shares of themselves by which unilateral constraints yield, one after the other, where impulses of rigid ones are
@@ -207,7 +209,7 @@ impl HybridSystem<'_> {
         let over: Vec<usize> = over.iter().map(|&i| constraints[i]).collect();
         // What rocks alternates between its feet.
         let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
-        let part = same.map_or(0.0, |(_, before)| (flight / before).min(0.999));
+        let part = same.map_or(0.0, |(_, before)| (flight / before).min(SUMMABLE));
         let (energy, earlier) = (self.workspace.kinetic_energy(), y.to_vec());
         let fastest = parting.iter().map(|&i| contacts.rates[i]).fold(0.0, f64::max);
         let mut mode = mode.clone();

@@ -1,4 +1,4 @@
-//! What is told of a run, as data.
+//! What is record of a run, as data.
 
 use super::guards::SwitchingFunction;
 use super::mode_changes::{ContactImpulse, ModeChange};
@@ -34,7 +34,7 @@ impl Trajectory {
 
     /// How it ended, with the names of the model.
     fn sentence(&self, m: &Mechanism) -> String {
-        let told = match &self.outcome {
+        let ending = match &self.outcome {
             Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
             Outcome::Chatter { index } => format!(
                 "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
@@ -52,16 +52,16 @@ impl Trajectory {
             format!("; the table `{}` was left, from t = {t:.6} s on its end value holds", m.table_names[table])
         };
         let tables = self.tables_left(m).unwrap_or_default().into_iter().map(left);
-        told + &self.unrecorded.iter().map(dense).chain(tables).collect::<String>()
+        ending + &self.unrecorded.iter().map(dense).chain(tables).collect::<String>()
     }
 }
 
-/// What is told, with the coordinates and rates of a state vector.
-fn state(m: &Mechanism, y: &[f64], mut told: Value) -> Value {
+/// A record, with the coordinates and rates of a state vector.
+fn state(m: &Mechanism, y: &[f64], mut record: Value) -> Value {
     let n = m.freedom();
-    told["q"] = json!(y[..n]);
-    told["u"] = json!(y[n..2 * n]);
-    told
+    record["q"] = json!(y[..n]);
+    record["u"] = json!(y[n..2 * n]);
+    record
 }
 
 fn change(m: &Mechanism, c: &ModeChange) -> Value {
@@ -74,7 +74,7 @@ fn change(m: &Mechanism, c: &ModeChange) -> Value {
             named.map(|(drive, x)| json!([drive.name, x])).collect::<Vec<_>>()
         };
         let (drives, works) = (named(&i.drives), named(&i.drive_works));
-        json!({"limits": groups, "joints": i.joints, "drives": drives, "works": works, "struck": impacting, "spared": i.unloaded})
+        json!({"limits": groups, "joints": i.joints, "drives": drives, "works": works, "contact_impulses": impacting, "spared": i.unloaded})
     });
     let side = |i: usize| c.states.as_ref().map(|states| state(m, &states[i], json!({})));
     json!({

@@ -122,10 +122,10 @@ impl Trajectory {
     /// the impact.
     ///
     /// # Errors
-    /// `no_blow`.
+    /// `not_an_impact`.
     pub fn state_of_impact(&self, m: &Mechanism, change: usize) -> Result<MotionState, DynamicsError> {
         let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
-        let (t, [before, _], impulses) = found.ok_or(DynamicsError::NoBlow(change))?;
+        let (t, [before, _], impulses) = found.ok_or(DynamicsError::NotAnImpact(change))?;
         Ok(MotionState { mode: impulses.mode.clone(), ..self.state_of(m, t, before) })
     }
 

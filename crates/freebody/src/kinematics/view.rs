@@ -141,8 +141,8 @@ impl<'a, S: Scalar> StateView<'a, S> {
     fn side(&self, joint: usize, k: usize) -> f64 {
         let j = &self.m.joints[joint];
         let c = &j.coordinates[k];
-        let told = self.m.place_in_q(joint, k).filter(|_| j.kind.unsigned(c.card));
-        let below = told.is_some_and(|i| self.n.values[c.zero].value() + c.sense * self.q[i].value() < 0.0);
+        let coordinate = self.m.place_in_q(joint, k).filter(|_| j.kind.unsigned(c.card));
+        let below = coordinate.is_some_and(|i| self.n.values[c.zero].value() + c.sense * self.q[i].value() < 0.0);
         if below {
             -1.0
         } else {

@@ -11,6 +11,8 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 const TOUCH: f64 = 1e-12;
 /// or below this many tolerances of the way that its function has come since it was zero: the motion is told no nearer.
 const GRAZE: f64 = 30.0;
+/// Mean over swing from which a polynomial cannot reach zero: |Tₖ| ≤ 1, and a little for the rounding of its sums.
+const CLEAR_OF_ZERO: f64 = 1.001;
 /// Part of a half step past its end where what crosses zero in it may turn back.
 const PAST: f64 = 0.1;
 /// A polynomial is trusted when its last coefficients are below this many times its swing,
@@ -162,8 +164,7 @@ impl EventDetector {
         }
         let coefficients = chebyshev(values);
         let swing: f64 = coefficients[1..].iter().map(|c| c.abs()).sum();
-        // |Tₖ| ≤ 1: the polynomial cannot reach zero.
-        if coefficients[0].abs() > 1.001 * swing {
+        if coefficients[0].abs() > CLEAR_OF_ZERO * swing {
             return Ok(nodes);
         }
         let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);

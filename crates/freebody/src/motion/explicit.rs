@@ -5,6 +5,9 @@ use super::method::{Counted, Failure, Point, Stepper};
 use super::norm::{measure, Norm};
 use crate::scalar::real;
 
+/// Weight of the second error estimate (HNW I, II.10).
+const TEMPERING: f64 = 0.1;
+
 /// The numbers of an explicit method of s stages. Stage s (counted from 0) is the rate at the end
 /// of the step; the stages of the dense output come after it.
 pub(super) struct Table {
@@ -72,7 +75,7 @@ impl Explicit {
             measure(&self.y, &self.weights)
         });
         match norms.collect::<Vec<_>>()[..] {
-            [main, tempering] if main > 0.0 => main * main / real::hypot(main, 0.1 * tempering),
+            [main, tempering] if main > 0.0 => main * main / real::hypot(main, TEMPERING * tempering),
             [main, ..] => main,
             [] => 0.0,
         }

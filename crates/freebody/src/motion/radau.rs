@@ -33,6 +33,9 @@ const REAL: f64 = 3.637_834_252_744_496;
 const E: [f64; 3] = [-(13.0 + 7.0 * SQRT6) / 3.0, (-13.0 + 7.0 * SQRT6) / 3.0, -1.0 / 3.0];
 /// Newton converging faster than this keeps its Jacobian.
 const FAST: f64 = 1e-3;
+/// Error of Newton's method, in tolerances, at which the stages are found: at most this, as in Hairer and Wanner's code
+/// (HW IV.8), and less at a tight tolerance, √rtol.
+const STAGES_FOUND: f64 = 0.03;
 /// Part of its physical size that a component has at least, for the step of a difference.
 const LEAST_SIZE: f64 = 1e-3;
 const NEWTON_ITERATIONS: usize = 10;
@@ -123,7 +126,7 @@ impl Radau {
     /// Solves for the stages; returns the rate of convergence.
     fn newton(&mut self, system: &mut Counted, from: &Point, h: f64, norm: &Norm) -> Result<f64, Failure> {
         let n = self.n;
-        let tolerance = (10.0 * f64::EPSILON / norm.rtol).max(norm.rtol.sqrt().min(0.03));
+        let tolerance = (10.0 * f64::EPSILON / norm.rtol).max(norm.rtol.sqrt().min(STAGES_FOUND));
         let mut weights = vec![0.0; n];
         norm.weights(from, from, &mut weights);
         weights.iter_mut().zip(&from.dy).for_each(|(w, dy)| *w += norm.rtol * (h * dy).abs());

@@ -13,6 +13,11 @@ use super::system::System;
 const TIGHTEST: f64 = 1e-14;
 /// Steps within which one is laid astride a singular place: this one, or the next, so that it fits without a short one.
 const REACH: f64 = 1.5;
+/// Steps within which the end of a run is reached by the next one: none is left that is only round-off long.
+const LAST: f64 = 1.0 + 1e-6;
+/// Part of its gap by which a step across a singular place may be short: less than a rejection shortens, lest the same step be
+/// tried again.
+const SHORT_OF_GAP: f64 = 1.05;
 
 /// What may be chosen about a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,7 +214,7 @@ impl<'a> Runner<'a> {
     /// End of the next step: the end of the run when it is in reach.
     fn target(&self) -> f64 {
         let h = self.step_across();
-        match (self.t_end - self.now.t).abs() <= (1.0 + 1e-6) * h.abs() {
+        match (self.t_end - self.now.t).abs() <= LAST * h.abs() {
             true => self.t_end,
             false => self.now.t + h,
         }
@@ -223,8 +228,7 @@ impl<'a> Runner<'a> {
         if self.steps.is_fixed() || later * h <= 0.0 || later.abs() > REACH * h.abs() {
             return h;
         }
-        // Less than the least shortening after a rejection, lest the same step be tried again.
-        match later.abs() <= 1.05 * gap * h.abs() {
+        match later.abs() <= SHORT_OF_GAP * gap * h.abs() {
             true => later / gap,
             false => later - gap * h,
         }

@@ -5,6 +5,8 @@ use std::collections::BinaryHeap;
 
 /// A node with more than this times √n neighbours is eliminated last (as in AMD).
 const DENSE: f64 = 10.0;
+/// Neighbours that no node is eliminated last for.
+const FEW: f64 = 16.0;
 
 /// An order in which symmetric elimination of the graph causes little fill: `order[k]` is the k-th
 /// node to eliminate. `weights` are the nodes' numbers of unknowns, `edges` pairs of nodes in any
@@ -44,7 +46,7 @@ impl Quotient {
     fn new(weights: &[usize], edges: &[(usize, usize)]) -> Self {
         let n = weights.len();
         let mut nodes = adjacency(n, edges);
-        let limit = 16.0_f64.max(DENSE * (n as f64).sqrt()) as usize;
+        let limit = FEW.max(DENSE * (n as f64).sqrt()) as usize;
         let (dense, gone): (Vec<_>, Vec<_>) = split_dense(&nodes, limit);
         nodes.iter_mut().for_each(|list| list.retain(|&j| !gone[j]));
         let weigh = |list: &Vec<usize>| list.iter().map(|&j| weights[j]).sum();

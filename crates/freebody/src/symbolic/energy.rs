@@ -30,7 +30,7 @@ impl SymbolicState<'_> {
         json!({"kinetic": tree(self.kinetic()), "potential": tree(potential(self.at())), "without_potential": without})
     }
 
-    fn letter(&self, i: usize, dots: u8) -> Variable {
+    fn variable(&self, i: usize, dots: u8) -> Variable {
         Variable::new(&self.m.coordinate(i).name, dots)
     }
 
@@ -38,7 +38,7 @@ impl SymbolicState<'_> {
     fn rate(&self, of: Symbol) -> Symbol {
         let mut sum = of.derivative(&Variable::new("t", 0));
         for i in 0..self.m.freedom() {
-            sum += of.derivative(&self.letter(i, 0)) * self.u[i] + of.derivative(&self.letter(i, 1)) * self.a[i];
+            sum += of.derivative(&self.variable(i, 0)) * self.u[i] + of.derivative(&self.variable(i, 1)) * self.a[i];
         }
         sum
     }
@@ -47,8 +47,8 @@ impl SymbolicState<'_> {
     pub(super) fn lagrange(&self) -> Value {
         let (kinetic, potential) = (self.kinetic(), potential(self.at()));
         let of = |i: usize| {
-            let q = self.letter(i, 0);
-            let momentum = kinetic.derivative(&self.letter(i, 1));
+            let q = self.variable(i, 0);
+            let momentum = kinetic.derivative(&self.variable(i, 1));
             let left = self.rate(momentum) - kinetic.derivative(&q) + potential.derivative(&q);
             let force = self.generalised_force(i);
             json!({
@@ -65,7 +65,7 @@ impl SymbolicState<'_> {
 
     /// The power of all loads without a potential for a unit rate of a coordinate.
     fn generalised_force(&self, i: usize) -> Symbol {
-        let rate = self.letter(i, 1);
+        let rate = self.variable(i, 1);
         let mut sum = Symbol::zero();
         for (load, &size) in self.loads.iter().zip(&self.sizes) {
             if load.origin.is_conservative(self.m) {
@@ -85,10 +85,10 @@ impl SymbolicState<'_> {
     /// itself, which vanishes where it is an equilibrium.
     pub(super) fn linearised(&self, at: &BTreeMap<String, f64>) -> Value {
         let n = self.m.freedom();
-        let place = |i: usize| at.get(&self.m.coordinate(i).name).map(|&x| (self.letter(i, 0), Symbol::of(x)));
-        let still = |dots: u8| move |i: usize| (self.letter(i, dots), Symbol::zero());
+        let place = |i: usize| at.get(&self.m.coordinate(i).name).map(|&x| (self.variable(i, 0), Symbol::of(x)));
+        let at_rest = |dots: u8| move |i: usize| (self.variable(i, dots), Symbol::zero());
         let fixed: Vec<(Variable, Symbol)> =
-            (0..n).map(still(1)).chain((0..n).map(still(2))).chain((0..n).filter_map(place)).collect();
+            (0..n).map(at_rest(1)).chain((0..n).map(at_rest(2))).chain((0..n).filter_map(place)).collect();
         let there = |of: Symbol| of.substitute(&fixed);
         let residuals: Vec<Symbol> = (0..n)
             .map(|i| {
@@ -98,7 +98,7 @@ impl SymbolicState<'_> {
             })
             .collect();
         let matrix = |dots: u8| -> Vec<Vec<Value>> {
-            let entry = |r: &Symbol, j: usize| json!(tree(there(r.derivative(&self.letter(j, dots)))));
+            let entry = |r: &Symbol, j: usize| json!(tree(there(r.derivative(&self.variable(j, dots)))));
             residuals.iter().map(|r| (0..n).map(|j| entry(r, j)).collect()).collect()
         };
         json!({

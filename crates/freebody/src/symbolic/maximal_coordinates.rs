@@ -2,7 +2,7 @@
 
 use super::equation::VirtualMotion;
 use super::vectors::{linear_in, tree_by};
-use super::{own_letter, sizes, SymbolicState};
+use super::{sizes, unused_name, SymbolicState};
 use crate::algebra::{Symbol, Tree, Variable};
 use crate::dynamics::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{loads, relate_friction, Size};
@@ -20,7 +20,7 @@ impl SymbolicState<'_> {
             let body = &self.m.bodies[i];
             let mut named = |word: &str, long: &str, values: [Symbol; 3]| -> [Symbol; 3] {
                 let names = [format!("{word}_{}", body.name), format!("{long}_{}", body.name)];
-                let name = own_letter(self.m.parameters.iter().map(|p| p.name.as_str()), &names);
+                let name = unused_name(self.m.parameters.iter().map(|p| p.name.as_str()), &names);
                 let entries = [0, 1, 2].map(|d| Symbol::variable(Variable::new(&name, d as u8), values[d].value()));
                 coordinates.push(name);
                 entries

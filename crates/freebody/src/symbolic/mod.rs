@@ -46,7 +46,7 @@ pub struct SymbolicState<'m> {
 
 /// A variable that a number gets which the model leaves without a name.
 struct Named {
-    letter: String,
+    variable: String,
     value: f64,
     unit: &'static str,
     /// The names that it may have, the usual one first.
@@ -107,7 +107,7 @@ impl<'m> SymbolicState<'m> {
 }
 
 /// A variable for what the model does not name: the first that is not taken, with `_` or without.
-fn own_letter<'a>(taken: impl Iterator<Item = &'a str>, names: &[String; 2]) -> String {
+fn unused_name<'a>(taken: impl Iterator<Item = &'a str>, names: &[String; 2]) -> String {
     let plain = |name: &str| name.replace('_', "");
     let taken: Vec<String> = taken.map(plain).collect();
     let numbered = (2..).map(|i| format!("{}{i}", names[1]));
@@ -126,9 +126,9 @@ fn name_numbers(
         let value = n.values[id];
         if m.values[id].literal().is_some() && value != 0.0 {
             let coordinates = (0..m.freedom()).map(|i| m.coordinate(i).name.as_str());
-            let variable = own_letter(m.parameters.iter().map(|p| p.name.as_str()).chain(coordinates), &names);
+            let variable = unused_name(m.parameters.iter().map(|p| p.name.as_str()).chain(coordinates), &names);
             bound[id] = named(&variable, 0, value.abs()).scale(value.signum());
-            entries.push(Named { letter: variable, value: value.abs(), unit, names, doc });
+            entries.push(Named { variable, value: value.abs(), unit, names, doc });
         }
     };
     let [x, y] = m.gravity;
@@ -214,7 +214,7 @@ impl SymbolicState<'_> {
         add("t", "time", self.t.value(), "s");
         for n in &self.named {
             let entries = json!({"kind": "number", "value": n.value, "unit": n.unit, "names": n.names, "doc": n.doc});
-            table.insert(n.letter.clone(), entries);
+            table.insert(n.variable.clone(), entries);
         }
         Value::Object(table)
     }

@@ -149,7 +149,7 @@ pub fn answer(workspace: &mut Workspace<'_>, setting: &Setting, questions: &[Que
             return Err(DynamicsError::TooLarge);
         }
         Ok(
-            json!({"answers": answers?, "loads": diagram["loads"], "laws": variables.laws(), "letters": variables.table()}),
+            json!({"answers": answers?, "loads": diagram["loads"], "laws": variables.laws(), "symbols": variables.table()}),
         )
     })
 }

@@ -74,7 +74,7 @@ pub fn tree_by(of: Symbol, unknowns: &[Variable]) -> Tree {
 pub(super) fn linear_in(of: Symbol, unknowns: &[Variable]) -> Value {
     let (factors, rest) = of.linear_in(unknowns);
     let found = unknowns.iter().zip(factors).filter(|(_, factor)| !factor.is_zero());
-    let entries = |(l, c): (&Variable, Symbol)| json!({"letter": Tree::variable(&l.name, l.dots), "tree": tree(c)});
+    let entries = |(l, c): (&Variable, Symbol)| json!({"symbol": Tree::variable(&l.name, l.dots), "tree": tree(c)});
     let coefficients: Vec<Value> = found.map(entries).collect();
     json!({"coefficients": coefficients, "rest": tree(rest)})
 }

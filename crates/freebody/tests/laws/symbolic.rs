@@ -1,4 +1,4 @@
-//! Equations in letters of mechanisms thrown together: expressed at one state, they hold at another.
+//! Symbolic equations of mechanisms thrown together: expressed at one state, they hold at another.
 
 use crate::random::*;
 use crate::random_mechanisms::{recipe, HOME, MECHANISMS};
@@ -58,7 +58,7 @@ fn value(tree: &Value, numbers: &Numbers) -> (f64, f64) {
     }
 }
 
-/// All letters at the present state of a solved balance.
+/// All symbols at the present state of a solved balance.
 fn numbers(workspace: &mut Workspace, bench: &Bench, state: &State) -> Numbers {
     let label = free_bodies(workspace).unwrap();
     let m = &bench.compiled.mechanism;
@@ -136,7 +136,7 @@ fn equations_told_at_one_state_hold_at_another() {
         };
         let state = go(&mut workspace);
         let mut numbers = numbers(&mut workspace, &bench, &state);
-        for (name, variable) in answers["letters"].as_object().unwrap() {
+        for (name, variable) in answers["symbols"].as_object().unwrap() {
             numbers.entry((name.clone(), 0)).or_insert(variable["value"].as_f64().unwrap());
         }
         let energies = answers["answers"].as_array().unwrap().last().unwrap();

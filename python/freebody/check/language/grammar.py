@@ -21,7 +21,7 @@ from .tokens import Names, Token
 RELATIONS = ("=", "<=", ">=", "<", ">")
 _ADDS = ("+", "-")
 SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
-_BEGINS = ("number", "letter", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|")
+_BEGINS = ("number", "symbol", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
@@ -52,7 +52,7 @@ class Line:
             raise StatementError(f"it ends where a `{kind}` is missing", self.end())
         if kind == "end" and self.now.kind in (")", "]", "}"):
             raise StatementError(f"a `{self.now.text}` that was never opened", self.now.span)
-        expected = {"end": "the end", "letter": "a symbol"}.get(kind, f"`{kind}`")
+        expected = {"end": "the end", "symbol": "a symbol"}.get(kind, f"`{kind}`")
         raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span)
 
     def end(self) -> Span:
@@ -161,7 +161,7 @@ class Line:
         match token.kind:
             case "number":
                 return Num(float(token.text), token.text, span=token.span)
-            case "letter":
+            case "symbol":
                 return self.symbol(token)
             case "function":
                 return self.call(token)
@@ -259,15 +259,15 @@ class Line:
     def bare_argument(self, token: Token) -> Node:
         """One symbol, a number before it and a ``t`` directly behind it."""
         sign = self.accept("-")
-        if self.now.kind not in ("number", "letter", "frac", "function"):
+        if self.now.kind not in ("number", "symbol", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
         factors = [self.primary()]
         if isinstance(factors[0], Num):
             if unit := self.unit(factors[0]):
                 factors.append(unit)
-            elif self.now.kind == "letter" and token.text != "sqrt":
+            elif self.now.kind == "symbol" and token.text != "sqrt":
                 factors.append(self.primary())
-        if self.now.kind == "letter" and self.now.text == "t" and self.now.attached:
+        if self.now.kind == "symbol" and self.now.text == "t" and self.now.attached:
             factors.append(self.primary())
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found
@@ -292,7 +292,7 @@ class Line:
     def changing(self) -> Sym:
         """The symbol behind a ∂."""
         self.expect("∂")
-        token = self.expect("letter")
+        token = self.expect("symbol")
         return Sym(token.text, token.dots, span=token.span)
 
     # --- units ---------------------------------------------------------------------------------

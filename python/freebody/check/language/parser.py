@@ -71,7 +71,7 @@ def _assigned(row: Sequence[Token], names: Names) -> list[str]:
     for before, token, after in zip([None, *row], row, row[1:], strict=False):
         starts = (before is None or before.kind in ends) and after.kind == "="
         closes = before is not None and before.kind == "=" and after.kind in ends
-        if token.kind == "letter" and (starts or closes) and not names.find(folded(token.text)):
+        if token.kind == "symbol" and (starts or closes) and not names.find(folded(token.text)):
             out.append(token.text)
     return [name for name in out if name.rstrip("'") == name or name.rstrip("'") not in out]
 

@@ -21,7 +21,7 @@ _SHORT = re.compile(r"(?P<before>d{1,2})?(?P<name>.+?)(?(before)|(?P<after>d{1,2
 """Rates as programs have them: dtheta, ddtheta, thetad, theta_dd."""
 _LONGEST = 400  # glyphs of names without a sign between them
 _WORDS = {"with", "where", "and"}
-_OPERANDS = {"letter", "number", "raised", ")", "]"}
+_OPERANDS = {"symbol", "number", "raised", ")", "]"}
 _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
 # r_G1/O, ΣM/O, H_123/A: a label after a stroke that is part of a name, where no declared name decides
 _RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
@@ -203,7 +203,7 @@ class _Reader:
             if (after := self.matches(start, name)) is not None:
                 primes = len(list(takewhile(lambda glyph: glyph.kind is Kind.PRIME, self.row[after:])))
                 dots = self.marks(start, after) + len(self.spelling(after, after + primes))
-                return [_Piece("letter", self.names.by_spelling[name], dots, after + primes)]
+                return [_Piece("symbol", self.names.by_spelling[name], dots, after + primes)]
         out = []
         for stop in range(start + 1, end + 1):
             if (stop < end and self.row[stop].kind in (Kind.LOW, Kind.PRIME)) or self.row[stop - 1].text == "":
@@ -214,7 +214,7 @@ class _Reader:
             if calls and (not known or self.is_argument(stop)):
                 out.append(_Piece("function", CALLS[spelling], 0, stop))
             elif known:
-                out.append(_Piece("letter", known[0], known[1] + marks, stop))
+                out.append(_Piece("symbol", known[0], known[1] + marks, stop))
         return out
 
     def is_argument(self, at: int) -> bool:
@@ -239,7 +239,7 @@ class _Reader:
     def unknown(self, start: int, end: int) -> list[_Piece]:
         """Names that nobody declared: Latin and Greek letters part, and a label after a stroke belongs to the name."""
         if (after := self.relative(start, end)) is not None:
-            return [_Piece("letter", self.written(start, after), self.marks(start, after), after)]
+            return [_Piece("symbol", self.written(start, after), self.marks(start, after), after)]
         ends, greek = [], self.row[start].greek
         for i in range(start + 1, end):
             if self.row[i].kind is Kind.WORD and self.row[i].greek != greek and self.row[i - 1].kind is not Kind.LOW:
@@ -260,8 +260,8 @@ class _Reader:
             return _Piece("function", CALLS[spelling], 0, end)
         for suffix, dots in _SUFFIXES.items():
             if spelling.endswith(suffix) and spelling != suffix:
-                return _Piece("letter", spelling.removesuffix(suffix), dots + count, end)
-        return _Piece("letter", self.written(start, end), count, end)
+                return _Piece("symbol", spelling.removesuffix(suffix), dots + count, end)
+        return _Piece("symbol", self.written(start, end), count, end)
 
     def written(self, start: int, end: int) -> str:
         """An unknown name as a person would write it plainly: with its underscores."""
@@ -300,7 +300,7 @@ class _Reader:
             return None
         spelling = self.spelling(at, stroke)
         name, dots = self.names.find(spelling) or (spelling, 0)
-        return _Piece("letter", name, dots + order + self.marks(at, stroke), end)
+        return _Piece("symbol", name, dots + order + self.marks(at, stroke), end)
 
     def fraction_derivative(self) -> _Piece | None:
         """The same, and the derivative of what stands behind, d/dt and d²/dt², written as a LaTeX fraction."""
@@ -314,7 +314,7 @@ class _Reader:
         if not found[2]:
             return _Piece("rate", "d/dt", order, end)
         name, dots = self.names.find(folded(found[2])) or (found[2], 0)
-        return _Piece("letter", name, dots + order + self.marks(self.at, end), end)
+        return _Piece("symbol", name, dots + order + self.marks(self.at, end), end)
 
     def order(self, at: int) -> tuple[int, int]:
         """The order of a derivative written here (1 where nothing is), and the glyph behind it."""

@@ -10,6 +10,8 @@ use rustc_hash::FxHashMap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
+/// Relative difference of two coefficients, sums of rounded numbers, that are equal: some fifty roundings.
+const SAME: f64 = 1e-14;
 /// Up to this number of terms every variable is tried as what to collect by.
 const FEW_TERMS: usize = 12;
 
@@ -302,7 +304,7 @@ fn shared(a: Ratio, b: Ratio) -> Ratio {
 }
 
 fn proportional(a: &Poly, b: &Poly) -> bool {
-    let near = |x: Coefficient, y: Coefficient| x == y || (x.value() - y.value()).abs() <= 1e-14 * x.value().abs();
+    let near = |x: Coefficient, y: Coefficient| x == y || (x.value() - y.value()).abs() <= SAME * x.value().abs();
     a.iter().zip(b).all(|(x, y)| near(x.1, y.1))
 }
 

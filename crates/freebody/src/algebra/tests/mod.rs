@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 const NAMES: [&str; 4] = ["a", "b", "u", "v"];
 
-fn letter(name: &str, value: f64) -> Symbol {
+fn variable(name: &str, value: f64) -> Symbol {
     Symbol::variable(Variable::new(name, 0), value)
 }
 
@@ -115,7 +115,7 @@ proptest! {
     fn rewriting_keeps_the_value(random in expressions(), at in points()) {
         let Some(expected) = settled(&random, at) else { return Ok(()) };
         session(|| {
-            let variables: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| letter(name, x)).collect();
+            let variables: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| variable(name, x)).collect();
             let symbol = random.build(&variables);
             let value = symbol.evaluate(&values(at));
             prop_assert!(close(value, expected), "{value} instead of {expected}");
@@ -133,7 +133,7 @@ proptest! {
         let expected = random.build(&jets).d1;
         prop_assume!(expected.is_finite() && expected.abs() < 1e4);
         session(|| {
-            let variables: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| letter(name, x)).collect();
+            let variables: Vec<Symbol> = NAMES.iter().zip(at).map(|(name, x)| variable(name, x)).collect();
             let slope = random.build(&variables).derivative(&Variable::new("a", 0));
             let value = slope.evaluate(&values(at));
             prop_assert!((value - expected).abs() <= 1e-5 * expected.abs().max(1.0), "{value} instead of {expected}");
@@ -189,7 +189,7 @@ fn what_vanishes_identically_is_zero() {
     ];
     for (name, difference) in identities {
         session(|| {
-            let variables = [("a", 0.7), ("b", 1.3), ("u", 0.4), ("v", 0.9)].map(|(name, x)| letter(name, x));
+            let variables = [("a", 0.7), ("b", 1.3), ("u", 0.4), ("v", 0.9)].map(|(name, x)| variable(name, x));
             let left = difference(variables);
             assert!(left.is_zero(), "{name}: {:?}", left.tree());
         });
@@ -199,7 +199,7 @@ fn what_vanishes_identically_is_zero() {
 #[test]
 fn a_root_takes_the_sign_of_the_values() {
     session(|| {
-        let x = letter("x", -2.0);
+        let x = variable("x", -2.0);
         assert_eq!((x * x).sqrt(), -x);
         assert_eq!(Symbol::zero().atan2(x), Symbol::of(std::f64::consts::PI));
     });
@@ -209,7 +209,7 @@ fn a_root_takes_the_sign_of_the_values() {
 fn equal_work_gives_the_same_tree() {
     let work = || {
         session(|| {
-            let [a, b] = ["a", "b"].map(|name| letter(name, 0.8));
+            let [a, b] = ["a", "b"].map(|name| variable(name, 0.8));
             ((a + b).powi(3) * (a - b).sin_cos().1 / (a + b * b)).tree()
         })
     };
@@ -219,7 +219,7 @@ fn equal_work_gives_the_same_tree() {
 #[test]
 fn a_linear_symbol_has_a_coefficient_and_a_rest() {
     session(|| {
-        let [a, b, u] = ["a", "b", "u"].map(|name| letter(name, 0.8));
+        let [a, b, u] = ["a", "b", "u"].map(|name| variable(name, 0.8));
         let (sum, of) = (a * b * u + a * b.sin_cos().0, Variable::new("u", 0));
         assert_eq!(sum.coefficient_of(&of), Some(a * b));
         assert_eq!(sum.without(std::slice::from_ref(&of)), a * b.sin_cos().0);
@@ -231,7 +231,7 @@ fn a_linear_symbol_has_a_coefficient_and_a_rest() {
 #[test]
 fn what_is_undefined_stays_so() {
     session(|| {
-        let a = letter("a", 1.0);
+        let a = variable("a", 1.0);
         let infinite = a / (a - a);
         assert!((infinite * Symbol::zero()).evaluate(&|_| 1.0).is_nan());
         assert!(matches!(infinite.tree(), Tree::Num { .. }));
@@ -242,7 +242,7 @@ fn what_is_undefined_stays_so() {
 fn a_function_that_is_known_by_name_has_its_derivatives() {
     session(|| {
         let rule = || -> super::Rule { std::rc::Rc::new(|x, order| [x * x, 2.0 * x, 2.0][order as usize]) };
-        let a = letter("a", 1.5);
+        let a = variable("a", 1.5);
         let f = (a * a).function("cam", 0, rule());
         assert_eq!(f.derivative(&Variable::new("a", 0)), (a * a).function("cam", 1, rule()) * a.scale(2.0));
         assert_eq!(f.evaluate(&|_| 3.0), 81.0);

@@ -34,7 +34,7 @@ fn sin(x: Symbol) -> Symbol {
 fn cos(x: Symbol) -> Symbol {
     x.sin_cos().1
 }
-fn letters<const N: usize>(names: [&str; N]) -> [Symbol; N] {
+fn variables<const N: usize>(names: [&str; N]) -> [Symbol; N] {
     let mut value = 0.6;
     names.map(|name| {
         value += 0.17;
@@ -49,7 +49,7 @@ fn written(symbol: Symbol) -> String {
 #[test]
 fn small_forms() {
     session(|| {
-        let [m, l, k, a, b] = letters(["m", "l", "M", "a", "b"]);
+        let [m, l, k, a, b] = variables(["m", "l", "M", "a", "b"]);
         let half = |x: Symbol| x.scale(0.5);
         let forms = [
             (Symbol::zero(), "0"),
@@ -83,8 +83,8 @@ fn small_forms() {
 #[test]
 fn rates_are_gathered_into_squares() {
     session(|| {
-        let [m, l, p, q, u, v] = letters(["m", "l", "p'", "q'", "p''", "q''"]);
-        let b = letters(["b"])[0];
+        let [m, l, p, q, u, v] = variables(["m", "l", "p'", "q'", "p''", "q''"]);
+        let b = variables(["b"])[0];
         assert_eq!(written(m * l * sin(b) * (p + q).powi(2)), "m l sin(b) (p' + q')^2");
         assert_eq!(written(m * l * (u + v)), "m l (p'' + q'')");
         let sum = m * l * (u + v) + m * sin(b) * (p * p + (p * q).scale(2.0)) + l * q;
@@ -94,8 +94,8 @@ fn rates_are_gathered_into_squares() {
 
 /// The moment of the outer force of a double pendulum about its pivot, less that of the weights.
 fn double_pendulum() -> [Symbol; 2] {
-    let [m1, m2, l1, l2, g] = letters(["m1", "m2", "l1", "l2", "g"]);
-    let [q, qd, qdd, p, pd, pdd] = letters(["q", "q'", "q''", "p", "p'", "p''"]);
+    let [m1, m2, l1, l2, g] = variables(["m1", "m2", "l1", "l2", "g"]);
+    let [q, qd, qdd, p, pd, pdd] = variables(["q", "q'", "q''", "p", "p'", "p''"]);
     let (q, p) = (Jet::new(q, qd, qdd), Jet::new(p, pd, pdd));
     let along = |l: Symbol, angle: Jet<Symbol>| {
         let (s, c) = angle.sin_cos();
@@ -120,11 +120,11 @@ fn a_double_pendulum_looks_as_in_a_textbook() {
 #[test]
 fn what_is_gathered_alone_keeps_its_sign_and_numbers() {
     session(|| {
-        let [m, l, b, a, w, i] = letters(["m", "l", "b", "a''", "w'", "I"]);
-        let [x, y] = letters(["x", "y"]);
+        let [m, l, b, a, w, i] = variables(["m", "l", "b", "a''", "w'", "I"]);
+        let [x, y] = variables(["x", "y"]);
         let inertia = i * a + m * l * (b * (cos(x - y) * a - sin(x - y) * w * w) + l * a);
         assert!(!written(inertia).contains("(-"), "{}", written(inertia));
-        let [p, q, r] = letters(["p'", "q'", "r'"]);
+        let [p, q, r] = variables(["p'", "q'", "r'"]);
         let (n, c) = (|a: f64, b: f64| Symbol::of(a / b), cos(x - y));
         let energy = n(7.0, 6.0) * p * p + n(2.0, 3.0) * q * q + n(3.0, 2.0) * c * p * q + n(1.0, 6.0) * r * r;
         assert!(!written(energy).contains("/9"), "{}", written(energy));
@@ -146,7 +146,7 @@ fn a_tree_can_be_grouped_by_unknowns() {
 #[test]
 fn a_cart_and_pole_has_its_usual_denominator() {
     session(|| {
-        let [c, m, l, g, q, qd] = letters(["M", "m", "l", "g", "q", "q'"]);
+        let [c, m, l, g, q, qd] = variables(["M", "m", "l", "g", "q", "q'"]);
         let x = m * sin(q) * (l * qd * qd + g * cos(q)) / (c + m * sin(q).powi(2));
         assert_eq!(written(x), "m (M + m sin(q)^2)^-1 sin(q) (l q'^2 + g cos(q))");
     });
@@ -155,7 +155,7 @@ fn a_cart_and_pole_has_its_usual_denominator() {
 #[test]
 fn a_tree_is_the_json_that_is_agreed_on() {
     session(|| {
-        let [m, q] = letters(["m", "q'"]);
+        let [m, q] = variables(["m", "q'"]);
         let json = serde_json::to_string(&(m * q * q * Symbol::of(1.5) + cos(m)).tree()).unwrap();
         let term = r#"{"mul":[{"num":"3/2"},{"sym":"m","dots":0},{"pow":[{"sym":"q","dots":1},"2"]}]}"#;
         let rest = r#"{"fn":"cos","args":[{"sym":"m","dots":0}]}"#;
