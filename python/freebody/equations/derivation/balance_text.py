@@ -14,7 +14,6 @@ from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.balances.virtual_motions import placed
 from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
-from freebody.solve.perturbed_states import extent
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.evaluate import evaluate

@@ -11,7 +11,7 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Writte
 from freebody.equations.balances.conserved_momenta import ConservedMomentum, conserved_momenta, independent
 from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.derivation.sentences import clause, joined
-from freebody.solve.perturbed_states import extent, moving_states
+from freebody.solve.perturbed_states import moving_states
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import quotient
