@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import markupsafe
 
@@ -22,11 +21,8 @@ class Html(TypesetMarkup):
     """A fragment of a page."""
 
     kind = markupsafe.Markup
+    look = "blocks.html"
     room = math.inf  # a browser breaks lines by itself
-
-    @property
-    def _blocks(self) -> Any:
-        return template(__package__, "blocks.html").module
 
     def plain(self, text: str) -> str:
         return markupsafe.escape(text)
@@ -36,22 +32,10 @@ class Html(TypesetMarkup):
 
     def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
         [(_, whole)] = rows
-        return self._blocks.display(self.kind(broken(whole)), label)
-
-    def heading(self, title: str, level: int) -> str:
-        return self._blocks.heading(title, level)
-
-    def paragraph(self, words: str) -> str:
-        return self._blocks.paragraph(words)
-
-    def bullets(self, items: Sequence[str]) -> str:
-        return self._blocks.bullets(items)
-
-    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
-        return self._blocks.table(heads, rows, caption)
+        return self.blocks.display(self.kind(broken(whole)), label)
 
     def figure(self, figure: Figure, caption: str) -> str:
-        return self._blocks.figure(self.kind(figure.picture.inline()), caption)
+        return self.blocks.figure(self.kind(figure.picture.inline()), caption)
 
 
 def page(blocks: Sequence[Block], nomenclature: Nomenclature, around: str = "page.html") -> str:

@@ -19,13 +19,14 @@ _TALL = 12
 """Rows of an equation beyond which it may go on over the next page."""
 _INLINE = 16.0
 """Width, in em, beyond which a formula in a list stands on lines of its own: TeX does not break it within brackets."""
-_SECTIONS = ("section", "subsection", "subsubsection", "paragraph")
 _SIGNS = COMMANDS | {sign: f"_{digit}" for digit, sign in enumerate("₀₁₂₃₄₅₆₇₈₉")} | {"⁴": "^4", "⁻": "^-", "′": "'"}
 _MARKS = {"\u0307": ACCENTS["˙"], "\u0308": ACCENTS["¨"]}
 
 
 class Latex(TypesetMarkup):
     """A fragment of an article."""
+
+    look = "blocks.tex.j2"
 
     def render(self, blocks: Sequence[Block]) -> str:
         # Formulas in sentences are hardly ever broken: spaces may be wide.
@@ -48,9 +49,6 @@ class Latex(TypesetMarkup):
             return f"{{\\allowdisplaybreaks\n\\begin{{align}}\n{shown} {tag}\n\\end{{align}}}}"
         return f"\\begin{{equation}}\n{math} {tag}\n\\end{{equation}}"
 
-    def heading(self, title: str, level: int) -> str:
-        return rf"\{_SECTIONS[min(level, 4) - 1]}*{{{title}}}"
-
     def item(self, words: Words) -> str:
         """A sentence of which a long formula stands below."""
         shown = (each if isinstance(each, str) else side_formula(each, self.nomenclature) for each in pieces(words))
@@ -58,15 +56,6 @@ class Latex(TypesetMarkup):
             self.plain(each) if isinstance(each, str) else self.inline(each) if width(each) <= _INLINE else _below(each)
             for each in shown
         )
-
-    def bullets(self, items: Sequence[str]) -> str:
-        return "\n".join([r"\begin{itemize}\sloppy", *(rf"\item {item}" for item in items), r"\end{itemize}"])
-
-    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
-        body = [" & ".join(row) + r" \\" for row in rows]
-        top = [rf"\begin{{tabular}}{{{'l' * len(heads)}}}", " & ".join(heads) + r" \\ \hline"]
-        shown = _fitted("\n".join([*top, *body, r"\end{tabular}"]))
-        return "\n".join([r"\begin{center}", *([caption, "", ""] if caption else []), shown, r"\end{center}"])
 
     def figure(self, figure: Figure, caption: str) -> str:
         if not self.beside:

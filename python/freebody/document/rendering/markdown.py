@@ -15,6 +15,8 @@ from freebody.symbolic.printers.latex import aligned, latex
 class Markdown(TypesetMarkup):
     """Markdown with dollars."""
 
+    look = "blocks.md.j2"
+
     def plain(self, text: str) -> str:
         return re.sub(r"([\\`*_\[\]<>$#|])", r"\\\1", text)
 
@@ -23,16 +25,6 @@ class Markdown(TypesetMarkup):
 
     def display(self, rows: Sequence[tuple[Formula, Formula]], label: str) -> str:
         return f"$$\n{aligned(rows)}{f' {chr(92)}tag{{{label}}}' if label else ''}\n$$"
-
-    def heading(self, title: str, level: int) -> str:
-        return f"{'#' * level} {title}"
-
-    def bullets(self, items: Sequence[str]) -> str:
-        return "\n".join(f"- {item}" for item in items)
-
-    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
-        lines = [f"| {' | '.join(row)} |" for row in (heads, ["---"] * len(heads), *rows)]
-        return "\n".join(([caption, ""] if caption else []) + lines)
 
     def figure(self, figure: Figure, caption: str) -> str:
         if not self.beside:

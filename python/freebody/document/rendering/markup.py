@@ -6,7 +6,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from freebody.document.blocks import (
     Block,
@@ -25,6 +25,7 @@ from freebody.document.blocks import (
     pieces,
 )
 from freebody.document.rendering.matrices import Named, fitted, has_matrices
+from freebody.document.templates import template
 from freebody.symbolic.formula import GAP, Formula, joined
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.line_breaking import ROOM, equation
@@ -113,9 +114,9 @@ class Markup(ABC):
     def heading(self, title: str, level: int) -> str:
         """A heading."""
 
+    @abstractmethod
     def paragraph(self, words: str) -> str:
         """A paragraph."""
-        return words
 
     @abstractmethod
     def bullets(self, items: Sequence[str]) -> str:
@@ -133,8 +134,27 @@ class Markup(ABC):
 class TypesetMarkup(Markup):
     """A format that spells formulas."""
 
+    look: ClassVar[str]
+    """The template of its headings, paragraphs, lists and tables."""
     room: ClassVar[float] = ROOM
     """Width of a line in em."""
+
+    @property
+    def blocks(self) -> Any:
+        """The macros of the template."""
+        return template(__package__, self.look).module
+
+    def heading(self, title: str, level: int) -> str:
+        return self.blocks.heading(title, level)
+
+    def paragraph(self, words: str) -> str:
+        return self.blocks.paragraph(words)
+
+    def bullets(self, items: Sequence[str]) -> str:
+        return self.blocks.bullets(items)
+
+    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
+        return self.blocks.table(heads, rows, caption)
 
     def math(self, side: Side) -> str:
         return self.inline(side_formula(side, self.nomenclature))
