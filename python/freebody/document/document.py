@@ -61,6 +61,7 @@ class Document:
         """The equations as SymPy ``Eq``, those of matrices as ``Eq(A x, b)``; vectors and what is only written are left out.
 
         With ``time`` coordinates are functions of t, else plain symbols, as rates and accelerations are."""
+
         def matrix(rows: Sequence[Sequence[Tree]]) -> Any:
             return sympy.Matrix([[to_sympy(entry, self.letters, time=time) for entry in row] for row in rows])
 

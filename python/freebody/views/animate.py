@@ -47,7 +47,9 @@ def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
     start, end = run.edges[0], run.edges[-1]
     frames = max(2, round((end - start) / speed * fps) + 1)
     if frames > MAX_FRAMES:
-        raise ValueError(f"the film would have {frames} frames; at most {MAX_FRAMES} are drawn: take a shorter run, or a higher speed")
+        raise ValueError(
+            f"the film would have {frames} frames; at most {MAX_FRAMES} are drawn: take a shorter run, or a higher speed"
+        )
     times = np.linspace(start, end, frames)
     if not run.recorded:
         return times

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -41,15 +42,21 @@ def peak_reactions(run: Run) -> list[Peak]:
     sampled = run if run.recorded else run.at(Window(run.edges).samples())
     noise = couple_noise(sampled)
     peaks = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
+    return peaks + [_peak_of_part(run, sampled, *part) for part in _parts(run)]
+
+
+def _parts(run: Run) -> Iterator[tuple[str, str, list[str], bool, list[str]]]:
+    """Of contacts, strings, stops, locks and motions: the name, the body that the force acts on, expressions of the components of the
+    force, whether it is a couple, and expressions of the components in the fixed axes."""
     for limit in run.metadata["limits"]:
-        texts = {"contact": ["N", "T"], "string": ["tension"], "stop": ["N"]}[limit["type"]]
-        turns, parts = limit["dimension"] == "rad", [] if limit["type"] == "stop" else ["Fx", "Fy"]
-        peaks.append(_peak_of_part(run, sampled, limit["name"], limit["first"], texts, turns, parts))
+        name, turns = limit["name"], limit["dimension"] == "rad"
+        parts = {"contact": ["N", "T"], "string": ["tension"], "stop": ["N"]}[limit["type"]]
+        axes = [] if limit["type"] == "stop" else ["Fx", "Fy"]
+        yield name, limit["first"], [f"{quote(name)}.{part}" for part in parts], turns, [f"{quote(name)}.{part}" for part in axes]
     for lock in run.metadata["locks"]:
-        peaks.append(_peak_of_part(run, sampled, lock["name"], lock["second"], ["force"], lock["turns"], []))
+        yield lock["name"], lock["second"], [f"{quote(lock['name'])}.force"], lock["turns"], []
     for motion in run.metadata["motions"]:
-        peaks.append(_peak_of_part(run, sampled, motion["name"], "", ["force"], motion["readings"]["force"] == "N*m", []))
-    return peaks
+        yield motion["name"], "", [f"{quote(motion['name'])}.force"], motion["readings"]["force"] == "N*m", []
 
 
 def known_peaks(run: Run) -> list[Peak]:
@@ -57,10 +64,8 @@ def known_peaks(run: Run) -> list[Peak]:
     if run.recorded:
         return peak_reactions(run)
     accuracy = run.accuracy
-    loads = {"contact": "hypot({0}.N, {0}.T)", "string": "{0}.tension", "stop": "{0}.N"}
     texts = [f"{quote(name)}.{part}" for part in "FM" for name, reaction in run.reactions.items() if reaction.carries]
-    others = [loads[limit["type"]].format(quote(limit["name"])) for limit in run.metadata["limits"]]
-    others += [f"{quote(held['name'])}.force" for held in [*run.metadata["locks"], *run.metadata["motions"]]]
+    others = [f"hypot({', '.join(parts)})" if len(parts) > 1 else parts[0] for _, _, parts, _, _ in _parts(run)]
     band = accuracy.band(lambda run, t: np.abs(run.motion.evaluate([*texts, *others], t)))
     joints, known = len(texts) // 2, []
     pairs = list(zip(peak_reactions(run), peak_reactions(accuracy.other), strict=True))
@@ -109,7 +114,7 @@ def _peak_of_part(run: Run, sampled: Run, name: str, body: str, texts: list[str]
     """The largest force, or couple where it ``turns``, of which expressions give the components; ``parts``: those in the fixed axes."""
 
     def size(motion: Motion, t: Array) -> Array:
-        return np.hypot.reduce(motion.evaluate([f"{quote(name)}.{text}" for text in texts], t), axis=1)
+        return np.hypot.reduce(motion.evaluate(texts, t), axis=1)
 
     sizes = size(sampled.motion, sampled.t)
     if np.isnan(sizes).any():
@@ -119,7 +124,7 @@ def _peak_of_part(run: Run, sampled: Run, name: str, body: str, texts: list[str]
         return Peak(name, body, True, couple=largest, t_couple=t)
     if run.recorded or not parts:
         return Peak(name, body, True, t, largest)
-    force = run.motion.evaluate([f"{quote(name)}.{part}" for part in parts], np.array([t]))[0]
+    force = run.motion.evaluate(parts, np.array([t]))[0]
     return Peak(name, body, True, t, largest, *force.tolist())
 
 

@@ -92,5 +92,9 @@ def _sign(sign: str, mark: str) -> str | None:
 
 
 FORMAT = Format(
-    "tex", "latex", "A fragment of LaTeX.", lambda blocks, nomenclature, beside: Latex(nomenclature, beside).render(blocks), figures=".pdf"
+    "tex",
+    "latex",
+    "A fragment of LaTeX.",
+    lambda blocks, nomenclature, beside: Latex(nomenclature, beside).render(blocks),
+    figures=".pdf",
 )

@@ -51,6 +51,8 @@ class Markup(ABC):
     named: Named = field(default_factory=Named)
     kind: ClassVar[type[str]] = str
     """Of what is made: text, or text that knows that it is markup already."""
+    look: ClassVar[str] = ""
+    """The name of a template."""
     gap: ClassVar[str] = "\n\n"
     """Between an equation, its name and its note."""
     across: ClassVar[int] = 80
@@ -110,21 +112,26 @@ class Markup(ABC):
     def plain(self, text: str) -> str:
         """Text with the signs of the markup escaped."""
 
-    @abstractmethod
+    @property
+    def blocks(self) -> Any:
+        """The macros of the template that says how headings, paragraphs, lists and tables look."""
+        return template(__package__, self.look).module
+
     def heading(self, title: str, level: int) -> str:
         """A heading."""
+        return self.blocks.heading(title, level)
 
-    @abstractmethod
     def paragraph(self, words: str) -> str:
         """A paragraph."""
+        return self.blocks.paragraph(words)
 
-    @abstractmethod
     def bullets(self, items: Sequence[str]) -> str:
         """A list."""
+        return self.blocks.bullets(items)
 
-    @abstractmethod
     def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
         """A table."""
+        return self.blocks.table(heads, rows, caption)
 
     @abstractmethod
     def figure(self, figure: Figure, caption: str) -> str:
@@ -134,27 +141,8 @@ class Markup(ABC):
 class TypesetMarkup(Markup):
     """A format that spells formulas."""
 
-    look: ClassVar[str]
-    """The template of its headings, paragraphs, lists and tables."""
     room: ClassVar[float] = ROOM
     """Width of a line in em."""
-
-    @property
-    def blocks(self) -> Any:
-        """The macros of the template."""
-        return template(__package__, self.look).module
-
-    def heading(self, title: str, level: int) -> str:
-        return self.blocks.heading(title, level)
-
-    def paragraph(self, words: str) -> str:
-        return self.blocks.paragraph(words)
-
-    def bullets(self, items: Sequence[str]) -> str:
-        return self.blocks.bullets(items)
-
-    def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
-        return self.blocks.table(heads, rows, caption)
 
     def math(self, side: Side) -> str:
         return self.inline(side_formula(side, self.nomenclature))

@@ -24,7 +24,11 @@ def side_text(side: Side, nomenclature: Nomenclature, *, ascii: bool = False) ->
     """One side of an equation, or mathematics in a sentence."""
     if isinstance(side, Written):
         return side.text
-    return printer(nomenclature, ascii).vector(side.components) if isinstance(side, Vector) else text(side, nomenclature, ascii=ascii)
+    return (
+        printer(nomenclature, ascii).vector(side.components)
+        if isinstance(side, Vector)
+        else text(side, nomenclature, ascii=ascii)
+    )
 
 
 def words_text(words: Words, nomenclature: Nomenclature) -> str:
@@ -78,18 +82,19 @@ class Text(Markup):
         return "\n".join(self.paragraph(item, "- ") for item in items)
 
     def equation(self, block: Equation) -> str:
-        lines = textwrap.indent(self._spread(block) if has_matrices(block) else self._folded(block), _INDENT).split("\n")
+        left, right = block.left, block.right
+        room = self.width - len(_INDENT) - (len(block.label) + 4 if block.label else 0)
+        if has_matrices(block):
+            shown = self._spread(block)
+        elif is_tree(left) and is_tree(right):
+            shown = equation_text(left, right, self.nomenclature, ascii=self.ascii, width=room)
+        else:
+            left, right = (side_text(side, self.nomenclature, ascii=self.ascii) for side in (left, right))
+            shown = folded(f"{left} = ", right, room)
+        lines = textwrap.indent(shown, _INDENT).split("\n")
         if block.label:
             lines[-1] += " " * max(2, self.width - columns(lines[-1]) - len(block.label) - 2) + f"({block.label})"
         return "\n".join(lines)
-
-    def _folded(self, block: Equation) -> str:
-        room = self.width - len(_INDENT) - (len(block.label) + 4 if block.label else 0)
-        left, right = block.left, block.right
-        if is_tree(left) and is_tree(right):
-            return equation_text(left, right, self.nomenclature, ascii=self.ascii, width=room)
-        left, right = (side_text(side, self.nomenclature, ascii=self.ascii) for side in (left, right))
-        return folded(f"{left} = ", right, room)
 
     def _spread(self, block: Equation) -> str:
         """Matrices side by side, over several lines."""
@@ -103,7 +108,9 @@ class Text(Markup):
         """The lines of a product of matrices, or of a symbol."""
         if not isinstance(side, Matrices):
             return [side_text(side, self.nomenclature, ascii=self.ascii)]
-        shown = ([[text(tree, self.nomenclature, ascii=self.ascii) for tree in row] for row in each.rows] for each in side.factors)
+        shown = (
+            [[text(tree, self.nomenclature, ascii=self.ascii) for tree in row] for row in each.rows] for each in side.factors
+        )
         parts = [self._bracketed(rows) for rows in shown]
         height = max(map(len, parts))
         return [" ".join(row) for row in zip(*(_padded(part, height) for part in parts), strict=True)]

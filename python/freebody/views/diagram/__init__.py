@@ -96,15 +96,15 @@ def diagram(
     pt."""
     near = free if scaled else _further(source, state, free)
     laws = None if scaled else Laws(source, state, free)
-    chosen = every_body(free) if groups is None else tuple(map(tuple, groups))
+    chosen = chosen_groups(groups, free)
     labels = Labels(SymbolicState(source, state, given=free), free)
     builder = DiagramBuilder(source, state, free, near, labels, chosen, scaled, effective, column, laws)
     return Diagram(f"free-body diagrams of {source.name}", free, lambda: map(builder.cut, chosen))
 
 
-def every_body(free: FreeBodies) -> tuple[tuple[str, ...], ...]:
-    """Every body by itself."""
-    return tuple((name,) for name in free.bodies)
+def chosen_groups(groups: Sequence[Sequence[str]] | None, free: FreeBodies) -> tuple[tuple[str, ...], ...]:
+    """The groups that are drawn, by default every body by itself."""
+    return tuple((name,) for name in free.bodies) if groups is None else tuple(map(tuple, groups))
 
 
 @dataclass(frozen=True)

@@ -77,18 +77,13 @@ def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels:
             # Now it is 0: its directions are those that it has a little further on.
             now, then = {part.body: part.point for part in load.on}, beyond.get(load.symbol, load).on
             load = replace(load, on=tuple(replace(part, point=now.get(part.body, part.point)) for part in then))
-        for part in load.on:
-            if part.body in group:
-                yield from _positive(load, part, labels.of(load), sketch)
-
-
-def _positive(load: Load, part: Part, sign: Sign, sketch: Sketch) -> Iterator[Action]:
-    force, couple = _sense(load, part, sketch)
-    size, plain = np.hypot(*force), _acts(load, part, sign, force, couple, sketch)
-    if size > 0:
-        yield replace(plain, force=force / size, couple=0.0)
-    if couple:
-        yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
+        for part in (part for part in load.on if part.body in group):
+            force, couple = _sense(load, part, sketch)
+            size, plain = np.hypot(*force), _acts(load, part, labels.of(load), force, couple, sketch)
+            if size > 0:
+                yield replace(plain, force=force / size, couple=0.0)
+            if couple:
+                yield replace(plain, force=np.zeros(2), couple=float(np.sign(couple)))
 
 
 def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketch: Sketch) -> Action:

@@ -92,7 +92,7 @@ def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | No
 
 def _choices(action: Action, scenery: Scenery, per_newton: float | None) -> list[Arrow]:
     """The ways in which a force may be drawn."""
-    at, size = scenery.place(action.at), float(np.hypot(*action.force))
+    at, size = scenery.scale * action.at, float(np.hypot(*action.force))
     way = action.force / size
     lengths = [LENGTH * more for more in _LONGER] if per_newton is None else [max(per_newton * size, SHORTEST)]
     starts = [at + aside * np.array([-way[1], way[0]]) for aside in _ASIDES]
@@ -119,7 +119,7 @@ def _alone(arrow: Arrow, scenery: Scenery) -> float:
     inside = sum(int(shapes.inside(solid, shaft).sum()) for solid in scenery.solids)
     drawn = _near(_beyond(arrow, shaft), scenery.obstacles, 2.5)
     reverse = 3.0 * np.array_equal(arrow.head, arrow.at)
-    action, moved = arrow.action, float(np.hypot(*(arrow.at - scenery.place(arrow.action.at))))
+    action, moved = arrow.action, float(np.hypot(*(arrow.at - scenery.scale * arrow.action.at)))
     pinned = not (action.pulls or action.kind == "force")
     aside = moved if scenery.slides(action) else _MOVED * moved + _OFF_ITS_POINT * (pinned and moved > 0)
     return 1.5 * inside + 1.0 * drawn + 0.6 * arrow.length + reverse + aside
@@ -153,7 +153,7 @@ def _near(places: Array, obstacles: Array, distance: float) -> int:
 def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow:
     """A couple may stand anywhere on its body: that of a joint at it, that of its motor near it; else its own point comes first,
     then the mass centre."""
-    own, centre = scenery.place(action.at), scenery.centres[action.body]
+    own, centre = scenery.scale * action.at, scenery.centres[action.body]
     parts = [min(0.5, step / (float(np.hypot(*(centre - own))) or 1.0)) for step in _TOWARDS]
     parts = [0.0] if action.kind in ("joint", "friction") else parts if action.bound else [0.0, 1.0, 0.5, 0.75, 1.4]
     places = [own + part * (centre - own) for part in parts]

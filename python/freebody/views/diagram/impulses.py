@@ -10,7 +10,7 @@ from freebody.core import FreeBodies
 from freebody.impact.impacts import Impulsive
 from freebody.impact.symbols import ImpulsiveState
 from freebody.symbolic.symbols import Name
-from freebody.views.diagram import Cut, Diagram, DiagramBuilder, every_body
+from freebody.views.diagram import Cut, Diagram, DiagramBuilder, chosen_groups
 from freebody.views.diagram.names import Labels, Sign
 from freebody.views.diagram.rows import COLUMN
 
@@ -57,7 +57,7 @@ def impulse_diagram(
     # A body that no impulse acts on: nothing of its momentum jumps.
     moved = {name: body if free.on(name) else replace(body, mass=0.0, inertia=0.0) for name, body in free.bodies.items()}
     touched = FreeBodies(moved, free.loads)
-    chosen = every_body(free) if groups is None else tuple(map(tuple, groups))
+    chosen = chosen_groups(groups, free)
 
     def draw() -> Iterator[Cut]:
         labels = _Jumps(ImpulsiveState.of(impact), free)

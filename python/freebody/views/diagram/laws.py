@@ -104,10 +104,10 @@ class Laws:
         if "between" not in fields or stiffness is None or rest is None or damping is None:
             return []
         length = rf"\overline{{{' '.join(map(self._end, fields['between']))}}}"
+        factor, stretched = stiffness, length if is_zero(rest) else rf"\left({length} - {latex(formula(rest))}\right)"
         if load.card.name == "damper":
-            return [_times(damping, rf"\frac{{d}}{{dt}}{length}")]
-        stretch = length if is_zero(rest) else rf"\left({length} - {latex(formula(rest))}\right)"
-        return [_times(stiffness, stretch)]
+            factor, stretched = damping, rf"\frac{{d}}{{dt}}{length}"
+        return [stretched if factor == number(1) else rf"{latex(formula(factor))}\,{stretched}"]
 
     def _end(self, point: str) -> str:
         """The symbol of a point; of a particle it is that of its body."""
@@ -122,10 +122,6 @@ def _quantity(given: Any) -> Tree | None:
     if isinstance(given, int | float):
         return number(given)
     return Sym(given) if _PLAIN.fullmatch(given) else None
-
-
-def _times(factor: Tree, rest: str) -> str:
-    return rest if factor == number(1) else rf"{latex(formula(factor))}\,{rest}"
 
 
 def _spaced(line: str) -> str:

@@ -61,7 +61,8 @@ class Dimension:
 
 @dataclass(frozen=True)
 class Scenery:
-    """What is seen of a group on paper. ``inner``: lines of springs and strings within it; ``pins``, ``centres``: places (k, 2)."""
+    """What is seen of a group on paper. ``inner``: lines of springs and strings within it; ``pins``, ``centres``: places (k, 2);
+    ``scale`` in pt for each m."""
 
     strokes: list[Drawn]
     inner: list[Array]
@@ -71,10 +72,6 @@ class Scenery:
     dimensions: list[Dimension]
     scale: float
     sketch: Sketch
-
-    def place(self, at: Array) -> Array:
-        """From fixed axes in m to paper in pt."""
-        return self.scale * at
 
     def bare(self) -> Scenery:
         """The same without coordinates and points other than mass centres."""
