@@ -79,6 +79,50 @@ def test_the_sequence_of_mode_changes_does_not_depend_on_the_tolerance(model):
     assert len(kinds(runs[-1])) > 3
 
 
+NEAR_MISS = {
+    "spring": """
+gravity: none
+parameters: {{c: {level}, k: 1 N/m}}
+bodies: {{a: {{shape: particle, mass: 1}}, b: {{shape: particle, mass: 1}}}}
+joints:
+  A: {{type: free, of: [ground.O, a.centre], coordinates: [x, y]}}
+  B: {{type: free, of: [a.centre, b.centre], coordinates: [z, w]}}
+forces: {{s: {{type: spring, along: x, stiffness: k}}}}
+initial: {{x: 1 m, y: 0, z: 0, w: 0, rates: {{x: 0, y: 0.1 m/s, z: 0.2 m/s, w: 0}}}}
+events: {{e: {{when: "x + c*(1 m)", direction: any, then: {then}}}}}
+run: {{until: 8 s}}
+""",
+    "pendulum": """
+parameters: {{l: 1 m, c: {level}}}
+bodies: {{b: {{shape: particle, mass: 1}}, d: {{shape: particle, mass: 1}}}}
+joints:
+  A: {{type: polar, of: [ground.O, b.centre], coordinates: [r, phi]}}
+  B: {{type: free, of: [ground.O, d.centre], coordinates: [z, w]}}
+motions: {{length: {{of: r, is: l}}}}
+initial: {{phi: -30 deg, z: 0, w: 0, rates: {{phi: 0, z: 1, w: 0}}}}
+events: {{e: {{when: "y(b.centre) + c*(0.5 m)", direction: any, then: {then}}}}}
+run: {{until: 4 s}}
+""",
+}
+"""The spring comes to −c at t = π; the pendulum comes back to the height of its start at c = 1."""
+ACTIONS = ("stop", "{lock: w}", "{reset: {w: 1 m/s}}", "{release: B}", "{set: {c: 2}}")
+MISSES = [0.0, *(sign * 10.0**-digits for digits in range(3, 10) for sign in (1, -1))]
+GRAZING = {f"{name} {then} {miss}": (name, then, miss) for name in NEAR_MISS for then in ACTIONS for miss in MISSES}
+APART = 10.0
+"""Tolerances by which a level is missed, or passed, clearly."""
+
+
+@every(GRAZING, "case", share=40)
+def test_what_an_event_does_that_nearly_misses_its_level_does_not_depend_on_the_tolerance(case):
+    name, then, miss = GRAZING[case]
+    mechanism = loaded(NEAR_MISS[name].format(level=1 + miss, then=then))
+    runs = [mechanism.simulate(rtol=float(rtol)) for rtol in TOLERANCES if miss == 0 or APART * rtol <= abs(miss) * 1.01]
+    # An exact touch never acts, but a loose tolerance may pass by it unseen.
+    recorded = [[event.kind for event in run.events if miss or event.kind != "touch"] for run in runs]
+    seen = [(run.outcome.name, kinds(run), kept) for run, kept in zip(runs, recorded, strict=True)]
+    assert seen and all(each == seen[-1] for each in seen)
+
+
 SENSITIVITY = 1e4
 """Change of the instants of a second of motion, s, over the tolerance: impacts and swings make errors grow."""
 

@@ -13,8 +13,10 @@ mod mode_changes;
 mod mode_resolution;
 mod parts;
 mod record;
+mod scales;
 mod system;
 mod trajectory;
+mod works;
 
 pub use canonical::mass_matrix;
 pub use impacts::Rule;

@@ -288,7 +288,7 @@ impl HybridSystem<'_> {
         let (q, rest) = y.split_at_mut(n);
         self.workspace.project_velocities(mode, t, q, &mut rest[..n])?;
         self.place_in(mode, t, y);
-        if self.driven.is_empty() || y[n..2 * n] == before {
+        if self.works.motions.is_empty() || y[n..2 * n] == before {
             return Ok(0.0);
         }
         let works = self.workspace.drive_works_since(&before, &[])?;

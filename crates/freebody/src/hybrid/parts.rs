@@ -105,7 +105,7 @@ impl HybridSystem<'_> {
             return Err(error);
         }
         let after = self.workspace.kinetic_energy();
-        if self.driven.is_empty() {
+        if self.works.motions.is_empty() {
             return Ok(energy - after);
         }
         let works = self.workspace.drive_works_since(&before[n..2 * n], given)?;

@@ -3,6 +3,8 @@
 use super::guards::SwitchingFunction;
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
+use super::scales::ROUNDOFF;
+use super::works::Works;
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::State;
@@ -16,8 +18,6 @@ const NEAR_SINGULAR: f64 = 0.1;
 /// That below which the steps look out for a singular configuration: far enough to come to it by a step across.
 const WATCHED: f64 = 0.5;
 
-/// Size of a guard, for its round-off, while coordinates are small: places are sums of some lengths.
-const ROUNDOFF: f64 = 4.0;
 /// Part of the way to there over which the fall of the independence is a difference.
 const GLANCE: f64 = 1e-3;
 /// Gap that a stage keeps, by round-off, and a factor 27 for the independence that falls to a third within a step.
@@ -44,14 +44,8 @@ pub struct HybridSystem<'m> {
     switching_functions: Vec<SwitchingFunction>,
     /// What is active now.
     pub(super) mode: Mode,
-    /// Forces whose work is integrated.
-    pub(super) worked: Vec<usize>,
-    /// Prescribed motions, whose work is integrated.
-    pub(super) driven: Vec<usize>,
-    /// Whether the work of friction is integrated.
-    pub(super) has_friction: bool,
-    /// Whether the work of springs of unilateral constraints is integrated.
-    pub(super) has_compliant_contacts: bool,
+    /// What works are integrated.
+    pub(super) works: Works,
     /// What is done about impacts that the laws leave open.
     pub(super) rule: Rule,
     /// Whether contacts that jam by friction jump, instead of ending the run.
@@ -68,7 +62,7 @@ pub struct HybridSystem<'m> {
     pub(super) strength: f64,
     pub(super) speed: f64,
     /// The time in which it moves its own length, or turns by a radian, s.
-    time: f64,
+    pub(super) time: f64,
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) phases: Vec<Phase>,
@@ -77,32 +71,24 @@ pub struct HybridSystem<'m> {
     near_singular: bool,
     /// Independence of the closing rows at the end of the last step; 0 where a phase begins, before it is known.
     pub(super) independence: f64,
-    scales: Vec<f64>,
+    pub(super) scales: Vec<f64>,
     /// A large change of each coordinate.
-    units: Vec<f64>,
+    pub(super) units: Vec<f64>,
     /// Size of a guard, for its round-off.
-    roundoff_scale: f64,
+    pub(super) roundoff_scale: f64,
 }
 
 impl<'m> HybridSystem<'m> {
     /// A mechanism at given parameters, in a mode.
     pub fn new(workspace: Workspace<'m>, mode: Mode, p: &[f64]) -> Self {
         let m = workspace.m;
-        let worked = (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative());
-        let driven = (0..m.drives.len()).filter(|&d| m.drives[d].is_motion());
-        let (worked, driven): (Vec<_>, Vec<_>) = (worked.collect(), driven.collect());
-        let friction =
-            !m.joint_friction.is_empty() || m.unilateral.iter().any(|constraint| constraint.friction.is_some());
-        let presses = m.unilateral.iter().any(|constraint| constraint.soft.is_some());
-        let size = 2 * m.freedom() + worked.len() + driven.len() + usize::from(friction) + usize::from(presses);
+        let works = Works::of(m);
+        let size = 2 * m.freedom() + works.count();
         HybridSystem {
             workspace,
             switching_functions: SwitchingFunction::all(m).collect(),
             mode,
-            worked,
-            driven,
-            has_friction: friction,
-            has_compliant_contacts: presses,
+            works,
             rule: Rule::Stop,
             jam_by_impact: false,
             mode_changes: vec![],
@@ -130,7 +116,7 @@ impl<'m> HybridSystem<'m> {
         y
     }
 
-    fn split<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
+    pub(super) fn split<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
         let n = self.workspace.m.freedom();
         (&y[..n], &y[n..2 * n])
     }
@@ -180,43 +166,13 @@ impl<'m> HybridSystem<'m> {
         }
     }
 
-    /// Learns the physical sizes of the state's components from the starting state: lengths from the mechanism, the time
-    /// from its speeds and accelerations there and from gravity, or from the end of the run where nothing moves yet.
-    pub fn set_scales(&mut self, t: f64, until: f64, y: &[f64]) {
-        self.place(t, y);
-        let m = self.workspace.m;
-        let (n, run) = (m.freedom(), (until - t).abs());
-        self.workspace.take_length_of_motion(run);
-        let (length, fastest) = (self.workspace.length, self.workspace.natural_rate());
-        let rate = match run {
-            _ if fastest > 0.0 => fastest,
-            0.0 => 1.0,
-            _ => 1.0 / run,
-        };
-        let units = self.workspace.units();
-        let q = self.split(y).0;
-        let mut scales: Vec<f64> = (0..n).map(|i| units[i].max(q[i].abs())).collect();
-        scales.extend(units.iter().map(|unit| unit * rate));
-        let numbers = self.workspace.at().n;
-        let turning = (1..m.bodies.len()).filter(|&i| !m.bodies[i].particle).map(|i| numbers.inertia[i]).sum::<f64>();
-        let inertia = numbers.mass.iter().sum::<f64>() * length * length + turning;
-        let energy = (inertia * rate * rate).max(self.workspace.kinetic_energy()).max(f64::MIN_POSITIVE);
-        scales.resize(self.scales.len(), energy);
-        self.scales = scales;
-        self.units = units;
-        self.roundoff_scale = ROUNDOFF;
-        self.speed = length * rate;
-        self.time = 1.0 / rate;
-        self.strength = energy / length;
-    }
-
     /// Enters the works of drives in an impact; returns what motions put in, J.
     pub(super) fn add_drive_works(&self, y: &mut [f64], works: &[f64]) -> f64 {
-        let first = 2 * self.workspace.m.freedom() + self.worked.len();
-        for (sum, &drive) in y[first..].iter_mut().zip(&self.driven) {
+        let first = 2 * self.workspace.m.freedom() + self.works.forces.len();
+        for (sum, &drive) in y[first..].iter_mut().zip(&self.works.motions) {
             *sum += works[drive];
         }
-        self.driven.iter().map(|&drive| works[drive]).sum()
+        self.works.motions.iter().map(|&drive| works[drive]).sum()
     }
 
     /// Independence of the closing rows at a state, and a short time later as it goes now; that time.
@@ -256,25 +212,8 @@ impl<'m> HybridSystem<'m> {
     /// Values of laws at a state.
     pub(super) fn read(&mut self, laws: &[&ModelExpr], t: f64, y: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         self.place(t, y);
-        let works = self.works(y);
+        let works = self.works.spread(self.workspace.m, y);
         self.workspace.evaluate(laws, &works)
-    }
-
-    /// The works in the state vector, spread over all forces, then all drives, then that of friction.
-    pub(super) fn works(&self, y: &[f64]) -> Vec<f64> {
-        let m = self.workspace.m;
-        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
-        let tail = &y[2 * m.freedom()..];
-        if self.has_friction {
-            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
-        }
-        for (i, &f) in self.worked.iter().enumerate() {
-            works[f] = tail[i];
-        }
-        for (i, &d) in self.driven.iter().enumerate() {
-            works[m.forces.len() + d] = tail[self.worked.len() + i];
-        }
-        works
     }
 }
 
@@ -293,21 +232,7 @@ impl System for HybridSystem<'_> {
         self.solve_stage(t, y)?;
         dy[..n].copy_from_slice(self.workspace.at().u);
         self.workspace.accelerations(&mut dy[n..2 * n]);
-        for (i, &f) in self.worked.iter().enumerate() {
-            dy[2 * n + i] = crate::dynamics::unaccounted_power(self.workspace.at(), f);
-        }
-        if !self.driven.is_empty() {
-            let powers = self.workspace.solved_view().drive_powers();
-            for (i, &d) in self.driven.iter().enumerate() {
-                dy[2 * n + self.worked.len() + i] = powers[d];
-            }
-        }
-        if self.has_friction {
-            dy[2 * n + self.worked.len() + self.driven.len()] = self.workspace.friction_power();
-        }
-        if self.has_compliant_contacts {
-            dy[self.scales.len() - 1] = self.workspace.compliant_power();
-        }
+        dy[2 * n..].copy_from_slice(&self.works.powers(&self.workspace));
         Ok(())
     }
 
@@ -409,7 +334,11 @@ impl System for HybridSystem<'_> {
         match self.switching_functions[i] {
             SwitchingFunction::Event(event) => {
                 let event = &self.workspace.m.events[event];
-                EventSpec { is_positive: event.guard, ..EventSpec::event(event.direction) }
+                EventSpec {
+                    is_positive: event.guard,
+                    acts: !event.then.is_empty(),
+                    ..EventSpec::event(event.direction)
+                }
             }
             SwitchingFunction::Discontinuity(_) => EventSpec::discontinuity(),
             _ => EventSpec::guard(self.roundoff_scale),
@@ -453,7 +382,7 @@ impl System for HybridSystem<'_> {
     }
 
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {
-        if self.workspace.is_closed() || !self.worked.is_empty() {
+        if self.workspace.is_closed() || !self.works.forces.is_empty() {
             return None;
         }
         Some(self)

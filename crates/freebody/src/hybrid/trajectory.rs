@@ -2,6 +2,7 @@
 
 use super::mode_changes::ModeChange;
 use super::system::Phase;
+use super::works::Works;
 use super::{HybridSystem, Settings};
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
@@ -31,13 +32,10 @@ pub struct Trajectory {
     pub settings: Settings,
     /// What switched on the way.
     pub mode_changes: Vec<ModeChange>,
-    has_friction: bool,
-    has_compliant_contacts: bool,
     run: Run,
     phases: Vec<Phase>,
     opening: [f64; 2],
-    worked: Vec<usize>,
-    driven: Vec<usize>,
+    works: Works,
 }
 
 /// A state of a motion, with what it brought along: a motion that starts here goes on with it.
@@ -85,11 +83,8 @@ impl Trajectory {
             settings,
             phases: system.phases,
             opening,
-            has_friction: system.has_friction,
-            has_compliant_contacts: system.has_compliant_contacts,
             mode_changes: changes,
-            worked: system.worked,
-            driven: system.driven,
+            works: system.works,
             run,
         }
     }
@@ -115,7 +110,7 @@ impl Trajectory {
     fn state_of(&self, m: &Mechanism, t: f64, y: &[f64]) -> MotionState {
         let (n, phase) = (m.freedom(), self.phase(t));
         let (q, u, p) = (y[..n].to_vec(), y[n..2 * n].to_vec(), phase.p.clone());
-        MotionState { p, t, q, u, mode: phase.mode.clone(), works: self.works(m, y) }
+        MotionState { p, t, q, u, mode: phase.mode.clone(), works: self.works.spread(m, y) }
     }
 
     /// The state during an impact, by its place among `mode_changes`: with the rates before it, and held what took part in
@@ -218,7 +213,7 @@ impl Trajectory {
     pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |workspace, _, y| {
-            rows.push(workspace.evaluate(laws, &self.works(m, y))?);
+            rows.push(workspace.evaluate(laws, &self.works.spread(m, y))?);
             Ok(())
         })?;
         Ok(rows)
@@ -250,32 +245,13 @@ impl Trajectory {
         Ok(left)
     }
 
-    /// Works since the start of all forces without a potential, then of all drives.
-    fn works(&self, m: &Mechanism, y: &[f64]) -> Vec<f64> {
-        let tail = &y[2 * m.freedom()..];
-        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
-        if self.has_friction {
-            works[m.forces.len() + m.drives.len()] = tail[self.worked.len() + self.driven.len()];
-        }
-        for (i, &f) in self.worked.iter().enumerate() {
-            works[f] = tail[i];
-        }
-        for (i, &d) in self.driven.iter().enumerate() {
-            works[m.forces.len() + d] = tail[self.worked.len() + i];
-        }
-        works
-    }
-
     /// The energy ledger at times: kinetic, potential, each work, changes of parameters, and what is left over.
     ///
     /// # Errors
     /// As [`Trajectory::sample`].
     pub fn ledger(&self, m: &Mechanism, times: &[f64]) -> Result<Ledger, DynamicsError> {
         let mut names: Vec<String> = vec!["kinetic".into(), "potential".into()];
-        names.extend(self.worked.iter().map(|&f| m.forces[f].name.clone()));
-        names.extend(self.driven.iter().map(|&d| m.drives[d].name.clone()));
-        names.extend(self.has_friction.then(|| "friction".to_string()));
-        names.extend(self.has_compliant_contacts.then(|| "compliant contacts".to_string()));
+        names.extend(self.works.names(m));
         names.extend(["parameter changes".into(), "impacts".into(), "balance".into()]);
         let start: f64 = self.opening.iter().sum();
         let mut rows = vec![];

@@ -2,9 +2,10 @@
 
 use super::chatter::is_tie;
 use super::dense::Segment;
-use super::events::{Kind, Mark, Probe};
+use super::events::{Kind, Mark};
 use super::method::all_finite;
 use super::outcome::{EventRecord, Outcome};
+use super::probe::Probe;
 use super::run::{ending, Runner};
 use super::system::{After, Role, System};
 

@@ -1,9 +1,9 @@
 //! Finding where switching functions vanish within a step.
 
 use super::dense::Segment;
-use super::roots::{bracketed, chebyshev, chebyshev_points, extrema, monomial, value, SAMPLES};
+use super::probe::{Node, Probe};
+use super::roots::{chebyshev, chebyshev_points, extrema, monomial, value, SAMPLES};
 use super::system::{DynamicsError, Role, System};
-use std::collections::hash_map::{Entry, HashMap};
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -11,6 +11,8 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 const TOUCH: f64 = 1e-12;
 /// or below this many tolerances of the way that its function has come since it was zero: the motion is told no nearer.
 const GRAZE: f64 = 30.0;
+/// The same of an event that acts: what is clearly across acts, and clearly is by what was asked.
+const GRAZE_OF_ACTION: f64 = 1.0;
 /// Mean over swing from which a polynomial cannot reach zero: |Tₖ| ≤ 1, and a little for the rounding of its sums.
 const CLEAR_OF_ZERO: f64 = 1.001;
 /// Part of a half step past its end where what crosses zero in it may turn back.
@@ -21,9 +23,6 @@ const CONVERGED: f64 = 1e-9;
 const FAR_FROM_ZERO: f64 = 1e-2;
 /// A function changes at most this many times as fast as its steepest secant.
 const STEEPER: f64 = 1.5;
-/// Parts of a step over which a rate is taken: the least whose change stands out of round-off by this much.
-const SLOPE_REACHES: [f64; 4] = [1e-4, 1e-3, 1e-2, 1e-1];
-const STANDS_OUT: f64 = 100.0;
 /// Values of one function in one step that are asked for beside the samples and extrema.
 const PATIENCE: usize = 300;
 
@@ -46,14 +45,6 @@ pub(super) struct Mark {
     pub kind: Kind,
     /// +1 where the function rises as time grows, −1 where it falls, 0 for a touch.
     pub direction: i8,
-}
-
-/// A point of a segment with the value of a switching function there.
-#[derive(Clone, Copy)]
-struct Node {
-    t: f64,
-    value: f64,
-    is_extremum: bool,
 }
 
 /// Where a switching function is.
@@ -122,7 +113,11 @@ impl EventDetector {
             let side = i8::from(spec.is_positive);
             let (now, is_guard) =
                 (Place { side, reach: 0.0, grazes: None, last_touch: f64::NAN }, spec.role == Role::Guard);
-            let graze = if is_guard { 0.0 } else { GRAZE * rtol };
+            let graze = match spec.role {
+                Role::Guard => 0.0,
+                _ if spec.acts => GRAZE_OF_ACTION * rtol,
+                _ => GRAZE * rtol,
+            };
             Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze }
         };
         Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
@@ -333,83 +328,5 @@ impl EventDetector {
         let memory = &mut self.memory[i];
         memory.is_spent = true;
         memory.now = Place { side, reach: 0.0, grazes: None, last_touch: t };
-    }
-}
-
-/// Evaluates switching functions along a segment.
-pub(super) struct Probe<'a> {
-    system: &'a mut dyn System,
-    segment: &'a Segment,
-    y: Vec<f64>,
-    /// All values at the times, by their bits, at which they were asked for: many functions are halved at the same.
-    known: HashMap<u64, Vec<f64>>,
-}
-
-impl<'a> Probe<'a> {
-    pub fn new(system: &'a mut dyn System, segment: &'a Segment) -> Self {
-        let y = vec![0.0; system.dim()];
-        Self { system, segment, y, known: HashMap::new() }
-    }
-
-    /// Time at `x` in [−1, 1].
-    fn time(&self, x: f64) -> f64 {
-        match x {
-            1.0 => self.segment.t1,
-            _ => self.segment.t0 + 0.5 * (1.0 + x) * (self.segment.t1 - self.segment.t0),
-        }
-    }
-
-    fn length(&self) -> f64 {
-        (self.segment.t1 - self.segment.t0).abs()
-    }
-
-    fn ahead(&self) -> f64 {
-        (self.segment.t1 - self.segment.t0).signum()
-    }
-
-    fn all(&mut self, t: f64) -> Result<&[f64], DynamicsError> {
-        match self.known.entry(t.to_bits()) {
-            Entry::Occupied(values) => Ok(values.into_mut()),
-            Entry::Vacant(place) => {
-                let mut values = vec![0.0; self.system.switches()];
-                self.segment.at(t, &mut self.y);
-                self.system.switch_values(t, &self.y, &mut values)?;
-                Ok(place.insert(values))
-            }
-        }
-    }
-
-    fn one(&mut self, i: usize, t: f64) -> Result<f64, DynamicsError> {
-        self.segment.at(t, &mut self.y);
-        match self.system.switch_value(i, t, &self.y)? {
-            Some(value) => Ok(value),
-            None => Ok(self.all(t)?[i]),
-        }
-    }
-
-    /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within
-    /// the
-    /// `noise` there, it leaves the noise.
-    fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, DynamicsError> {
-        let is_bracket = |shift: f64| a.value + shift != 0.0 && (a.value + shift < 0.0) != (b.value + shift < 0.0);
-        match [0.0, noise].into_iter().find(|&shift| is_bracket(shift)) {
-            Some(shift) => bracketed(|t| Ok(self.one(i, t)? + shift), (a.t, a.value + shift), (b.t, b.value + shift)),
-            None => Ok(a.t),
-        }
-    }
-
-    /// Rate of switching function `i` at time `t`, whose values are told to a `noise`.
-    pub fn slope(&mut self, i: usize, t: f64, noise: f64) -> Result<f64, DynamicsError> {
-        let (low, high) =
-            if self.ahead() > 0.0 { (self.segment.t0, self.segment.t1) } else { (self.segment.t1, self.segment.t0) };
-        let (mut change, mut time) = (0.0, 1.0);
-        for reach in SLOPE_REACHES.map(|part| part * self.length()) {
-            let (a, b) = ((t - reach).max(low), (t + reach).min(high));
-            (change, time) = (self.one(i, b)? - self.one(i, a)?, b - a);
-            if change.abs() > STANDS_OUT * noise {
-                break;
-            }
-        }
-        Ok(change / time)
     }
 }

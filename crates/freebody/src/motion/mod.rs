@@ -14,6 +14,7 @@ mod linear;
 mod method;
 mod norm;
 mod outcome;
+mod probe;
 mod radau;
 mod rk4;
 mod roots;

@@ -9,6 +9,8 @@ pub struct EventSpec {
     pub direction: i8,
     /// What its zero is.
     pub role: Role,
+    /// Whether an event does more than being reported.
+    pub acts: bool,
     /// It is positive where the run starts: a value below zero there is its zero.
     pub is_positive: bool,
     /// Physical size of the function: what is below 16 ε of it is zero. 0 when unknown; the
@@ -31,15 +33,15 @@ pub enum Role {
 impl EventSpec {
     /// An event that counts in a direction.
     pub fn event(direction: i8) -> Self {
-        EventSpec { direction, role: Role::Event, is_positive: false, scale: 0.0 }
+        EventSpec { direction, role: Role::Event, acts: false, is_positive: false, scale: 0.0 }
     }
     /// A discontinuity.
     pub fn discontinuity() -> Self {
-        EventSpec { direction: 0, role: Role::Discontinuity, is_positive: false, scale: 0.0 }
+        EventSpec { direction: 0, role: Role::Discontinuity, acts: false, is_positive: false, scale: 0.0 }
     }
     /// A guard of given physical size.
     pub fn guard(scale: f64) -> Self {
-        EventSpec { direction: -1, role: Role::Guard, is_positive: true, scale }
+        EventSpec { direction: -1, role: Role::Guard, acts: false, is_positive: true, scale }
     }
 }
 

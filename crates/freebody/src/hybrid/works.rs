@@ -1,0 +1,69 @@
+//! The works that are integrated with the motion, at the end of the state vector.
+
+use crate::dynamics::{unaccounted_power, Workspace};
+use crate::mechanism::Mechanism;
+
+/// Which works the state vector holds, in this order: of forces, of motions, of friction, of compliant contacts.
+#[derive(Clone, Debug)]
+pub(super) struct Works {
+    /// Forces without a potential.
+    pub forces: Vec<usize>,
+    /// Prescribed motions.
+    pub motions: Vec<usize>,
+    /// Whether there is friction.
+    friction: bool,
+    /// Whether there are springs of unilateral constraints.
+    compliant: bool,
+}
+
+impl Works {
+    pub fn of(m: &Mechanism) -> Self {
+        Works {
+            forces: (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative()).collect(),
+            motions: (0..m.drives.len()).filter(|&d| m.drives[d].is_motion()).collect(),
+            friction: !m.joint_friction.is_empty() || m.unilateral.iter().any(|each| each.friction.is_some()),
+            compliant: m.unilateral.iter().any(|each| each.soft.is_some()),
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.forces.len() + self.motions.len() + usize::from(self.friction) + usize::from(self.compliant)
+    }
+
+    /// The entries of the ledger for them.
+    pub fn names(&self, m: &Mechanism) -> Vec<String> {
+        let forces = self.forces.iter().map(|&f| m.forces[f].name.clone());
+        let motions = self.motions.iter().map(|&d| m.drives[d].name.clone());
+        let friction = self.friction.then(|| "friction".to_string());
+        forces.chain(motions).chain(friction).chain(self.compliant.then(|| "compliant contacts".to_string())).collect()
+    }
+
+    /// Their rates in a solved state.
+    pub fn powers(&self, solved: &Workspace) -> Vec<f64> {
+        let forces = self.forces.iter().map(|&f| unaccounted_power(solved.at(), f));
+        let motions = match self.motions.is_empty() {
+            true => vec![],
+            false => solved.solved_view().drive_powers(),
+        };
+        let motions = self.motions.iter().map(|&d| motions[d]);
+        let friction = self.friction.then(|| solved.friction_power());
+        forces.chain(motions).chain(friction).chain(self.compliant.then(|| solved.compliant_power())).collect()
+    }
+
+    /// Those of a state vector, spread over all forces, then all drives, then that of friction.
+    pub fn spread(&self, m: &Mechanism, y: &[f64]) -> Vec<f64> {
+        let tail = &y[2 * m.freedom()..];
+        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
+        if self.friction {
+            works[m.forces.len() + m.drives.len()] = tail[self.forces.len() + self.motions.len()];
+        }
+        for (i, &f) in self.forces.iter().enumerate() {
+            works[f] = tail[i];
+        }
+        for (i, &d) in self.motions.iter().enumerate() {
+            works[m.forces.len() + d] = tail[self.forces.len() + i];
+        }
+        works
+    }
+}
