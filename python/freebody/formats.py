@@ -1,4 +1,5 @@
-"""Files that are written: how, and their kinds by their endings, a table for each thing, which errors and the command line's help read."""
+"""Files that are written, whole or not at all. Their kinds by their endings: a table for each thing that is written, which errors and the
+command line's help read."""
 
 from __future__ import annotations
 
@@ -13,8 +14,8 @@ T = TypeVar("T")
 
 @contextmanager
 def replacing(path: str | Path) -> Iterator[Path]:
-    """A file to write, which takes the place of ``path`` once it is whole: what fails midway leaves the old file as it was. A device is
-    written itself. Raises ``OSError`` with the name ``path``."""
+    """A file to write, which takes the place of ``path`` once it is whole: what fails midway leaves the old file as it was. A
+    device is written itself. Raises ``OSError`` with the name ``path``."""
     target = Path(path).resolve()  # what a link leads to is replaced, not the link
     device = target.exists() and not target.is_file()
     beside = target if device else target.with_name(f".{target.stem}.part{target.suffix}")

@@ -87,7 +87,7 @@ def test_a_summary_is_printed_before_files_are_written(command, tmp_path, fallin
 def test_errors_are_json_where_json_was_asked_for(command, words):
     done = command(*words, "--json")
     (problem,) = json.loads(done.stdout)["problems"]
-    assert done.exit_code == 2 and problem["what"] and {"where", "what", "hint"} == problem.keys()
+    assert done.exit_code == 2 and problem["what"] and {"where", "what", "hint", "also"} == problem.keys()
 
 
 # -- standard output ---------------------------------------------------------------------------------

@@ -40,8 +40,8 @@ def offering(choices: Mapping[str, str]) -> Callable[[Callable[..., None]], Call
 
 
 class Command(TyperCommand):
-    """A command in whose help ``{run.storage}`` stands for the kinds of files there, read only when they are asked for. What it writes
-    is held against them before it begins."""
+    """A command in whose help ``{run.storage}`` stands for the kinds of files there, read only when they are asked for. What it
+    writes is held against them before it begins."""
 
     def format_help(self, *where: Any) -> None:
         for option in self.params:

@@ -12,9 +12,11 @@ from typing import Any
 
 from freebody.symbolic.alphabet import READ
 
-_SIGNS = {"·": "*", "⋅": "*", "×": "x", "−": "-", "–": "-", "—": "-", "•": "*", "→": "->", "←": "<-", "≤": "<=", "≥": ">=", "≈": "~",
-          "≠": "!=", "⟂": " perpendicular ", "∫": "integral ", "∂": "d", "√": "sqrt", "°": " deg", "∞": "inf", "±": "+-", "⁄": "/",
-          "‘": "'", "“": '"', "”": '"', "\u0307": "'", "\u0308": "''"}  # fmt: skip
+_SIGNS = {
+    "·": "*", "⋅": "*", "×": "x", "−": "-", "–": "-", "—": "-", "•": "*", "→": "->", "←": "<-", "≤": "<=", "≥": ">=", "≈": "~",
+    "≠": "!=", "⟂": " perpendicular ", "∫": "integral ", "∂": "d", "√": "sqrt", "°": " deg", "∞": "inf", "±": "+-", "⁄": "/",
+    "‘": "'", "“": '"', "”": '"', "\u0307": "'", "\u0308": "''",
+}  # fmt: skip
 """Of signs that are neither letters nor made of others; a dot above is a prime."""
 
 

@@ -30,7 +30,8 @@ Moment = str | float
 
 def timed(item: ReportItem, values: Mapping[str, float]) -> ReportItem:
     """The item with its times as numbers, at these parameters. Raises ``ModelProblem``."""
-    time = lambda moment: start.quantity(item.label, moment[1:], "s", values) if isinstance(moment, str) and moment.startswith("=") else moment
+    stated = lambda moment: isinstance(moment, str) and moment.startswith("=")
+    time = lambda moment: start.quantity(item.label, moment[1:], "s", values) if stated(moment) else moment
     return replace(item, at=time(item.at), over=item.over and (float(time(item.over[0])), float(time(item.over[1]))))
 
 
@@ -96,7 +97,10 @@ def _item(write: Writer, path: Path, asked: Question) -> ReportItem:
         return _item(write, path, _question(asked.value, asked.unit))
     expression, dimension = write.measured(getattr(asked, kind).strip())
     moment = "end" if asked.at is None else _moment(write, asked.at)
-    window = None if asked.over is None else tuple(_window_end(write, end) for end in asked.over)
+    window = None if asked.over is None else tuple(_moment(write, end) for end in asked.over)
+    for end, found in zip(asked.over or (), window or (), strict=True):
+        if isinstance(found, str) and not found.startswith("="):
+            raise ModelProblem(f"a window goes from one time to another, and `{end}` is none", "write e.g. `over 1 s .. 2 s`")
     own = units.TIME if expression == "t" else dimension
     own = own.times(units.TIME) if own and kind == "integral" else own
     wanted = None if asked.unit is None else units.unit(asked.unit).dimension
@@ -105,13 +109,6 @@ def _item(write: Writer, path: Path, asked: Question) -> ReportItem:
         what = f"the value is {own.words()}; `{asked.unit}` is the unit of {wanted.words()}"
         write.scope.complain((*path, "unit"), what, hint)
     return ReportItem(str(path[1]), expression, "at" if kind == "value" else kind, moment, window, asked.unit or "")
-
-
-def _window_end(write: Writer, moment: Any) -> Moment:
-    found = _moment(write, moment)
-    if isinstance(found, str) and not found.startswith("="):
-        raise ModelProblem(f"a window goes from one time to another, and `{moment}` is none", "write e.g. `over 1 s .. 2 s`")
-    return found
 
 
 def _moment(write: Writer, moment: Any) -> Moment:

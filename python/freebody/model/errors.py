@@ -53,8 +53,8 @@ class Problem:
 
 
 class ModelFileError(ValueError):
-    """A model that cannot be used. ``problems`` lists all that was found, in the order of the file; what is said of several places is
-    one problem."""
+    """A model that cannot be used. ``problems`` lists all that was found, in the order of the file; what is said of several
+    places is one problem."""
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         found: dict[tuple[str, str], Problem] = {}

@@ -35,7 +35,8 @@ class Size:
         self.items, self.nodes = self.items + items, self.nodes + nodes
         for what, made, most in (("items by repetition", self.items, MAX_ITEMS), ("names and values", self.nodes, MAX_NODES)):
             if made > most:
-                scope.complain(path, f"the model has more than {most} {what}, parts included", "repeat fewer, or smaller items", True)
+                stated = f"the model has more than {most} {what}, parts included"
+                scope.complain(path, stated, "repeat fewer, or smaller items", True)
                 raise ModelFileError(scope.problems)
 
 

@@ -106,7 +106,10 @@ def _string(write: Writer, name: str, string: String) -> Spec:
     return {
         "name": write.prefix + name,
         "ends": [_end(write, (*path, "ends", i), end) for i, end in enumerate(string.ends)],
-        "over": [_guide(write, (*path, "over", i), guide) for i, guide in enumerate(string.over)],
+        "over": [
+            {"eyelet": write.point(here, guide)} if isinstance(guide, str) else {"pulley": _wheel(write, here, "pulley", guide)}
+            for here, guide in (((*path, "over", i), guide) for i, guide in enumerate(string.over))
+        ],
         "length": length,
         **_common(write, path, string),
     }
@@ -119,12 +122,6 @@ def _end(write: Writer, path: Path, end: str | Drum) -> Spec:
     attached = None if end.attached is None else number((*path, "attached"), end.attached, "rad")
     wound = None if end.wound is None else number((*path, "wound"), end.wound, "m", "a length")
     return {"drum": _wheel(write, path, "drum", end) | {"attached": attached, "wound": wound}}
-
-
-def _guide(write: Writer, path: Path, guide: str | Pulley) -> Spec:
-    if isinstance(guide, str):
-        return {"eyelet": write.point(path, guide)}
-    return {"pulley": _wheel(write, path, "pulley", guide)}
 
 
 def _wheel(write: Writer, path: Path, word: str, wheel: Drum | Pulley) -> Spec:

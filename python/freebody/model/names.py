@@ -69,14 +69,8 @@ def suggestion(word: str, known: Iterable[str], what: str = "") -> str:
 
 def spell(name: str) -> str:
     """A name as it stands in an expression: words that are not plain go in quotes."""
-    if _PLAIN.fullmatch(name):
-        return name
-    return ".".join(part if _PLAIN.fullmatch(part) else _quoted(part) for part in name.split("."))
-
-
-def _quoted(part: str) -> str:
-    word, bracket, rest = part.partition("[")
-    return (word if _PLAIN.fullmatch(word) else f"'{word}'") + bracket + rest
+    parts = [part.partition("[") for part in name.split(".")]
+    return ".".join((word if _PLAIN.fullmatch(word) else f"'{word}'") + bracket + rest for word, bracket, rest in parts)
 
 
 def unquote(text: str) -> str:

@@ -73,7 +73,7 @@ class Parameters:
         uses: dict[str, list[str]] = {}
         for name, text in self.given.items():
             try:
-                uses[name] = syntax.names_in(text, self.__contains__)
+                uses[name] = syntax.names(syntax.parse(text, self.__contains__).tree) if isinstance(text, str) else []
             except ModelProblem as complaint:
                 self.faults[name], uses[name] = complaint, []
         while True:

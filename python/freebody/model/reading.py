@@ -52,19 +52,15 @@ def model_of(origin: Source) -> tuple[Model, Source]:
 
 def _check_version(origin: Source) -> None:
     version = origin.data.get("freebody")
+    if isinstance(version, int) and version > VERSION:
+        what = f"this file is written in version {version} of the language; this freebody reads {VERSION}"
+        origin.complain(("freebody",), what, "update freebody")
+        raise ModelFileError(origin.problems)
     if "freebody" not in origin.data:
         origin.complain((), "the version of the language is missing", f"begin the file with `freebody: {VERSION}`")
-        origin.data["freebody"] = VERSION
-    elif isinstance(version, int) and version > VERSION:
-        origin.complain(
-            ("freebody",),
-            f"this file is written in version {version} of the language; this freebody reads {VERSION}",
-            "update freebody",
-        )
-        raise ModelFileError(origin.problems)
     elif version != VERSION or isinstance(version, bool):
         origin.complain(("freebody",), f"`{version}` is no version of the language", f"write `freebody: {VERSION}`")
-        origin.data["freebody"] = VERSION
+    origin.data["freebody"] = VERSION
 
 
 def complaints(error: ValidationError) -> Iterable[tuple[Path, str, str, bool]]:

@@ -38,8 +38,8 @@ class Places(Protocol):
 
 @dataclass
 class Folder:
-    """Where parts are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far, and
-    ``size`` what they have made; a file is ``read`` once."""
+    """Where parts are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far,
+    and ``size`` what they have made; a file is ``read`` once."""
 
     here: FilePath
     root: FilePath

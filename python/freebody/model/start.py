@@ -151,8 +151,8 @@ def evaluate(number: Any, values: Mapping[str, float]) -> float:
 
 
 def quantity(name: str, number: Any, unit: str, values: Mapping[str, float] | None = None) -> float:
-    """A number in SI, a quantity that fits a ``unit``, or an expression of parameters with these ``values``; ``name`` says what it is of.
-    Raises ``ModelProblem``."""
+    """A number in SI, a quantity that fits a ``unit``, or an expression of parameters with these ``values``; ``name`` says what
+    it is of. Raises ``ModelProblem``."""
     try:
         return _plain(name, number, units.unit(unit).dimension, values or {})
     except ModelProblem as problem:

@@ -41,6 +41,9 @@ class Expression:
 def parse(text: str, known: Callable[[str], bool] | None = None, in_full: Callable[[str], str] = str) -> Expression:
     """The expression of a text in which numbers may carry a unit (``2*l*sin(30 deg)``), with its names ``in_full``; ``known`` tells
     which words are names. Raises ``ModelProblem``."""
+    if (quantity := units.quantity(text)) is not None:
+        shown, span = repr(quantity.value), (0, len(text))
+        return Expression(shown, Num(quantity.value, span=span), {span: quantity.dimension})
     rewritten = units.rewrite(text, known or (lambda _: False))
     in_si = in_full(rewritten.text)
     try:
@@ -82,17 +85,13 @@ def _node(data: Mapping[str, Any]) -> Node:
             total = _node(first)
             for sign, part in rest:
                 right = _node(part)
-                total = _joined(sign, total, right, (total.span[0], right.span[1]))
+                span = total.span[0], right.span[1]
+                if sign in ("/", "^"):
+                    total = (Quotient if sign == "/" else Pow)(total, right, span=span)
+                else:
+                    total = Mul((total, right), span=span) if sign == "*" else Fn(sign, (total, right), span=span)
             return total
     raise AssertionError(data)
-
-
-def _joined(sign: str, left: Node, right: Node, span: Span) -> Node:
-    if sign == "*":
-        return Mul((left, right), span=span)
-    if sign in ("/", "^"):
-        return (Quotient if sign == "/" else Pow)(left, right, span=span)
-    return Fn(sign, (left, right), span=span)
 
 
 def names(tree: Node) -> list[str]:
@@ -125,7 +124,8 @@ class Measure(Rules):
 
     def times(self, left: Shape, right: Shape, node: Node, power: int = 1) -> Shape:
         """Bare numbers may hide a unit (``9.81*m``), but a whole number that divides, a root and π do not (``m2/3``, ``a*sqrt(2)``)."""
-        plain = right is None and (_is_root_or_pi(node) or (power == -1 and _whole_number(node)))
+        root = isinstance(node, Fn) and node.name == "sqrt" and len(node.args) == 1 and _whole_number(*node.args)
+        plain = right is None and (root or node == Sym("pi") or (power == -1 and _whole_number(node)))
         return left if plain else super().times(left, right, node, power)
 
     def power(self, node: Pow) -> Shape:
@@ -171,15 +171,6 @@ def _whole_number(tree: Node) -> bool:
     return isinstance(tree, Num) and float(tree.value).is_integer()
 
 
-def _is_root_or_pi(tree: Node) -> bool:
-    match tree:
-        case Sym("pi"):
-            return True
-        case Fn("sqrt", (argument,)):
-            return _whole_number(argument)
-    return False
-
-
 # -- values --------------------------------------------------------------------------------------
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
@@ -216,8 +207,6 @@ def number(text: Any, value: Callable[[str], float], known: Callable[[str], bool
         if not math.isfinite(text):
             raise ModelProblem(f"`{text}` is no finite number", "give it a value")
         return float(text)
-    if (found := units.quantity(text)) is not None:
-        return found.value
     try:
         return float(evaluate(parse(text, known).tree, value))
     except (ArithmeticError, ValueError) as error:
@@ -229,12 +218,5 @@ def dimension(text: Any, lookup: Lookup, known: Callable[[str], bool] | None = N
     """The dimension of a number of the model (None: fits anywhere). Raises ``ModelProblem``."""
     if not isinstance(text, str):
         return None
-    if (found := units.quantity(text)) is not None:
-        return found.dimension
     expression = parse(text, known)
     return Measure(expression, lookup).of(expression.tree)
-
-
-def names_in(text: Any, known: Callable[[str], bool] | None = None) -> list[str]:
-    """The names that a number of the model depends on. Raises ``ModelProblem``."""
-    return names(parse(text, known).tree) if isinstance(text, str) and units.quantity(text) is None else []

@@ -7,7 +7,7 @@ from typing import Any
 
 from freebody.core import Spec, cards
 from freebody.symbolic.dimensions import Dimension
-from freebody.symbolic.tree import Fn, Node, Sym, walk
+from freebody.symbolic.tree import Fn, Node, Num, Sym, walk
 
 from . import syntax, units
 from .arithmetic import Number
@@ -100,8 +100,6 @@ class Writer:
         """An expression with its dimension (None: fits anywhere). Raises ``ModelProblem``."""
         if not isinstance(text, str):
             return repr(float(text)), None
-        if (quantity := units.quantity(text)) is not None:
-            return repr(quantity.value), quantity.dimension
         expression = syntax.parse(text, lambda name: name == local or self.full(name) in self.meanings.values, self._in_full)
         self._check_arguments(expression.tree)
 
@@ -115,9 +113,9 @@ class Writer:
         """A number of the model with its dimension (None: fits anywhere). Raises ``ModelProblem``."""
         if not isinstance(value, str):
             return float(value), None
-        if (quantity := units.quantity(value)) is not None:
-            return quantity.value, quantity.dimension
         expression = syntax.parse(value, self.scope.parameters.__contains__, self._in_full)
+        if isinstance(expression.tree, Num):
+            return float(expression.tree.value), expression.numbers[expression.tree.span]
         for name in syntax.names(expression.tree):
             kind = self.meanings.values.get(name, ("constant" if name == "pi" else "",))[0]
             if name == "t" or kind not in ("parameter", "constant", ""):
