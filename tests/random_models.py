@@ -237,6 +237,33 @@ def rough(seed: int) -> fb.Mechanism:
     return fb.Mechanism.loads(json.dumps(draw.model | {"initial": start}), "random")
 
 
+def resting(seed: int) -> fb.Mechanism:
+    """A model that has a place of rest near the values drawn: springs and dampers on its coordinates, steady forces, a motion that
+    stands still or follows a law of places and rates."""
+    draw = Draw(seed)
+    for _ in range(draw.rng.integers(1, 4)):
+        draw.body()
+    for add, chance in ((draw.loop, 0.4), (draw.limit, 0.4), *(2 * [(draw.force, 0.6)])):
+        if draw.rng.random() < chance:
+            add()
+    for force in draw.model["forces"].values():
+        force |= {"y": force["y"].split("*")[0]} if "y" in force else {}
+    for place, (coordinate, value) in enumerate(draw.values.items()):
+        spring = f"-{draw.within(20, 90)!r}*({quote(coordinate)} - ({value!r})) - {draw.of(0.0, draw.within(0.1, 2))!r}*rate({quote(coordinate)})"
+        draw.model["forces"][f"hold {place}"] = {"type": "law", "along": quote(coordinate), "value": spring}
+    if draw.rng.random() < 0.3:
+        coordinate = draw.of(*draw.values)
+        value, law = (
+            draw.values[coordinate],
+            f"-{draw.within(2, 9)!r}*({quote(coordinate)} - (VALUE)) - 0.5*rate({quote(coordinate)})",
+        )
+        level, law = draw.of(("position", repr(value)), ("acceleration", law.replace("VALUE", repr(value))))
+        draw.model["motions"]["drive"] = {"of": quote(coordinate), "is": law, "level": level}
+    for joint in draw.model["joints"].values():
+        joint |= {"friction": 0.2} if joint["type"] in ("slider", "slot", "curved_slot") and draw.rng.random() < 0.15 else {}
+    return draw.mechanism()
+
+
 def switching(seed: int) -> fb.Mechanism:
     """Such a model with more that switches on its way."""
     draw = _drawn(seed)

@@ -22,7 +22,7 @@ from freebody.equations.substitutions import Substitutions, given
 from freebody.equations.sufficient_equations import Search, SufficientSet
 from freebody.equations.velocity_ratios import blocks as of_ratios
 from freebody.equations.velocity_ratios import driven, ratios
-from freebody.solve.instant import Instant
+from freebody.solve.instant import NOTHING, Instant
 from freebody.solve.perturbed_states import nearby, others
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import shown
@@ -289,7 +289,7 @@ def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, T
             found, true = float(evaluate(tree, numbers, there.tables)), there.values[x]
             # relative to the largest of its kind, or among the terms that balance where all of a kind vanish
             kind = there.free.accelerations.values() if x.dots else [load.value for load in there.free.loads if load.unknown]
-            scale = max(Instant(there.source, state).sizes[1 if x.dots else 0], *(abs(v) for v in kind if np.isfinite(v)))
+            scale = max(NOTHING, Instant(there.source, state).sizes[1 if x.dots else 0], *(abs(v) for v in kind if np.isfinite(v)))
             if not abs(found - true) <= _SAME * max(abs(true), scale):
                 raise Unconfirmed(f"the answer for {x.name} is {found:g} where the numbers are {true:g}; take the numbers")
         compared += 1

@@ -22,6 +22,8 @@ PATIENCE = 1.0
 """Seconds for the shortest form of one entry."""
 MOST_OPERATIONS = 150
 """Operations in an entry above which no short form of it is looked for."""
+MOST_IN_ENTRY = 400
+"""Operations in an entry above which it is not multiplied out, which would take minutes."""
 READABLE = 40
 """Operations in the short form of an entry above which it is left to numbers."""
 _INDEPENDENT = (0.1, 1e-3, 1e-8)
@@ -166,7 +168,10 @@ def independent(rows: Array, last_first: bool = False) -> list[int]:
 
 def _put(tree: Tree, place: Mapping[str, Tree]) -> Tree:
     values = {sympy.Symbol(name): to_sympy(value) for name, value in place.items()}
-    found = sympy.expand(to_sympy(with_exact_numbers(tree)).subs(values, simultaneous=True))
+    given = to_sympy(with_exact_numbers(tree)).subs(values, simultaneous=True)
+    if given.count_ops() > MOST_IN_ENTRY:
+        raise TooLarge("the linear equations are too long symbolically; set some symbols to numbers")
+    found = sympy.expand(given)
     return measured(found) if is_measured(found) else from_sympy(sympy.factor_terms(found))
 
 

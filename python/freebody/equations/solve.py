@@ -17,7 +17,8 @@ MOST_UNKNOWNS = 6
 """Above it a symbolic answer is too long to be read."""
 MOST_OPERATIONS = 1500
 """Operations in all coefficients above which no answer symbolically is sought."""
-
+MOST_TOGETHER = 16
+"""Symbols, sines and roots in three or more equations above which their elimination does not end; in textbooks there are twelve."""
 
 _UNDETERMINED = "the equations do not determine the unknowns, whatever the symbols are"
 
@@ -115,7 +116,9 @@ def _solved(a: Any, b: Any) -> list[Any]:
     """By exact elimination over the rational functions of the symbols, sines and cosines."""
     if sum(entry.count_ops() for entry in (*a, *b)) > MOST_OPERATIONS:
         raise TooLarge("the equations are too long for a symbolic answer; set some symbols to numbers")
-    shared, (a, b) = _plain(a, b)
+    shared, (a, b) = rational_in_symbols(a, b)
+    if a.rows > 2 and len(a.free_symbols | b.free_symbols) > MOST_TOGETHER:
+        raise TooLarge(f"{a.rows} equations together hold too many symbols for a symbolic answer; ask for numbers")
     joined = sympy.polys.matrices.DomainMatrix.from_Matrix(a.row_join(b)).to_field()
     try:
         solution = joined[:, :-1].lu_solve(joined[:, -1:])
@@ -127,7 +130,7 @@ def _solved(a: Any, b: Any) -> list[Any]:
 
 def _solved_measured(a: Any, b: Any) -> list[Tree]:
     """The same with measured numbers: determinants, whose common factors are not looked for, as round-off hides them."""
-    shared, (a, b) = _plain(a.applyfunc(rational), b.applyfunc(rational))
+    shared, (a, b) = rational_in_symbols(a.applyfunc(rational), b.applyfunc(rational))
     joined = sympy.polys.matrices.DomainMatrix.from_Matrix(a.row_join(b)).to_dense()
     n, back = a.rows, {new: old for old, new in shared.items()}
 
@@ -140,8 +143,8 @@ def _solved_measured(a: Any, b: Any) -> list[Tree]:
     return [ratio(determinant([n if j == i else j for j in range(n)]), below) for i in range(n)]
 
 
-def _plain(*matrices: Any) -> tuple[dict, list[Any]]:
-    """Functions and roots replaced by symbols of their own, so that the entries are rational."""
+def rational_in_symbols(*matrices: Any) -> tuple[dict, list[Any]]:
+    """SymPy's matrices with functions and roots replaced by symbols of their own, so that the entries are rational."""
     atoms = {atom for matrix in matrices for atom in matrix.atoms(sympy.Function, sympy.Pow)}
     found = {atom for atom in atoms if not (atom.is_Pow and atom.exp.is_Integer)}
     outer = sorted(found, key=lambda f: (-f.count_ops(), str(f)))

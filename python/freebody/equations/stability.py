@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from freebody.equations.solve import TooLarge
+from freebody.equations.solve import TooLarge, rational_in_symbols
 from freebody.symbolic.decimals import is_measured
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.presentation import PATIENCE, presented
@@ -16,6 +16,8 @@ from freebody.symbolic.tree import ONE, ZERO, Mul, Num, Pow, Tree, is_zero, mul,
 
 MOST_OPERATIONS = 80
 """Operations in a characteristic polynomial above which its roots are not sought symbolically."""
+MOST_IN_MATRIX = 120
+"""Operations in a matrix, or in a polynomial, above which nothing is made of it; those of textbooks have twenty."""
 _HALF = Fraction(1, 2)
 MOST_ROWS = 4
 """Roots of polynomials of higher order have no symbolic formula."""
@@ -44,8 +46,10 @@ class Stability:
 
 
 def characteristic(matrix: Sequence[Sequence[Tree]], nomenclature: Nomenclature | None = None) -> list[Tree]:
-    """The coefficients of det(s I − A), that of the highest power, 1, first."""
-    return [presented(factor, nomenclature, patience=PATIENCE) for factor in _polynomial(matrix, ()).all_coeffs()]
+    """The coefficients of det(s I − A), that of the highest power, 1, first. Raises ``TooLarge``."""
+    found = _polynomial(matrix, ()).all_coeffs()
+    _require_brief(found, "the characteristic polynomial")
+    return [presented(factor, nomenclature, patience=PATIENCE) for factor in found]
 
 
 def factors(polynomial: Sequence[Tree], nomenclature: Nomenclature | None = None) -> list[tuple[list[Tree], int]]:
@@ -94,6 +98,7 @@ def stability(
     if not 1 <= order <= MOST_ROWS:
         raise TooLarge(f"symbolic stability conditions are for polynomials of order 1 to {MOST_ROWS}, not {order}")
     a = [to_sympy(factor, positive=positive, real=True) for factor in coefficients]
+    _require_brief(a, "the stability conditions")
     even = order % 2 == 0 and all(is_zero(factor) for factor in coefficients[1::2])
     left = _conditions(a, even)[: 2 if even and symmetric else None]
     kept = [found for condition in left if (found := _reduced(condition)) is not None]
@@ -132,12 +137,24 @@ def _reduced(condition: Any) -> Any:
     return None if rest.is_positive else rest
 
 
+def _require_brief(expressions: Iterable[Any], what: str) -> None:
+    if sum(each.count_ops() for each in expressions) > MOST_IN_MATRIX:
+        raise TooLarge(f"{what} would fill pages; put numbers")
+
+
+def require_few(rows: int) -> None:
+    """Raises ``TooLarge`` for a matrix of more rows than have symbolic eigenvalues."""
+    if rows > MOST_ROWS:
+        raise TooLarge(f"symbolic eigenvalues are for at most {MOST_ROWS} rows, not {rows}; put numbers")
+
+
 def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> Any:
-    if len(matrix) > MOST_ROWS:
-        raise TooLarge(f"symbolic eigenvalues are for at most {MOST_ROWS} rows, not {len(matrix)}; put numbers")
+    require_few(len(matrix))
     entries = sympy.Matrix([[to_sympy(entry, positive=positive, real=True) for entry in row] for row in matrix])
-    polynomial = entries.charpoly(sympy.Dummy("s"))
-    return sympy.Poly([sympy.factor(factor) for factor in polynomial.all_coeffs()], polynomial.gen)
+    _require_brief(entries, "the characteristic polynomial")
+    shared, (rational,) = rational_in_symbols(entries)
+    polynomial, back = rational.charpoly(sympy.Dummy("s")), {new: old for old, new in shared.items()}
+    return sympy.Poly([sympy.factor(factor.xreplace(back)) for factor in polynomial.all_coeffs()], polynomial.gen)
 
 
 def _eigenvalue(root: Any, count: int, nomenclature: Nomenclature | None) -> Eigenvalue:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -23,6 +24,8 @@ from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul
 
 _ASIDE = 0.1
 """How far symbols are from those of the state where it is asked what they determine, so that nothing is so by chance."""
+_ROUND_OFF = 1e-12
+"""Of a coefficient with numbers, relative to what it is beside the state, below which it is 0."""
 _SEED = 11
 
 
@@ -84,7 +87,9 @@ class Search:
             unknown = {wanted, *_unknowns(made)}
             more = next((row for row in rows if row not in made and unknown & row[1].coefficients.keys()), None)
             if more is None:
-                raise TooLarge(f"{wanted.name}: {len(made)} equations leave {len(unknown)} unknowns; ask for numbers")
+                loads = ", ".join(sorted(x.name for x in unknown if not x.dots))
+                held = f", the loads {loads} among them" if loads else ""
+                raise TooLarge(f"{wanted.name}: {len(made)} equations leave {len(unknown)} unknowns{held}; ask for numbers")
             made.append(more)
         for each in sorted(made, key=lambda e: (isinstance(e[0], Stated), isinstance(e[0], Stated) and e[0].title not in titles)):
             others = [other for other in made if other is not each]
@@ -106,6 +111,8 @@ class Search:
     def _put(self, linear: Linear, known: Mapping[Sym, Tree]) -> Linear:
         """With what is set, and what is known in its place."""
         found = {x: self.chosen.put(tree) for x, tree in linear.coefficients.items() if not self.held.is_still(x)}
+        if self.chosen.measured:  # as the arm of a load about the very point where it acts
+            found = {x: tree for x, tree in found.items() if not self._is_round_off(tree, linear.coefficients[x])}
         rest = add(self.chosen.put(linear.rest), *(mul(tree, known[x]) for x, tree in found.items() if x in known))
         return Linear({x: tree for x, tree in found.items() if x not in known and not is_zero(tree)}, rest)
 
@@ -114,13 +121,22 @@ class Search:
         unknowns = _unknowns(made)
         return wanted in unknowns and holds(self._numbers(made, unknowns), unknowns.index(wanted))
 
+    def _is_round_off(self, measured: Tree, tree: Tree) -> bool:
+        """Whether a coefficient with numbers is 0, measured by what it is beside the state."""
+        tables = self.subject.tables
+        here, beside = (float(evaluate(*each, tables)) for each in ((measured, self.subject.values), (tree, self._beside)))
+        return abs(here) < _ROUND_OFF * abs(beside)
+
+    @cached_property
+    def _beside(self) -> Mapping[Sym, float]:
+        """The numbers of all symbols beside the state."""
+        rng, values = np.random.default_rng(_SEED), self.subject.values
+        return {x: v * (1 + _ASIDE * rng.uniform(-1, 1)) + _ASIDE * rng.uniform(0.1, 1) for x, v in values.items()}
+
     def _numbers(self, made: Sequence[tuple[Stated | Row, Linear]], unknowns: Sequence[Sym]) -> Array:
         """The coefficients beside the state, rows and then columns of like size."""
-        rng, subject = np.random.default_rng(_SEED), self.subject
-        values = {x: v * (1 + _ASIDE * rng.uniform(-1, 1)) + _ASIDE * rng.uniform(0.1, 1) for x, v in subject.values.items()}
-        table = np.array(
-            [[float(evaluate(each.coefficients.get(x, ZERO), values, subject.tables)) for x in unknowns] for _, each in made]
-        )
+        values, tables = self._beside, self.subject.tables
+        table = np.array([[float(evaluate(each.coefficients.get(x, ZERO), values, tables)) for x in unknowns] for _, each in made])
         sizes = np.abs(table).max(axis=1, keepdims=True, initial=0.0)
         table = table / np.where(sizes > 0, sizes, 1.0)  # nothing unknown is left in an equation of what is known
         largest = np.abs(table).max(axis=0)

@@ -71,9 +71,9 @@ class Jumps:
     def spelt(self) -> Solution:
         """Rates after and impulses by what is given alone."""
         made: dict[Sym, Tree] = {}
-        for x, tree in self.told.items():
-            made[x] = replace(replace(tree, self.names), made)
-        return made
+        for x, tree in (*self.names.items(), *self.told.items()):
+            made[x] = replace(tree, made)
+        return {x: made[x] for x in self.told}
 
     @property
     def told(self) -> Solution:

@@ -28,7 +28,7 @@ from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import bold, dotted
 from freebody.symbolic.nomenclature import SymbolEntry
-from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
+from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul, symbols
 
 _BOLD = tuple(Written(sign, bold(symbol)) for sign, symbol in (("𝐌", "M"), ("𝐂", "C"), ("𝐊", "K")))
 """The matrices, apart from any symbols of a model."""
@@ -93,7 +93,12 @@ def _rest(source: CompiledModel, state: State, touching: State) -> State:
 
 
 def _require_regular(subject: SymbolicState) -> None:
-    """Raises ``NotHere`` for motions that are going on, and where loops hold less than beside it."""
+    """Raises ``NotHere`` for what is closed without a load, for motions that are going on, and where loops hold less than beside it."""
+    if subject.idle:
+        raise NotHere(
+            f"{joined(subject.idle)} {'are' if len(subject.idle) > 1 else 'is'} closed without a load in this equilibrium, so perturbations to one "
+            "side meet resistance and others none, which no linear equations describe; open what is closed, or load it"
+        )
     for row in subject.rows:
         if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
             raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; prescribe that it stands still")
@@ -111,18 +116,34 @@ def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[
     With the latter, and how the others follow."""
     place = place_of(subject)
     put = {name: tree for name, tree in place.items() if is_natural(tree)} | chosen.settled()
-    whole = linearised(subject, put)
-    made = _equations(subject, whole)
+    lengths = [name for name in subject.nomenclature.geometric() if name not in chosen.trees]
+    in_numbers = subject.with_numbers([n for n in lengths if n not in place]), place | dict(chosen.trees)
+    measured = False
+    try:
+        whole = linearised(subject, put)
+    except TooLarge:
+        (subject, put), measured = in_numbers, True
+        whole = linearised(subject, put)
+    entries = [
+        *whole.left,
+        *(entry for matrix in (whole.mass, whole.damping, whole.stiffness) for row in matrix for entry in row),
+    ]
+    if Sym("t") in symbols(*entries, *(row.acceleration for row in subject.rows)):
+        raise NotHere("loads or motions depend on the time, so nothing stays at rest; give them values that do not")
+    fills = Paragraph(["The symbolic form fills pages; here ", *listed(map(Sym, lengths)), " are numbers, in SI."])
+    made = [fills] * measured + _equations(subject, whole)
     if not subject.rows:
         return made, whole, {}
-    numbers: list[str] = []
     try:
         left = held(subject, whole, put)
     except TooLarge:
-        numbers = [name for name in subject.nomenclature.geometric() if name not in chosen.trees]
-        subject, put = subject.with_numbers([n for n in numbers if n not in place]), place | dict(chosen.trees)
+        if measured:
+            raise
+        subject, put = in_numbers
         left = held(subject, linearised(subject, put), put)
-    return made + _left_free(subject, left, numbers), left.equations, left.follow
+        heading, *rest = _left_free(subject, left)
+        return [*made, heading, fills, *rest], left.equations, left.follow
+    return made + _left_free(subject, left), left.equations, left.follow
 
 
 def _symbols_of(subject: SymbolicState) -> dict[str, SymbolEntry]:
@@ -159,14 +180,12 @@ def _stated(found: Linearised, shifts: Mapping[str, SymbolEntry], said: Sequence
     return [Paragraph([*said, " ", *whole, *where]), *(_matrix(n, m) for n, (m, _) in zip(_BOLD, parts, strict=True))]
 
 
-def _left_free(subject: SymbolicState, left: Held, numbers: Sequence[str]) -> list[Block]:
+def _left_free(subject: SymbolicState, left: Held) -> list[Block]:
     """How the other coordinates follow, and the equations of those that are free."""
     shifts = _symbols_of(subject)
     free = [Sym(shifts[name].name) for name in left.equations.coordinates]
     names = list(dict.fromkeys(row.name for row in subject.rows if row.name not in left.laws))
     made: list[Block] = [Heading("Independent perturbations")]
-    if numbers:
-        made.append(Paragraph(["The symbolic form fills pages; here ", *listed(map(Sym, numbers)), " are numbers, in SI."]))
     if left.follow:
         made.append(Paragraph(f"To first order {clause(names, 'gives', 'give')} the others:"))
     made += [

@@ -11,7 +11,7 @@ from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragrap
 from freebody.equations.linearization import Linearised, numbers
 from freebody.equations.modes import Modes, Root, first_order, modes, roots
 from freebody.equations.solve import Singular, TooLarge
-from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, stability
+from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, require_few, stability
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.decimals import shown
@@ -35,6 +35,7 @@ def character(
     stable: Stability | None = None
     positive = _positive(subject)
     try:
+        require_few(2 * len(found.coordinates))
         matrix = found.first_order()
         parts = factors(characteristic(matrix, subject.nomenclature), subject.nomenclature)
         made += [
