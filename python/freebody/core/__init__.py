@@ -10,9 +10,8 @@ from freebody._core import parse
 from .compiled import BEFORE, EXTREMES, CompiledModel, ReportItem, Settings, Spec, quote
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
-from .limits import Limit
 from .motion import Change, Event, Impulses, Motion, Outcome, Snapshot, Trajectory, there
-from .solution import Rank, Solution, SymbolicAnswers
+from .solution import Limit, Rank, Solution, SymbolicAnswers
 from .state import Array, State
 
 __all__ = [

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import BEFORE, Change, CompiledModel, Event, ModelError, Motion, Outcome, ReportItem, Settings, State
+from freebody.core import BEFORE, Change, CompiledModel, ModelError, Motion, ReportItem, Settings, State
 from freebody.run import storage
 from freebody.run.digits import Accuracy, other_settings, other_start
 from freebody.run.records import (
@@ -74,23 +74,14 @@ class Run:
     def __post_init__(self) -> None:
         self.metadata = self.source.metadata
         self.name = self.source.name
+        self.outcome = self.motion.outcome
+        """How the run ended."""
+        self.events = self.motion.events
+        """What happened, in order of time."""
+        self.changes = self.motion.changes
+        """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
 
     # What happened
-
-    @property
-    def outcome(self) -> Outcome:
-        """How the run ended."""
-        return self.motion.outcome
-
-    @property
-    def events(self) -> list[Event]:
-        """What happened, in order of time."""
-        return self.motion.events
-
-    @property
-    def changes(self) -> list[Change]:
-        """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
-        return self.motion.changes
 
     @property
     def impacts(self) -> list[Change]:

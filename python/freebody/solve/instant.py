@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, Limit, State, quote
+from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, State, quote
 from freebody.solve import rich_tables
 from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
@@ -143,7 +143,25 @@ class Instant:
         self.route = route
         self.core = core
         self._metadata = core.metadata
-        self._solved = core.instant(state, route)
+        self._solved = solved = core.instant(state, route)
+        self.limits = solved.limits
+        """What every contact, string and stop does, by name."""
+        self.motions = solved.motions
+        """Force (N) or torque (N·m) that each prescribed motion takes."""
+        self.couplings = solved.couplings
+        """Force (N) or torque (N·m) that each coupling passes, along what it holds at 0."""
+        self.locks = solved.locks
+        """Force (N) or torque (N·m) along what each lock in place holds, named ``lock theta``."""
+        self.residual = float(solved.residual)
+        """Largest momentum-balance residual of a body, relative to its largest term."""
+        self.sizes = solved.sizes
+        """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
+        self.freedom = solved.rank.freedom
+        """Degrees of freedom, by rank."""
+        self.explanation = solved.rank.explanation
+        """How the degrees of freedom come about, and what is redundant, in words."""
+        self.self_stress = solved.rank.self_stress
+        """In words, each way in which the parts could be pre-stressed."""
 
     @property
     def accelerations(self) -> dict[str, float]:
@@ -167,36 +185,6 @@ class Instant:
             for i, (joint, values, known) in enumerate(rows)
         )
         return Reactions({reaction.name: reaction for reaction in made})
-
-    @property
-    def limits(self) -> dict[str, Limit]:
-        """What every contact, string and stop does, by name."""
-        return self._solved.limits
-
-    @property
-    def motions(self) -> dict[str, float]:
-        """Force (N) or torque (N·m) that each prescribed motion takes."""
-        return self._solved.motions
-
-    @property
-    def couplings(self) -> dict[str, float]:
-        """Force (N) or torque (N·m) that each coupling passes, along what it holds at 0."""
-        return self._solved.couplings
-
-    @property
-    def locks(self) -> dict[str, float]:
-        """Force (N) or torque (N·m) along what each lock in place holds, named ``lock theta``."""
-        return self._solved.locks
-
-    @property
-    def residual(self) -> float:
-        """Largest momentum-balance residual of a body, relative to its largest term."""
-        return float(self._solved.residual)
-
-    @property
-    def sizes(self) -> tuple[float, float]:
-        """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
-        return self._solved.sizes
 
     def apart(self, other: Instant) -> tuple[float, float]:
         """Largest differences of accelerations and of reactions that both determine, relative to the largest, or to the terms that
@@ -230,21 +218,6 @@ class Instant:
     def free_bodies(self) -> FreeBodies:
         """Every load on every body, and what it gives their mass centres."""
         return self.core.free_bodies(self.state)
-
-    @property
-    def freedom(self) -> int:
-        """Degrees of freedom, by rank."""
-        return self._solved.rank.freedom
-
-    @property
-    def explanation(self) -> str:
-        """How the degrees of freedom come about, and what is redundant, in words."""
-        return self._solved.rank.explanation
-
-    @property
-    def self_stress(self) -> list[str]:
-        """In words, each way in which the parts could be pre-stressed."""
-        return self._solved.rank.self_stress
 
     def __getitem__(self, text: str) -> float:
         """The value of any expression at this instant; a reaction that is not determined raises."""

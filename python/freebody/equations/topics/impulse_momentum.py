@@ -234,7 +234,8 @@ class _System:
 
     def _enough(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> list[_Sides]:
         """The first equations that together give what is wanted, at the numbers of the impact."""
-        values, largest = self._numbers(), max(map(abs, self.found.sizes().values()), default=1.0) or 1.0
+        values = {x: 0.0 if np.isnan(value) else value for x, value in self._numbers().items()}  # NaN: not determined
+        largest = max((abs(values[x]) for x in self.found.sizes()), default=0.0) or 1.0
 
         def factor(x: Sym, tree: Tree) -> float:
             much, none = (evaluate(tree, values | {x: size}, self.found.subject.tables) for size in (largest, 0.0))
