@@ -44,8 +44,8 @@ def _ledgers(case: Case) -> Iterator[Answer]:
     """Kinetic + potential − works stays what it was, relative to the largest of them that comes and goes."""
     for name, run in case.runs.items():
         energy = run.energy
-        still = 1e-6 * np.abs(energy.potential).max()  # where nothing moves, round-off is all that comes and goes
-        stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential), still]
+        at_rest = 1e-6 * np.abs(energy.potential).max()  # where nothing moves, round-off is all that comes and goes
+        stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential), at_rest]
         size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
         left = float(np.abs(energy.balance).max() / size) if size else 0.0
         yield Answer(f"{name}: left over", left, "", 0.0, "energy stored − work done", 1e-9, 1.0, own=True)

@@ -40,16 +40,16 @@ class ImpactMarker:
 
 
 def impact_markers(run: Run) -> list[ImpactMarker]:
-    """The impacts of a run worth a flash; none of a run from a file, which does not know where it was struck."""
+    """The impacts of a run worth a flash; none of a run from a file, which does not know where impulses acted."""
     if run.recorded:
         return []
-    struck = []
+    impulses = []
     for impact in impacts(run):
         sizes = impact.change.impulses.sizes if impact.change.impulses else {}
-        struck += [(impact, name, size) for name, size in sizes.items() if name in impact.change.of]
-    largest = max((size for _, _, size in struck), default=0.0)
+        impulses += [(impact, name, size) for name, size in sizes.items() if name in impact.change.of]
+    largest = max((size for _, _, size in impulses), default=0.0)
     made = []
-    for impact, name, size in struck:
+    for impact, name, size in impulses:
         if size > _FAINT * largest:
             places = [part.point for load in impact.free.loads if load.name == name for part in load.on if not part.idle]
             if places:  # in the middle of those where the load of a contact, string or stop acts

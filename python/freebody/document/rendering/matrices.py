@@ -1,4 +1,4 @@
-"""Matrices on a line: an entry that is too long to stand in one has a name there, and the names are told below."""
+"""Matrices on a line: an entry that is too long to stand in one has a name there, and the names are explained below."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _EDGES, _GAP = 4, 2
 def fitted(block: Equation | MatrixEquation, nomenclature: Nomenclature, room: int) -> tuple[list[Block], Nomenclature]:
     """An equation of matrices as blocks in which none takes more than ``room`` columns, and the symbols with the new names.
 
-    Where even names are too many the entries that are not 0 are told, and nothing else."""
+    Where even names are too many the entries that are not 0 are listed, and nothing else."""
     left, right = _sides(block)
     whole = Equation(left, right, block.name, block.label, block.note)
     if _across(left, right, nomenclature) <= room:
@@ -149,6 +149,6 @@ def _absent(block: Equation) -> Words:
     factors: Sequence[Matrix] = block.left.factors if isinstance(block.left, Matrices) else ()
     name = [*pieces(block.name), ": "] if block.name else []
     if not factors:
-        return [*name, "entries that are not told are 0."]
+        return [*name, "entries that are not listed are 0."]
     unknowns = [row[0] for row in factors[1].rows]
-    return [*name, f"{factors[0].letter} x = b with x = (", *listed(unknowns), "); entries that are not told are 0."]
+    return [*name, f"{factors[0].letter} x = b with x = (", *listed(unknowns), "); entries that are not listed are 0."]
