@@ -217,6 +217,13 @@ def test_a_time_of_the_motion(gun):
     assert size == pytest.approx(abs(run.evaluate("track.Fn", 0.5)), rel=1e-9)
 
 
+def test_the_weight_of_a_speck_of_dust_is_a_figure():
+    m = Mechanism("speck")
+    m.free(m.ground.O, m.particle("speck", mass=1e-12).centre, coordinates=["x", "y"])
+    [cut] = m.diagram(to_scale=True).cuts
+    assert [mark.action.sign.plain for mark in cut.forces] == ["m_speck g = 9.81e−12 N"]
+
+
 def test_what_was_released_acts_no_more():
     m = Mechanism("two carts, released at the start", gravity=0)
     bodies = [m.particle(name, mass=1) for name in ("a", "b")]

@@ -13,7 +13,8 @@ from freebody.views import shapes
 from freebody.views.glyphs import points_of_curve
 from freebody.views.sketch import Sketch, named_points
 
-_ROUND_OFF = 1e-9  # m or degrees, below which a coordinate is shown as 0
+_ROUND_OFF = 1e-7  # sizes of symbols, below which a length is what assembly leaves of 0
+_NO_TURN = 1e-9  # degrees, or of a curve's parameter: the same
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
 _LEAST = 0.35  # rad, the arc that shows the sense of an angle whose own cannot be seen
 _LEVELS = 5  # places further and further out where an arrow may keep off others
@@ -84,7 +85,8 @@ def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[
         clear = (each for each in offered if all(_distance(each[0], other, gap) > gap for other in taken))
         arrow, guides, shown = next(clear, offered[0])
         taken.append(arrow)
-        stated = f"{digits(np.degrees(asked.value))}°" if angle else f"{digits(asked.value)} {asked.dimension}".rstrip()
+        value, unit = (float(np.degrees(asked.value)), "°") if angle else (asked.value, f" {asked.dimension}".rstrip())
+        stated = digits(value, _ROUND_OFF * sketch.size if asked.dimension == "m" else _NO_TURN) + unit
         of_axis = angle and asked.word not in (_TWO_POINTS, _OWN_ANGLE)
         arrow = arrow if shown > 0 else arrow[::-1]
         yield DimensionLine(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, stated, shown < 0)
@@ -200,6 +202,6 @@ def _way(sketch: Sketch, asked: _Asked) -> Array:
     return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
 
 
-def digits(value: float) -> str:
-    """Four digits for people."""
-    return f"{0.0 if abs(value) < _ROUND_OFF else value:.4g}".replace("-", "−")
+def digits(value: float, least: float = 0.0) -> str:
+    """Four digits for people; 0 of what is smaller than ``least``."""
+    return f"{0.0 if abs(value) < least else value:.4g}".replace("-", "−")
