@@ -234,7 +234,7 @@ def test_no_text_makes_a_traceback(text):
 
 def test_the_committed_schema_is_current():
     committed = Path(__file__).parents[2] / "docs" / "model.schema.json"
-    assert json.loads(committed.read_text()) == schema.schema(), "python -m freebody.model.schema > docs/model.schema.json"
+    assert json.loads(committed.read_text()) == schema.schema(), "./dev schema > docs/model.schema.json"
 
 
 def test_the_schema_speaks_of_joints_and_units():

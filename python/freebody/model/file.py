@@ -38,9 +38,7 @@ def dumps(model: Model, written: str = "") -> str:
     data = model.written()
     if written.strip() and not written.lstrip().startswith("{"):
         text = _text(_updated(_yaml().load(written), data))
-        with suppress(
-            ModelFileError
-        ):  # comments in odd places can mislead the writer; then they are given up rather than the model
+        with suppress(ModelFileError):  # comments in odd places can mislead the writer; they are given up rather than the model
             if reading.reads(text)[0] == model:
                 return text
     return _text(_sections(data))
@@ -93,9 +91,8 @@ def _styled(value: Any) -> Any:
     """Plain data in one line where it fits, else in a line for each entry."""
     if not isinstance(value, (dict, list)):
         return value
-    styled: Any = (
-        CommentedMap({k: _styled(v) for k, v in value.items()}) if isinstance(value, dict) else CommentedSeq(map(_styled, value))
-    )
+    of_mapping = isinstance(value, dict)
+    styled: Any = CommentedMap({k: _styled(v) for k, v in value.items()}) if of_mapping else CommentedSeq(map(_styled, value))
     if len(json.dumps(value, ensure_ascii=False)) <= _LINE:
         styled.fa.set_flow_style()
     return styled

@@ -62,12 +62,8 @@ class Marked:
 
     def line(self, name: str, through: Any, towards: Any = None, *, angle: Any = None) -> str:
         """Names a line through a point, towards another one or at an angle from the body's x axis."""
-        given = (
-            [str(through), str(towards)]
-            if towards is not None
-            else {"through": str(through), "angle": 0 if angle is None else angle}
-        )
-        self._mechanism.mark(self.name, "lines", name, given)
+        turned = {"through": str(through), "angle": 0 if angle is None else angle}
+        self._mechanism.mark(self.name, "lines", name, turned if towards is None else [str(through), str(towards)])
         return f"{self.name}.{name}"
 
     def curve(self, name: str, shape: Any = None, **coordinates: Any) -> str:

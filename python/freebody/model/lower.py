@@ -66,10 +66,8 @@ class Lowered:
             raise ModelFileError([Problem(self.where(error.path), error.what, error.hint)]) from None
         wrong = [name for name, (power, rate) in _with_potential(self.spec).items() if not _agrees(made, power, rate)]
         if wrong:
-            what, hint = (
-                "the potential is not that of the force",
-                "the force along the gauge is −dV/d(gauge): check its sign and factors",
-            )
+            what = "the potential is not that of the force"
+            hint = "the force along the gauge is −dV/d(gauge): check its sign and factors"
             raise ModelFileError([Problem(self.where(f"forces.{name}.potential"), what, hint) for name in wrong])
         return made
 
@@ -282,14 +280,8 @@ def _coordinate(write: Writer, path: Path, given: Any, card: cards.Coordinate) -
         zero = _ZEROS[zero]
     elif zero in _ZEROS or (given.absolute and not angle):
         word = "zero" if zero in _ZEROS else "absolute"
-        write.scope.complain(
-            (*path, word), f"`{word}: {getattr(given, word)}` goes with an angle; `{given.name}` is a length", "leave it out"
-        )
+        what = f"`{word}: {getattr(given, word)}` goes with an angle; `{given.name}` is a length"
+        write.scope.complain((*path, word), what, "leave it out")
         zero = 0.0
-    sense = -1 if given.sense in ("clockwise", "backward") else 1
-    return {
-        "name": write.prefix + given.name,
-        "zero": write.number((*path, "zero"), zero, card.unit or None),
-        "sense": sense,
-        "absolute": given.absolute,
-    }
+    stated = {"zero": write.number((*path, "zero"), zero, card.unit or None), "absolute": given.absolute}
+    return {"name": write.prefix + given.name, "sense": -1 if given.sense in ("clockwise", "backward") else 1} | stated

@@ -60,11 +60,8 @@ def _element_method(section: str, card: cards.Card) -> Callable[..., Element]:
 
     fields = [_keyword(f.name, f.required) for f in card.fields if f.name not in several]
     own = {"type", *(f.name for f in card.fields)}
-    more = [
-        _keyword(word, False)
-        for word in {"joints": elements.JOINTS, "forces": elements.FORCES}[section][card.type].model_fields
-        if word not in own
-    ]
+    types = {"joints": elements.JOINTS, "forces": elements.FORCES}[section]
+    more = [_keyword(word, False) for word in types[card.type].model_fields if word not in own]
     points = [inspect.Parameter(several[0], inspect.Parameter.VAR_POSITIONAL)] if several else []
     doc = "\n".join(f"    {_PYTHON.get(f.name, f.name)}: {f.doc}{f' ({f.unit})' if f.unit else ''}" for f in card.fields)
     return _dressed(method, card.type, f"{card.doc}\n\n{doc}", [*points, _keyword("name", False), *fields, *more], Element)

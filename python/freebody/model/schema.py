@@ -1,11 +1,7 @@
-"""The model language as types: they read a model, and the JSON Schema is made from them.
-
-``python -m freebody.model.schema`` prints the schema.
-"""
+"""The model language as types: they read a model, and the JSON Schema is made from them."""
 
 from __future__ import annotations
 
-import json
 from typing import Any, Literal
 
 from pydantic import ConfigDict, Field, model_validator
@@ -297,7 +293,3 @@ def schema() -> dict[str, Any]:
         "title": f"freebody model file, version {VERSION}",
     }
     return head | {key: value for key, value in made.items() if key not in head}
-
-
-if __name__ == "__main__":
-    print(json.dumps(schema(), indent=1, ensure_ascii=False))

@@ -82,9 +82,8 @@ class Source:
         try:
             return _scalar(kind, text)
         except ValueError:
-            self.complain(
-                path, f"`{text}` is no {'whole number' if kind == 'int' else 'number'}", f"leave out the tag `!!{kind}`"
-            )
+            what = f"`{text}` is no {'whole number' if kind == 'int' else 'number'}"
+            self.complain(path, what, f"leave out the tag `!!{kind}`")
             return 0
 
     def _whole(self, node: MappingNode | SequenceNode, path: Path) -> None:
@@ -93,9 +92,8 @@ class Source:
         for one in inside[:-1]:
             if isinstance(one, ScalarNode) and one.style is None and one.value.count("(") > one.value.count(")"):
                 what = f"the text `{one.value}` ends at a comma, which parts items in {{ }} and [ ]"
-                raise ModelFileError(
-                    [Problem(self.at(_mark(one.start_mark), path), what, "put quotes around the whole expression")]
-                )
+                where = self.at(_mark(one.start_mark), path)
+                raise ModelFileError([Problem(where, what, "put quotes around the whole expression")])
 
     def _mapping(self, node: MappingNode, path: Path) -> dict[str, Any]:
         out: dict[str, Any] = {}

@@ -82,10 +82,8 @@ def _values(writer: Writer, start: Start, path: Path, given: Mapping[str, Any], 
             found[full] = writer.number(here, value, _dimension(start, full, order))
         else:
             kind = writer.meanings.values.get(full, ("",))[0]
-            known = [
-                *writer.meanings.seen_from(writer.scope, start.coordinates),
-                *((*WORDS, "equilibrium") if len(here) == 2 else ()),
-            ]
+            words = (*WORDS, "equilibrium") if len(here) == 2 else ()
+            known = [*writer.meanings.seen_from(writer.scope, start.coordinates), *words]
             hint = "`initial` sets coordinates; give parameters their value under `parameters`"
             hint = hint if kind == "parameter" else suggestion(name, known, "coordinates")
             what = f"`{name}` is a {kind}, not a coordinate" if kind else f"there is no coordinate `{name}`"
@@ -182,8 +180,6 @@ def _dimension(start: Start, name: str, order: int) -> Dimension | None:
 
 
 def _sign(sign: Any) -> int:
-    if sign in _SIGNS:
-        return _SIGNS[sign]
-    if sign in (1, -1):
-        return int(sign)
+    if sign in (*_SIGNS, 1, -1):
+        return _SIGNS.get(sign) or int(sign)
     raise ModelProblem(f"`{sign}` is no branch", "write `positive` or `negative`")
