@@ -77,6 +77,11 @@ def test_a_number_beyond_all_floating_point_numbers_is_refused(written):
     refused(PENDULUM.replace("mass: m1", f"mass: {written}"))
 
 
+@pytest.mark.parametrize("call", ["if(1)", "if(1, 2, 3, 4)", "step()", "min()", "clamp(1)", "atan2(1)", "rate(1)"])
+def test_a_call_that_cannot_be_is_refused_in_a_number(call):
+    assert f"`{call.partition('(')[0]}" in refused(PENDULUM.replace("mass: m1", f"mass: '{call}'")).what
+
+
 @pytest.mark.parametrize("written", ["10/s", "10 1/s", "10 Hz", "0.01/ms", "600/min"])
 def test_a_rate_as_people_write_it(written):
     m = Mechanism.loads(PENDULUM.replace("al: 10 deg", f"w: {written}"))

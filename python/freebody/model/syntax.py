@@ -176,7 +176,7 @@ def _whole_number(tree: Node) -> bool:
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("sqrt", "exp", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot")},
     **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh")},
-    "ln": math.log, "abs": abs, "min": min, "max": max,
+    "if": lambda condition, yes, no: yes if condition else no, "ln": math.log, "abs": abs, "min": min, "max": max,
     "sign": lambda x: float((x > 0) - (x < 0)),
     "step": lambda x: float(x >= 0),
     "clamp": lambda x, low, high: min(max(x, low), high),
@@ -188,7 +188,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 def evaluate(tree: Node, value: Callable[[str], float]) -> float:
     """The number of a tree of parameters only. Raises ``ModelProblem``, and ``ArithmeticError`` or ``ValueError`` like ``math``."""
-    for call in (node for node in walk(tree) if isinstance(node, Fn) and node.name != "if"):
+    for call in (node for node in walk(tree) if isinstance(node, Fn)):
         if call.name not in _FUNCTIONS:
             raise ModelProblem(f"`{call.name}(…)` changes with the motion; a number of the model depends on parameters only")
         try:
