@@ -111,6 +111,9 @@ def _sheet(model, of, to_scale, column):
 @cache
 def elsewhere(model: str) -> tuple[SymbolicState, ...]:
     """A model at its start, and at a state of the same mode at about each place near by: at rates and a time of its own, with
-    closed what is closed, where the same things touch, are taut and slide the same way."""
+    closed what is closed, where the same things touch, are taut and slide the same way. Where a string has no free length, by which its
+    equations divide: in its own motion a little later."""
     first = subject(model)
-    return first, *(SymbolicState(first.source, state) for state in others(first.source, first.state)[::RATES])
+    if first.regular is first.state:
+        return first, *(SymbolicState(first.source, state) for state in others(first.source, first.state)[::RATES])
+    return tuple(SymbolicState(first.source, run(model).motion.state(part * run(model).end.t)) for part in (0.05, 0.1))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import GROUND, CompiledModel, FreeBodies, State, SymbolicAnswers
-from freebody.solve.perturbed_states import nearby
+from freebody.solve.perturbed_states import Closing, nearby
 from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.linear import Linear
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
@@ -21,10 +21,6 @@ Question = Mapping[str, Any]
 _SEED, _OTHERS = 5, 3
 _NEAR = 0.15
 """Part by which parameters of other states differ from those of a state, or what they are where they are 0 there."""
-
-_ASIDE = 1e-3
-"""Change of a coordinate, rad or as a part of the size of the mechanism, by which a spring of length 0 gets a direction; each coordinate
-takes another, so that they differ."""
 
 
 @dataclass(frozen=True)
@@ -218,7 +214,18 @@ class SymbolicState:
         names, given = [p["name"] for p in self.source.metadata["parameters"]], self.state.p.tolist()
         parts = rng.uniform(1 - _NEAR, 1 + _NEAR, (_OTHERS, len(given)))
         changed = [{n: x if n in fixed else k * (x or _NEAR) for n, x, k in zip(names, given, row, strict=True)} for row in parts]
-        return nearby(self.source, self.state, list(map(self.source.bind, changed)))
+        return nearby(self.source, self.regular, list(map(self.source.bind, changed)))
+
+    @cached_property
+    def regular(self) -> State:
+        """The state; or one near by, in which the same is closed, where the core decides symbols beside it: where a spring has no length,
+        or a string no free length, more vanishes than does elsewhere."""
+        names, q = self.table.keys() - (self.numbers or {}).keys(), self.state.q.tolist()
+        beside = np.array([self.table[n]["value"] if n in names else x for n, x in zip(self.names, q, strict=True)])
+        if np.array_equal(beside, self.state.q):
+            return self.state
+        place = Closing(self.source, self.state, self.free).place(beside)
+        return self.state if place is None else replace(self.state, q=place)
 
     @cached_property
     def rows(self) -> list[Row]:
@@ -310,15 +317,5 @@ class SymbolicState:
         limits = {} if self.given else self.source.instant(self.state).limits
         return [name for name, each in limits.items() if not (each.is_open or each.state == "off" or name in acting)]
 
-    @cached_property
-    def _beside(self) -> State:
-        """The state; or one a little aside where a spring has length 0, and so no direction by which its force could be told."""
-        stretched = [force["name"] for force in self.source.spec.get("forces", []) if "between" in force.get("with", {})]
-        springs = (load for load in self.free.loads if load.name in stretched)
-        if not any(len({part.point for part in load.on}) == 1 for load in springs):
-            return self.state
-        units = self.free.units(self.coordinates)
-        return replace(self.state, q=self.state.q + _ASIDE * units * (1 + np.arange(len(units)) % 7 / 3))
-
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        return self.source.symbolic_answers(self._beside, questions, self.at_rest, self.numbers)
+        return self.source.symbolic_answers(self.state, questions, self.at_rest, self.numbers)

@@ -75,7 +75,7 @@ def other_parameters(subject: SymbolicState) -> SymbolicState | None:
     if q is None:
         return None
     other = SymbolicState(source, closing.moving(q, start.u, start.t))
-    return other if alike(other.free, subject.free) else None
+    return other if alike(other.free, subject.free) and other.regular is other.state else None
 
 
 def off(part, values, tables):

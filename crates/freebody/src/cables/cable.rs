@@ -68,6 +68,12 @@ impl Cable {
         borders
     }
 
+    /// Whether a straight segment beside a circle has no length, so that its gap has no second derivative.
+    pub fn is_without_free_length(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> bool {
+        let layout = Layout::new(self, m, poses, Winding::of(feature.index), feature.phase);
+        layout.segments.iter().any(|segment| segment.none > 0.0)
+    }
+
     /// The segments between two points, from the one to the other, fixed axes, m.
     pub fn free_segments(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> Vec<Vec2> {
         let layout = Layout::new(self, m, poses, Winding::of(feature.index), feature.phase);

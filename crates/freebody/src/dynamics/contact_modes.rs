@@ -16,7 +16,7 @@ use crate::scalar::Scalar;
 use crate::solve::Matrix;
 
 /// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
-const CLOSE: f64 = 1e-8;
+pub(super) const CLOSE: f64 = 1e-8;
 /// Part of the mechanism's own accelerations below which one is round-off.
 const ACCELERATION_NOISE: f64 = 1e-13;
 /// Part of the characteristic length, and of the mechanism's own speed, up to which a gap is closed and nothing moves, at
@@ -307,7 +307,7 @@ impl Workspace<'_> {
         contacts.constraints.iter().zip(slips).map(|(&l, &slip)| self.friction_law(l, slip, rest_speed)).collect()
     }
 
-    fn friction_law(&self, constraint: usize, slip: f64, rest_speed: f64) -> FrictionLaw {
+    pub(super) fn friction_law(&self, constraint: usize, slip: f64, rest_speed: f64) -> FrictionLaw {
         match self.m.unilateral[constraint].friction {
             None => FrictionLaw::Frictionless,
             Some(Friction::Rough) => FrictionLaw::Rough,

@@ -30,6 +30,7 @@ mod rows;
 mod scales;
 mod solved_view;
 mod term_scales;
+mod unloaded;
 
 pub use contact_forces::compliant_force;
 pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};

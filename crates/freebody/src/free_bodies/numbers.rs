@@ -10,15 +10,17 @@ use serde_json::{json, Map, Value};
 /// Part of a load's force times the characteristic length below which its couple is round-off.
 const NO_COUPLE: f64 = 1e-12;
 
-/// Bodies, loads with their sizes, and what joints and motions ask of the accelerations, at the state of `balance`.
+/// Bodies, loads with their sizes, and what joints and motions ask of the accelerations, at the state of the workspace;
+/// what is closed without load and could carry one is held, with a force of 0.
 ///
 /// # Errors
 /// `not_finite`; as [`Workspace::solve`].
 pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, DynamicsError> {
+    let unloaded = workspace.hold_unloaded()?;
     workspace.solve()?;
     workspace.check_finite()?;
     let determinacy = workspace.determinacy();
-    let sizes = LoadValues::of(workspace, &determinacy);
+    let sizes = LoadValues::of(workspace, &determinacy, &unloaded);
     let at = workspace.at();
     let m = workspace.m;
     let mut all = loads(at);
@@ -140,11 +142,14 @@ struct LoadValues<'l> {
 }
 
 impl<'l> LoadValues<'l> {
-    fn of(b: &Workspace<'_>, determinacy: &'l Determinacy) -> Self {
+    /// Those of `unloaded` constraints are 0 without round-off.
+    fn of(b: &Workspace<'_>, determinacy: &'l Determinacy, unloaded: &[usize]) -> Self {
         let seen = b.solved_view();
         let loads = seen.joint_loads();
         let joints = loads.iter().enumerate().map(|(j, l)| (l.force, rows_of(b, j))).collect();
-        LoadValues { determinacy, joints, drives: seen.drive_forces(), contacts: seen.contact_forces() }
+        let mut contacts = seen.contact_forces();
+        unloaded.iter().for_each(|&l| contacts[l] = [0.0; 2]);
+        LoadValues { determinacy, joints, drives: seen.drive_forces(), contacts }
     }
 
     fn of_load(&self, b: &Workspace<'_>, load: &Load<f64>, all: &[Load<f64>]) -> (Option<f64>, bool) {

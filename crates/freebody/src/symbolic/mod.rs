@@ -10,6 +10,7 @@ mod motion;
 mod power;
 mod query;
 mod vectors;
+mod witness;
 
 pub use query::{answer, Query, Setting};
 
@@ -68,7 +69,8 @@ impl<'m> SymbolicState<'m> {
         let numbers = name_numbers(m, at.n, &named, &mut bound);
         let n = m.with_values(&p, bound);
         let coordinate = |i: usize, dots: u8, x: f64| named(&m.coordinate(i).name, dots, x);
-        let q: Vec<Symbol> = at.q.iter().enumerate().map(|(i, &x)| coordinate(i, 0, x)).collect();
+        let q: Vec<Symbol> =
+            witness::coordinates(workspace).iter().enumerate().map(|(i, &x)| coordinate(i, 0, x)).collect();
         let u: Vec<Symbol> = at.u.iter().enumerate().map(|(i, &x)| coordinate(i, 1, x)).collect();
         let mut found = vec![0.0; m.freedom()];
         workspace.accelerations(&mut found);

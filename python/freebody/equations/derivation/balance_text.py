@@ -109,7 +109,8 @@ def dropped(subject: SymbolicState, stated: Stated) -> dict[str, list[Load]]:
     """Unknown loads that touch the bodies but are not in the equation, by reason, of one: ``it acts at elbow``."""
     found: dict[str, list[Load]] = {}
     balance, cancelled = stated.balance, cancelling(subject, stated.balance)
-    place = Place(stated.kind, stated.where, numbers(subject, balance), stated.constructed or stated.word == "across")
+    at = numbers(subject, balance) if balance.turns else (0.0, 0.0)
+    place = Place(stated.kind, stated.where, at, stated.constructed or stated.word == "across")
     for contribution in balance.contributions:
         load, summed = subject.free.loads[contribution.load], contribution.load in cancelled
         if load.unknown and (contribution.absent or summed) and not (summed and load.follows):
