@@ -47,9 +47,12 @@ class MinimalForm(PlainText):
 
     @property
     def fewest_words(self) -> str:
-        """How many reactions stay in every set of balances, and of which sets of bodies that was shown."""
+        """How many reactions stay in every set of balances, where any are known to, and of which sets of bodies that was shown."""
         some = f"{self.groups} connected sets of bodies"
         tried = f"all {some} were tried" if self.exact else f"{some} were tried, there are too many to try all: this is no proof"
+        tried = tried if self.groups > 1 else "there is one connected set of bodies"
+        if not self.least:
+            return f"{tried}, and every point and direction was tried"
         stay = "reaction stays" if self.least == 1 else "reactions stay"
         return f"at least {COUNT[self.least]} {stay} in every set of balances ({tried}, with every point and direction)"
 

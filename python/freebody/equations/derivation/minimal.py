@@ -118,7 +118,8 @@ def _introduction(subject: SymbolicState, form: Form, number: int, search: Minim
     kind = "other " if leading else "joint " if prescribed or by_law else ""
     said = [f"{count} free of {kind}reactions."]
     if others and search:
-        said = [f"No set of balance equations is free of reactions: {search.fewest_words}."]
+        found = "is" if search.least else "was found that is"
+        said = [f"No set of balance equations {found} free of reactions: {search.fewest_words}."]
         if search.equations:
             said.append(f"Here {clause(others, 'stays', 'stay')}, so there {'is' if number == 1 else 'are'} {number}.")
         else:
