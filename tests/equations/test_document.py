@@ -11,21 +11,10 @@ from html.parser import HTMLParser
 import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
 
+from freebody.document.blocks import Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Table, Vector, Written
+from freebody.document.document import Document
 from freebody.document.rendering import FORMATS
-from freebody.equations import (
-    Bullets,
-    Document,
-    Equation,
-    Figure,
-    Heading,
-    MatrixEquation,
-    Paragraph,
-    Table,
-    Vector,
-    Written,
-    latex,
-    read,
-)
+from freebody.equations import latex, read
 from freebody.symbolic.alphabet import columns
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import MINUS_ONE, ZERO, add, mul

@@ -12,7 +12,7 @@ from freebody.core import State
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.topics.impact_equations import Rows, after, applied
+from freebody.equations.topics.impact_equations import Impact, Rows, after
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.impact.applied_impulse import strike
 from freebody.symbolic.algebra import equal
@@ -78,7 +78,7 @@ def letters(text):
 @pytest.mark.parametrize("name", CLOSED)
 def test_closed_forms(name):
     text, point, direction, known = CLOSED[name]
-    made = jumps(applied(of(text), of(text).start()[0], point, direction=direction)).spelt()
+    made = jumps(Impact.of(strike(of(text), of(text).start()[0], point, direction=direction))).spelt()
     for symbol, expected in known.items():
         assert symbol in made, sorted(x.name for x in made)
         assert equal(made[symbol], letters(expected)), (symbol, made[symbol])
@@ -121,7 +121,7 @@ def test_theorems(name):
 @pytest.mark.parametrize("name", ["19.3.17", "S19.18", "EX-BLOCK", "19.3.20"])
 def test_symbols_are_the_numbers(name):
     model, state, points, _ = at_rest(name)
-    found = applied(model, state, points[-1], direction="40 deg", impulse="3 N*s")
+    found = Impact.of(strike(model, state, points[-1], direction="40 deg", impulse="3 N*s"))
     made, most = jumps(found).spelt(), max(map(abs, found.sizes().values()))
     for coordinate, u in found.change.after.u.items():
         assert float(evaluate(made[Sym(after(coordinate), 1)], found.values)) == pytest.approx(u, abs=1e-9)
@@ -131,7 +131,7 @@ def test_symbols_are_the_numbers(name):
 
 def test_where_symbols_fill_pages_the_equations_stand_in_numbers():
     model, state, _, _ = at_rest("GEN-STEP")
-    found = applied(model, state, "trunk.S")
+    found = Impact.of(strike(model, state, "trunk.S"))
     with pytest.raises(TooLarge):
         jumps(found)
     matrix, right = Rows.of(found).matrix(found)

@@ -9,7 +9,7 @@ from store import every
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import topic
-from freebody.equations.topics.impact_equations import after, blow
+from freebody.equations.topics.impact_equations import Impact, after
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import replace
@@ -21,7 +21,7 @@ REDUNDANT = {"plate"}
 
 
 def solved(name):
-    return jumps(blow(mechanism(name))).spelt()
+    return jumps(Impact.of(mechanism(name).blow())).spelt()
 
 
 def letters(text):
@@ -79,7 +79,7 @@ def test_closed_forms(name):
 def test_a_rod_caught_at_its_end():
     """It turns about that end with 3 v/(2 l), its centre keeps ¾ v, and the string takes ¼ m v (Ruina & Pratap, on collisions of
     rods with what they hang on)."""
-    found, v = blow(mechanism("caught")), Sym("rod.y", 1)
+    found, v = Impact.of(mechanism("caught").blow()), Sym("rod.y", 1)
     # The string is upright, the rod at its lower end.
     below = {Sym("rod.x"): from_sympy(sympy.Symbol("l") / 2), Sym("rod.y"): from_sympy(-sympy.Symbol("s"))}
     made = {symbol: replace(tree, below) for symbol, tree in solved("caught").items()}
@@ -93,7 +93,7 @@ def test_a_rod_caught_at_its_end():
 
 @every(sorted(set(ALL) - LONG - REDUNDANT), "name", share=2)
 def test_symbolic_answers_are_the_numbers_of_the_run(name):
-    found = blow(mechanism(name))
+    found = Impact.of(mechanism(name).blow())
     made, values, sizes = jumps(found).spelt(), found.values, found.sizes()
     for coordinate, u in found.change.after.u.items():
         assert float(evaluate(made[Sym(after(coordinate), 1)], values)) == pytest.approx(u, abs=1e-7)
@@ -107,7 +107,7 @@ def test_symbolic_answers_are_the_numbers_of_the_run(name):
 def test_every_equation_holds_in_the_run(name):
     """Balances of coordinates and of bodies, what comes back or holds, and the law of friction."""
     for number in range(1, len(first_impacts(name, 2)) + 1):
-        found = blow(mechanism(name), number)
+        found = Impact.of(mechanism(name).blow(number))
         values = found.values | {Sym(after(c), 1): u for c, u in found.change.after.u.items()} | found.sizes()
         if any(np.isnan(x) for x in found.sizes().values()):
             continue
@@ -122,7 +122,7 @@ def test_every_equation_holds_in_the_run(name):
 
 @pytest.mark.parametrize("name", sorted(LONG))
 def test_what_is_too_long_is_refused(name):
-    found = blow(mechanism(name))
+    found = Impact.of(mechanism(name).blow())
     with pytest.raises(TooLarge):
         jumps(found)
 

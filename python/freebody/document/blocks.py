@@ -151,3 +151,8 @@ def listed(sides: Iterable[Side], last: str = ", ") -> list[str | Side]:
     every = list(sides)
     between = [", "] * (len(every) - 2) + [last]
     return [piece for i, side in enumerate(every) for piece in ([between[i - 1], side] if i else [side])]
+
+
+def equations(pairs: Iterable[tuple[Side, Side]], name: Words = "") -> list[Block]:
+    """Equations below each other, left = right, of which the first is named."""
+    return [Equation(left, right, "" if i else name) for i, (left, right) in enumerate(pairs)]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import MotionError, State
-from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, listed
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, equations, listed
 from freebody.document.document import Document
 from freebody.equations.balances.system import NotUnknown
 from freebody.equations.dependent_coordinates import held_still
@@ -28,6 +28,7 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import PATIENCE, presented
+from freebody.symbolic.printers.text import text
 from freebody.symbolic.radicals import distances, with_plain_roots
 from freebody.symbolic.to_sympy import to_sympy
 from freebody.symbolic.tree import MINUS_ONE, ZERO, Add, Mul, Pow, Sym, Tree, mul, negative, operations, power, symbols
@@ -154,7 +155,8 @@ def _answers(
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
     states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
     held = held_still(subject, chosen, states)
-    made, chosen = [*_title(subject, chosen), *_held(subject, held)], chosen.and_held(held)
+    made = [*_title(subject, chosen), *_held(subject, held)]
+    chosen = replace(chosen, trees={**chosen.trees, **held.trees}, still=held.still, follow=held.follow)
     found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_still(x)}
     ratio = None
     if with_ratios:  # by what is driven, else by the first acceleration that is wanted, or by the first coordinate
@@ -178,7 +180,7 @@ def _answers(
     made += [Heading("Limits")] if at else []
     for symbol, to in limits.items():
         goes = [Sym(symbol), f" → {'∞' if str(to) == 'inf' else to}"]
-        made += [Equation(x, shown(at[n, symbol]), "" if i else goes) for i, (n, x) in enumerate(wanted.items())]
+        made += equations(((x, shown(at[n, symbol])) for n, x in wanted.items()), goes)
     stated = tuple(lettered(block, nomenclature) for block in made)
     return Answers(stated, nomenclature, values=values, wanted=wanted, named=named, limits=at, checked=checked)
 
@@ -186,13 +188,12 @@ def _answers(
 def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
     made: list[Block] = [Heading(subject.titled("symbolic answers"), 1)]
     made += unloaded(subject)
-    if chosen.measured:
-        made.append(
-            Paragraph("The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI.")
-        )
+    filled = "The fully symbolic form would fill pages: the numbers that stand here are those of the model, in SI."
+    made += [Paragraph(filled)] * chosen.measured
     if chosen.at_start:
         made.append(Paragraph("The symbolic form for every configuration would fill pages: this one holds at the start."))
-    if said := ["all rates are 0"] * subject.at_rest + chosen.said():
+    places = [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in chosen.trees.items()]
+    if said := ["all rates are 0"] * subject.at_rest + places:
         made.append(Paragraph(f"At the instant at which {', '.join(said)}."))
     return made
 
@@ -220,16 +221,15 @@ def _stated(
             labels[stated.title] = str(len(labels) + 1)
             made += replace(stated, label=labels[stated.title]).blocks(subject)
     names = list(dict.fromkeys(row.name for row in system.rows))
-    made += [Equation(row.acceleration, ZERO, "" if i else f"With {joined(names)}") for i, row in enumerate(system.rows)]
+    made += equations(((row.acceleration, ZERO) for row in system.rows), f"With {joined(names)}" if names else "")
     known = {Sym(name): tree for name, tree in chosen.defined.items()} | dict(chosen.follow)
     there = symbols(*(each.balance.residual for each in system.stated), *(row.acceleration for row in system.rows))
-    for i, x in enumerate(sorted(there & known.keys(), key=lambda x: (x.dots, x.name))):
-        short = presented(chosen.put(known[x]), patience=_BRIEF)
-        made.append(Equation(x, shown(short), "" if i else "Where"))
+    others = sorted(there & known.keys(), key=lambda x: (x.dots, x.name))
+    made += equations(((x, shown(presented(chosen.put(known[x]), patience=_BRIEF))) for x in others), "Where")
     name: Words = "So" if len(solution) > 1 or len(system.linear) > 1 else "It gives"
     if system.known:
         name = ["With ", *listed(system.known), " as above"]
-    return made + [Equation(x, shown(tree), "" if i else name) for i, (x, tree) in enumerate(solution.items())]
+    return made + equations(((x, shown(tree)) for x, tree in solution.items()), name)
 
 
 def _solved(subject: SymbolicState, system: SufficientSet, chosen: Substitutions, patience: float) -> dict[Sym, Tree]:

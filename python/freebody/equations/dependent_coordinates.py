@@ -31,7 +31,9 @@ def followed(
     ``values`` are the numbers at which a factor by which is divided should be large."""
     places = solved([put(row.value) for row in rows if row.value is not None], free, 0, values)
     rates = solved([replace(put(row.rate), places) for row in rows if row.rate is not None], free, 1, values)
-    return {x: _shortly(tree) for x, tree in (places | rates).items()}
+    short = {x: to_sympy(presented(tree, patience=PATIENCE / 5)) for x, tree in (places | rates).items()}
+    plain = lambda angle: sympy.sin(angle) / sympy.cos(angle)  # tangents are in no balance and would not cancel there
+    return {x: from_sympy(tree.replace(sympy.tan, plain)) for x, tree in short.items()}
 
 
 def solved(given: Sequence[Tree], free: Collection[str], dots: int, values: Mapping[Sym, float]) -> dict[Sym, Tree]:
@@ -57,12 +59,6 @@ def _one(value: Any, free: Collection[str], dots: int, values: Mapping[Sym, floa
     chosen = min((x for x in sizes if sizes[x] > 0), key=lambda x: (factors[x].count_ops(), -sizes[x]))
     made = sympy.cancel(sympy.together(-value.subs(chosen, 0) / factors[chosen]))
     return Sym(chosen.name.rstrip("'"), dots), from_sympy(made)
-
-
-def _shortly(tree: Tree) -> Tree:
-    """Without tangents, which are in no balance and would not cancel there."""
-    short = to_sympy(presented(tree, patience=PATIENCE / 5))
-    return from_sympy(short.replace(sympy.tan, lambda angle: sympy.sin(angle) / sympy.cos(angle)))
 
 
 def held_still(subject: SymbolicState, chosen: Substitutions, states: Sequence[FreeBodies]) -> Substitutions:

@@ -17,10 +17,9 @@ from freebody.model.start import evaluate as quantity
 from freebody.model.start import parameter_values
 from freebody.solve.perturbed_states import alike
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.decimals import exact, shown, with_exact_numbers
+from freebody.symbolic.decimals import exact, with_exact_numbers
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.nomenclature import is_heavy
-from freebody.symbolic.printers.text import text
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import PI, ZERO, Sym, Tree, mul, number, replace, symbols
 
@@ -68,10 +67,6 @@ class Substitutions:
         """With more symbols set, to measured numbers."""
         return replaced(self, trees={name: exact(value) for name, value in numbers.items()} | dict(self.trees), measured=True)
 
-    def and_held(self, held: Substitutions) -> Substitutions:
-        """With what cannot move, and what follows."""
-        return replaced(self, trees={**self.trees, **held.trees}, still=held.still, follow=held.follow)
-
     def start(self, mechanism: Builder, at_rest: bool, initial: Mapping[str, Any] | None, **moment: Any) -> State:
         """The start of the model with these values, or another moment of the motion from there. Raises ``ModelFileError``, ``MotionError``."""
         first, _ = mechanism.start(initial)
@@ -115,10 +110,6 @@ class Substitutions:
             return state
         found = replaced(place, u=state.u)
         return found if alike(replaced(subject, state=found).free, subject.free) else state
-
-    def said(self) -> list[str]:
-        """As words: ``theta = π/4``."""
-        return [f"{text(Sym(name))} = {text(shown(tree))}" for name, tree in self.trees.items()]
 
     def _consistent(self, parameters: Mapping[str, float]) -> dict[str, Any]:
         """What is set, and what is defined, where the other parameters are as given."""

@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from freebody.document.blocks import Block, Equation, Paragraph, Words, Written
+from freebody.document.blocks import Block, Equation, Paragraph, Words, Written, equations
 from freebody.equations.solve import TooLarge, coefficients, solve
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.decimals import measured
@@ -170,9 +170,8 @@ def blocks(found: Ratios, wanted: Sequence[str], shown: Put) -> list[Block]:
     said: Words = ["Loops leave one coordinate free. With ", Sym(found.free), " all others move, at the rates"]
     made: list[Block] = [Paragraph(said)]
     made += [Equation(Sym(name, 1), shown(mul(k, rate))) for name, k in found.rates.items() if name != found.free]
-    made += [Equation(x, shown(tree), "" if i else "Where") for i, (x, tree) in enumerate(found.named.items())]
+    made += equations(((x, shown(tree)) for x, tree in found.named.items()), "Where")
     stated = "Lagrange's equations, added up with these factors, contain no load that closes a loop: the reduced inertia is"
     made += [Paragraph(stated), Equation(Written.of(Name("J")), shown(found.inertia))]
     made.append(Equation(mul(Sym("J"), acceleration), shown(found.load), "And with it"))
-    others = [name for name in wanted if name != found.free]
-    return made + [Equation(Sym(name, 2), shown(found.acceleration(name)), "" if i else "So") for i, name in enumerate(others)]
+    return made + equations(((Sym(name, 2), shown(found.acceleration(name))) for name in wanted if name != found.free), "So")

@@ -31,7 +31,50 @@ _MOST = 400  # parts, beyond which an equation is no longer one that a person wr
 
 def derivative(node: Node, symbol: Callable[[Sym], Node]) -> Node:
     """Its derivative, where ``symbol`` has that of each symbol. Raises ``StatementError`` at what has none."""
-    return _Rules(symbol).of(node)
+    of = lambda part: derivative(part, symbol)
+    stands = lambda part: all(symbol(x) == _ZERO for x in walk(part) if isinstance(x, Sym))
+
+    def each(factors: Sequence[Node], product: Callable[[list[Node]], Node]) -> Node:
+        """Each factor in turn."""
+        rates = enumerate(map(of, factors))
+        return _sum([product([*factors[:i], rate, *factors[i + 1 :]]) for i, rate in rates if rate != _ZERO])
+
+    match node:
+        case Num() | Unit():
+            return _ZERO
+        case Sym():
+            return symbol(node)
+        case Negative(inner):
+            return _negative(of(inner))
+        case Add(terms):
+            return _sum(list(map(of, terms)))
+        case Mul(factors):
+            return each(factors, _product)
+        case Cross(left, right) | Dot(left, right):
+            return each((left, right), lambda parts: _ZERO if _ZERO in parts else type(node)(*parts))
+        case Quotient(top, bottom):  # (a/b)˙ = ȧ/b − a ḃ/b²
+            first, second = of(top), _product([top, of(bottom)])
+            terms = [_ZERO if first == _ZERO else Quotient(first, bottom)]
+            return _sum([*terms, *([] if stands(bottom) else [Negative(Quotient(second, Pow(bottom, _TWO)))])])
+        case Pow(base, Fraction() as exponent):  # (aⁿ)˙ = n aⁿ⁻¹ ȧ
+            return _product([Num(exponent), power(base, exponent - 1), of(base)])
+        case Pow(base, exponent) if stands(exponent):
+            less = Num(exponent.value - 1) if isinstance(exponent, Num) else Add((exponent, Num(-1.0)))
+            return _product([exponent, base if less == _ONE else Pow(base, less), of(base)])
+        case Pow():
+            raise StatementError("an exponent that changes", node.span, "write the derivative out")
+        case Fn("atan2", (y, x)):
+            above = _sum([_product([x, of(y)]), _negative(_product([y, of(x)]))])
+            return _ZERO if above == _ZERO else Quotient(above, Add((Pow(x, _TWO), Pow(y, _TWO))))
+        case Fn(function, (inside,)) if function in _SLOPES:
+            return _product([_SLOPES[function](inside), of(inside)])
+        case Column(items):
+            return Column(tuple(map(of, items)))
+        case Matrix(rows):
+            return Matrix(tuple(tuple(map(of, row)) for row in rows))
+    if stands(node):
+        return _ZERO
+    raise StatementError("this has no derivative here", node.span, "write the derivative out")
 
 
 def rate(node: Node, still: Collection[str] = ()) -> Node:
@@ -52,63 +95,6 @@ def _short(node: Node, found: Node) -> Node:
     if sum(1 for _ in walk(found)) > _MOST:
         raise StatementError("the derivative of this is too long", node.span, "write it out in several lines")
     return found
-
-
-class _Rules:
-    def __init__(self, symbol: Callable[[Sym], Node]) -> None:
-        self.symbol = symbol
-
-    def of(self, node: Node) -> Node:
-        match node:
-            case Num() | Unit():
-                return _ZERO
-            case Sym():
-                return self.symbol(node)
-            case Negative(of=of):
-                return _negative(self.of(of))
-            case Add(terms=terms):
-                return _sum([self.of(term) for term in terms])
-            case Mul(factors=factors):
-                return self.each(factors, lambda parts: _product(parts))
-            case Cross(left=left, right=right) | Dot(left=left, right=right):
-                return self.each((left, right), lambda parts: _ZERO if _ZERO in parts else type(node)(*parts))
-            case Quotient(top=top, bottom=bottom):  # (a/b)˙ = ȧ/b − a ḃ/b²
-                first, second = self.of(top), _product([top, self.of(bottom)])
-                terms = [_ZERO if first == _ZERO else Quotient(first, bottom)]
-                return _sum([*terms, *([] if self.stands(bottom) else [Negative(Quotient(second, Pow(bottom, _TWO)))])])
-            case Pow(base=base, exponent=exponent):
-                return self.power(node, base, exponent)
-            case Fn(name="atan2", args=(y, x)):
-                above = _sum([_product([x, self.of(y)]), _negative(_product([y, self.of(x)]))])
-                return _ZERO if above == _ZERO else Quotient(above, Add((Pow(x, _TWO), Pow(y, _TWO))))
-            case Fn(name=function, args=(inside,)) if function in _SLOPES:
-                return _product([_SLOPES[function](inside), self.of(inside)])
-            case Column(items=items):
-                return Column(tuple(self.of(item) for item in items))
-            case Matrix(rows=rows):
-                return Matrix(tuple(tuple(self.of(item) for item in row) for row in rows))
-        if self.stands(node):
-            return _ZERO
-        raise StatementError("this has no derivative here", node.span, "write the derivative out")
-
-    def stands(self, node: Node) -> bool:
-        """Whether it does not change."""
-        return all(self.symbol(n) == _ZERO for n in walk(node) if isinstance(n, Sym))
-
-    def each(self, factors: Sequence[Node], product: Callable[[list[Node]], Node]) -> Node:
-        """Each factor in turn."""
-        rates = [self.of(factor) for factor in factors]
-        return _sum([product([*factors[:i], rate, *factors[i + 1 :]]) for i, rate in enumerate(rates) if rate != _ZERO])
-
-    def power(self, node: Node, base: Node, exponent: Node | Fraction) -> Node:
-        """(aⁿ)˙ = n aⁿ⁻¹ ȧ."""
-        if isinstance(exponent, Fraction):
-            return _product([Num(exponent), power(base, exponent - 1), self.of(base)])
-        if not self.stands(exponent):
-            raise StatementError("an exponent that changes", node.span, "write the derivative out")
-        less = Num(exponent.value - 1) if isinstance(exponent, Num) else Add((exponent, Num(-1.0)))
-        lower = base if less == _ONE else Pow(base, less)
-        return _product([exponent, lower, self.of(base)])
 
 
 _SLOPES: dict[str, Callable[[Node], Node]] = {

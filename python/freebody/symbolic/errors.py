@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from freebody.symbolic.alphabet import columns
-
-Span = tuple[int, int]
-"""Start and end in the text of the statement, in characters."""
+from freebody.symbolic.tree import Span
 
 
 class StatementError(ValueError):

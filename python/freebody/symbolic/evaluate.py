@@ -106,7 +106,8 @@ def value(
         case Cross(left, right):
             return _cross(tree, of(left), of(right))
         case Dot(left, right):
-            return _dot((left, of(left)), (right, of(right)))
+            a, b = of(left), of(right)
+            return np.einsum("ki,ki->k", a, b) if np.ndim(a) == np.ndim(b) == 2 else _times((left, a), (right, b))[1]
         case Column(items):
             return np.stack([_entry(item, of(item)) for item in items], axis=-1)[:, :, None]
         case Matrix(rows):
@@ -212,12 +213,6 @@ def _cross(node: Cross, left: Array, right: Array) -> Array:
     at = node.left if left.ndim != 2 else node.right
     hint = "an angular velocity is a vector along k: write `omega k ×`" if 1 in (left.ndim, right.ndim) else ""
     raise StatementError(f"a cross product of {kind(left)} and {kind(right)}", at.span, hint)
-
-
-def _dot(left: tuple[Node, Array], right: tuple[Node, Array]) -> Array:
-    if left[1].ndim == right[1].ndim == 2:
-        return np.einsum("ki,ki->k", left[1], right[1])
-    return _times(left, right)[1]
 
 
 def _entry(node: Node, value: Array) -> Array:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from freebody.symbolic.symbols import Name, Renamed
 from freebody.symbolic.tree import Sym
-
-KINDS = ("coordinate", "parameter", "time", "unknown", "constant", "indeterminate")
 
 
 @dataclass(frozen=True)
@@ -25,20 +23,17 @@ class SymbolEntry:
     written: Name | None = None
 
 
-@dataclass(frozen=True)
-class Nomenclature(Mapping[str, SymbolEntry]):
-    """The symbols of some equations by name, in the order of the model. A name that is not there reads as a parameter."""
+class Nomenclature(dict[str, SymbolEntry]):
+    """The symbols of some equations by name, in the order of the model. A name that is not there reads as a parameter. Those
+    that are ``renamed`` are not written as usual, because that means something else."""
 
-    table: Mapping[str, SymbolEntry] = field(default_factory=dict)
-    renamed: Mapping[str, Renamed] = field(default_factory=dict)
-    """Those that are not written as usual, because that means something else."""
+    def __init__(self, table: Mapping[str, SymbolEntry] | None = None, renamed: Mapping[str, Renamed] | None = None) -> None:
+        super().__init__(table or {})
+        self.renamed = dict(renamed or {})
 
     @classmethod
     def read(cls, data: Mapping[str, Mapping[str, Any]]) -> Nomenclature:
         """From JSON: ``{"theta": {"kind": "coordinate", "unit": "rad", "doc": "…"}}``."""
-        for name, entry in data.items():
-            if entry.get("kind", "parameter") not in KINDS:
-                raise ValueError(f"symbol {name!r}: kind {entry['kind']!r} is none of {', '.join(KINDS)}")
         known = ("kind", "unit", "doc")
         return cls({name: SymbolEntry(name, **{k: entry[k] for k in known if k in entry}) for name, entry in data.items()})
 
@@ -46,26 +41,17 @@ class Nomenclature(Mapping[str, SymbolEntry]):
         """As JSON data."""
         return {symbol.name: {"kind": symbol.kind, "unit": symbol.unit, "doc": symbol.doc} for symbol in self.values()}
 
-    def __getitem__(self, name: str) -> SymbolEntry:
-        return self.table[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self.table)
-
-    def __len__(self) -> int:
-        return len(self.table)
-
     def kind(self, name: str) -> str:
         """The kind of a name."""
-        return self.table[name].kind if name in self.table else "parameter"
+        return self[name].kind if name in self else "parameter"
 
     def written(self, name: str) -> Name | None:
         """How a symbol is written that is not written by its own name."""
-        return self.table[name].written if name in self.table else None
+        return self[name].written if name in self else None
 
     def of_kind(self, *kinds: str) -> list[str]:
         """The names of some kinds, in the order of the model."""
-        return [name for name, symbol in self.table.items() if symbol.kind in kinds]
+        return [name for name, symbol in self.items() if symbol.kind in kinds]
 
     def geometric(self) -> list[str]:
         """Coordinates and parameters that are lengths, angles or plain numbers: neither masses, loads, stiffnesses nor g."""
@@ -73,7 +59,7 @@ class Nomenclature(Mapping[str, SymbolEntry]):
 
     def rank(self, symbol: Sym) -> tuple[int, int]:
         """Where a symbol stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
-        weight = _weight(self.table[symbol.name].unit) if symbol.name in self.table else _OTHER
+        weight = _weight(self[symbol.name].unit) if symbol.name in self else _OTHER
         return weight, self.place(symbol.name)
 
     def place(self, name: str) -> int:
@@ -82,7 +68,7 @@ class Nomenclature(Mapping[str, SymbolEntry]):
 
     @cached_property
     def _places(self) -> dict[str, int]:
-        return {name: place for place, name in enumerate(self.table)}
+        return {name: place for place, name in enumerate(self)}
 
 
 def is_heavy(unit: str) -> bool:

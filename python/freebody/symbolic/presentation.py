@@ -28,7 +28,7 @@ from freebody.symbolic.linear import linear_in
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import text
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
-from freebody.symbolic.tree import MINUS_ONE, Add, Fn, Node, Num, Sym, Tree, add, mul, walk
+from freebody.symbolic.tree import MINUS_ONE, Add, Fn, Mul, Node, Num, Sym, Tree, add, mul, symbols, walk
 
 PATIENCE = 5.0
 """Seconds after which no further form of an answer is tried."""
@@ -63,12 +63,16 @@ def presented(
 
 def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     """A sum that is linear in some symbols, with one factor for each of them; as it is if it is not linear."""
+    terms = tree.terms if isinstance(tree, Add) else ()
+    factors = [factor for term in terms for factor in (term.factors if isinstance(term, Mul) else (term,))]
+    if not terms or any(symbols(factor) & {*unknowns} for factor in factors if not isinstance(factor, Sym)):
+        return tree
     try:
-        found = linear_in(tree, unknowns) if isinstance(tree, Add) else None
+        found = linear_in(tree, unknowns)
     except ValueError:
-        found = None
-    held = [(found.coefficients[x], x) for x in unknowns if x in found.coefficients] if found else []
-    return add(*(mul(factored(factor), x) for factor, x in held), found.rest) if found else tree
+        return tree
+    held = ((found.coefficients[x], x) for x in unknowns if x in found.coefficients)
+    return add(*(mul(factored(factor), x) for factor, x in held), found.rest)
 
 
 def _by_loads(expression: Any, nomenclature: Nomenclature, patience: float) -> Tree:

@@ -34,16 +34,13 @@ def with_plain_roots(tree: Tree, known: Mapping[Any, Any], values: Mapping[Sym, 
     plain = {p: length ** (_HALVES * p.exp) for p in powers if (length := known.get(sympy.expand(p.base))) is not None}
     made = expression.xreplace(plain)
     roots = [node for node in made.atoms(sympy.Pow) if (_HALVES * node.exp).is_Integer and not node.exp.is_Integer]
-    made = made.xreplace({root: _root(root.base, values) ** (_HALVES * root.exp) for root in roots})
+    parts = {root: sympy.fraction(sympy.factor(sympy.trigsimp(sympy.together(root.base)))) for root in roots}
+    bare = {root: _root(above, values) / _root(below, values) for root, (above, below) in parts.items()}
+    made = made.xreplace({root: bare[root] ** (_HALVES * root.exp) for root in roots})
     return from_sympy(made) if plain or roots else tree
 
 
-def _root(base: Any, values: Mapping[Sym, float]) -> Any:
-    above, below = sympy.fraction(sympy.factor(sympy.trigsimp(sympy.together(base))))
-    return _of_factors(above, values) / _of_factors(below, values)
-
-
-def _of_factors(part: Any, values: Mapping[Sym, float]) -> Any:
+def _root(part: Any, values: Mapping[Sym, float]) -> Any:
     """The root of a product, without those of squares."""
     outside, inside = sympy.S.One, sympy.S.One
     for factor in sympy.Mul.make_args(part):

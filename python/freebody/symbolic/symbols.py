@@ -16,9 +16,9 @@ from freebody.symbolic.printers.latex import latex
 _MARKS = {"\u0307": 1, "\u0308": 2, "\u20db": 3}
 _NUMBERED = re.compile(r"[_{},\s]")
 _EPS = re.compile(r"eps(?=\d*$)")
-_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _FROM_SUBSCRIPTS = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
-_SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _COMBINING = ("", "\u0307", "\u0308")
 _COMMA = (Atom(",", "sign"),)
 
@@ -48,7 +48,7 @@ class Name:
         """``θ̈₁``, ``N_track``, ``pivot_x``; the rate of a word of several letters has primes."""
         stem = GREEK.get(self.stem, _word(self.stem))
         below = "".join(
-            part.translate(_SUBSCRIPTS) if part.isdigit() else f"_{GREEK.get(part, _word(part))}" for part in self.below
+            part.translate(SUBSCRIPTS) if part.isdigit() else f"_{GREEK.get(part, _word(part))}" for part in self.below
         )
         made = stem + _COMBINING[dots] + below if self.is_letter else stem + below + "′" * dots
         return f"{self.owner.replace(' ', '_')}.{made}" if self.owner else made
@@ -97,16 +97,6 @@ def direction(name: str, dots: int = 0) -> Formula:
     stem, _, below = name.partition("_")
     letter = dotted((Atom(stem, "bold"),), dots)
     return (Script(letter, name_formula(below)),) if below else letter
-
-
-def superscript(text: str) -> str:
-    """Digits and the minus sign, raised: ``²``."""
-    return text.translate(_SUPERSCRIPTS)
-
-
-def subscript(digits: str) -> str:
-    """Digits, lowered: ``₁₂``."""
-    return digits.translate(_SUBSCRIPTS)
 
 
 def _letter(text: str, otherwise: str) -> Atom:

@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 import freebody as fb
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.topics import NotHere, topic
-from freebody.equations.topics.impact_equations import after, blow
+from freebody.equations.topics.impact_equations import Impact, after
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.symbolic.algebra import equal
 
@@ -49,7 +49,7 @@ MODELS = {
 
 @pytest.mark.parametrize("name", MODELS)
 def test_rates_after_a_blow_are_those_of_the_run(name: str) -> None:
-    found = blow(MODELS[name]())
+    found = Impact.of(MODELS[name]().blow())
     solved, values = jumps(found).spelt(), found.values
     for coordinate, true in found.change.after.u.items():
         assert float(evaluate(solved[Sym(after(coordinate), 1)], values)) == pytest.approx(true, abs=1e-7)
@@ -57,7 +57,7 @@ def test_rates_after_a_blow_are_those_of_the_run(name: str) -> None:
 
 @pytest.mark.parametrize("name", MODELS)
 def test_impulses_are_those_of_the_run(name: str) -> None:
-    found = blow(MODELS[name]())
+    found = Impact.of(MODELS[name]().blow())
     solved, values = jumps(found).spelt(), found.values
     for limit, true in found.change.impulses.contacts.items():
         loads = [load for load in found.subject.free.loads if load.name == limit and load.unknown]
@@ -74,7 +74,7 @@ def test_impulses_are_those_of_the_run(name: str) -> None:
 
 @pytest.mark.parametrize("name", MODELS)
 def test_conserved_momenta_are_the_same_on_both_sides(name: str) -> None:
-    found = blow(MODELS[name]())
+    found = Impact.of(MODELS[name]().blow())
     values = found.values | {Sym(after(c), 1): u for c, u in found.change.after.u.items()}
     assert found.conserved()
     for title, balance in found.conserved():
@@ -87,7 +87,7 @@ def test_carts_bounce() -> None:
 
     m1, m2, e, a, b = sympy.symbols("m1 m2 e_bump xA' xB'")
     known = ((m1 - e * m2) * a + (1 + e) * m2 * b) / (m1 + m2)
-    assert equal(jumps(blow(carts(0.6))).spelt()[Sym(after("xA"), 1)], from_sympy(known))
+    assert equal(jumps(Impact.of(carts(0.6).blow())).spelt()[Sym(after("xA"), 1)], from_sympy(known))
 
 
 def test_a_run_without_blow_is_named() -> None:

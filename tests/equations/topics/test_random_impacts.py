@@ -10,7 +10,7 @@ from store import every
 import freebody as fb
 from freebody.equations import Singular, Sym, TooLarge, Tree, to_sympy
 from freebody.equations.solve import Unconfirmed
-from freebody.equations.topics.impact_equations import Impact, after, blow
+from freebody.equations.topics.impact_equations import Impact, after
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.impact.impacts import impacts
 
@@ -77,6 +77,6 @@ def test_an_impact_is_that_of_the_core_or_is_refused(name, record_property):
         record_property("refused", "there is no such impact")
         return
     try:
-        agree(blow(mechanism, place + 1))
+        agree(Impact.of(mechanism.blow(place + 1)))
     except (TooLarge, Singular, Unconfirmed) as error:
         record_property("refused", str(error))

@@ -6,7 +6,8 @@ import pytest
 from models import tree
 
 import freebody as fb
-from freebody.equations import Equation, evaluate, symbols, to_sympy
+from freebody.document.blocks import Equation
+from freebody.equations import evaluate, symbols, to_sympy
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import Sym
 

@@ -119,7 +119,15 @@ def best(by_support: Supports, sets: Iterator[int] | Sequence[int], size: int, a
     held = ((within(by_support, unknowns), unknowns) for unknowns in sets)
     solved = ((plainest(equations, accelerations)[:size], unknowns) for equations, unknowns in held if len(equations) >= size)
     enough = (found for found in solved if len(found[0]) == size)
-    return min(enough, key=lambda found: set_cost(found[0], accelerations), default=([], 0))
+
+    def cost(found: tuple[list[Candidate], int]) -> tuple[float, ...]:
+        """Points of inertia, bodies, constructed points, condition number, accelerations, plainness."""
+        orders = np.array([equation.order(accelerations) for equation in found[0]]).sum(axis=0)
+        rows = np.array([equation.coefficients for equation in found[0]])
+        condition = np.linalg.cond(rows[:, np.abs(rows).max(axis=0) > 0])
+        return *map(float, orders[:3]), float(np.round(2 * np.log10(condition))), *map(float, orders[3:])
+
+    return min(enough, key=cost, default=([], 0))
 
 
 def grown(by_support: Supports, start: int, size: int) -> Iterator[int]:
@@ -153,11 +161,3 @@ def within(by_support: Supports, unknowns: int) -> list[Candidate]:
         found += by_support.get(part, ())
         part = (part - 1) & unknowns
     return found
-
-
-def set_cost(equations: Sequence[Candidate], accelerations: int) -> tuple[float, ...]:
-    """What is less in the better of two sets: points of inertia, bodies, constructed points, condition number, accelerations, plainness."""
-    orders = np.array([equation.order(accelerations) for equation in equations]).sum(axis=0)
-    rows = np.array([equation.coefficients for equation in equations])
-    condition = np.linalg.cond(rows[:, np.abs(rows).max(axis=0) > 0])
-    return *map(float, orders[:3]), float(np.round(2 * np.log10(condition))), *map(float, orders[3:])

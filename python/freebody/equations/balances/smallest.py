@@ -29,18 +29,14 @@ class VirtualPower:
     motion: Mapping[str, tuple[float, float, float]]
     right: float
 
-    @property
-    def title(self) -> str:
-        """Which equation it is."""
-        return f"virtual power, in the motion in which only {self.unknown} has any"
-
     def lines(self) -> list[str]:
         """As text: how the bodies move in it, and what it gives."""
         moves = [
             f"   {body}: G moves with ({figure(vx)}, {figure(vy)}), turns with {figure(turn)}"
             for body, (vx, vy, turn) in self.motion.items()
         ]
-        return [self.title, *moves, f"   {self.unknown} = {figure(self.right)}"]
+        title = f"virtual power, in the motion in which only {self.unknown} has any"
+        return [title, *moves, f"   {self.unknown} = {figure(self.right)}"]
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,13 @@ def brute(subject: SymbolicState) -> Form:
     stated = [replace(s, label=str(i)) for i, s in enumerate(of_bodies(subject, "its mass centre"), 1)]
     form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(subject.rows))
     made: list[Block] = loop_closure.section(subject.rows, subject.names) if subject.rows else []
-    made += [Heading("Balance equations"), Paragraph(_introduction(form, len(stated)))]
+    reactions, rows = len(form.reactions), len(form.equations) - len(stated)
+    moving = len(form.system.unknowns) - reactions
+    parts = [f"{moving} acceleration{'s' * (moving != 1)}"] if moving else []
+    parts += [f"{reactions} unknown force{'s' * (reactions != 1)} and couples"] if reactions else []
+    said = f"Each body is cut free: {len(stated)} balance equations, three a body and two a particle"
+    said += f", and {rows} of closure for the accelerations" * bool(rows)
+    made += [Heading("Balance equations"), Paragraph(f"{said}. Unknown are {' and '.join(parts) or 'no quantities'}.")]
     body = ""
     for s in stated:
         if s.balance.bodies[0] != body:
@@ -24,13 +30,3 @@ def brute(subject: SymbolicState) -> Form:
             made.append(Heading(f"Body {body}", 3))
         made.append(Equation(*s.sides, f"{s.kind} {s.word} {s.where}", s.label))
     return replace(form, blocks=tuple(made))
-
-
-def _introduction(form: Form, number: int) -> str:
-    reactions, rows = len(form.reactions), len(form.equations) - number
-    moving = len(form.system.unknowns) - reactions
-    parts = [f"{moving} acceleration{'s' * (moving != 1)}"] if moving else []
-    parts += [f"{reactions} unknown force{'s' * (reactions != 1)} and couples"] if reactions else []
-    said = f"Each body is cut free: {number} balance equations, three a body and two a particle"
-    said += f", and {rows} of closure for the accelerations" * bool(rows)
-    return f"{said}. Unknown are {' and '.join(parts) or 'no quantities'}."

@@ -29,17 +29,21 @@ _NONE = "No momentum of bodies that are joined is conserved: along no direction,
 def section(subject: SymbolicState, symbolically: bool = True) -> list[Block]:
     """Every quantity that stays constant, with its reason, or why none does; ``symbolically``: and what it is in the coordinates."""
     kinetic, potential, why = energy(subject)
-    reason = (
-        f"not conserved: {why}."
-        if why
-        else "conserved: all forces have potentials, and the reactions of joints and contacts do no work."
-    )
+    kept = "conserved: all forces have potentials, and the reactions of joints and contacts do no work."
     made: list[Block] = [Heading("Conserved quantities")]
     if symbolically:
         left, right = energies(subject)
         made += [Equation(left, kinetic, "The kinetic and the potential energy"), Equation(right, potential)]
     lead = "Their sum" if symbolically else "The sum of kinetic and potential energy"
-    return [*made, Paragraph(f"{lead} is {reason}"), *_conserved_momenta(subject, symbolically)]
+    made.append(Paragraph(f"{lead} is {f'not conserved: {why}.' if why else kept}"))
+    while_idle = f"As long as {clause(subject.idle, 'carries', 'carry')} no load, the" if subject.idle else "The"
+    found = momenta(subject)
+    for each in found:
+        reason = _reason(subject, each.found, each.where(subject))
+        made.append(Paragraph(f"{while_idle} {each.words(subject)} is conserved: {reason}."))
+        if symbolically:
+            made.append(Equation(each.letter(subject), each.momentum))
+    return made if found else [*made, Paragraph(_NONE)]
 
 
 def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:
@@ -125,18 +129,6 @@ def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -
     The numbers are enough only if they were taken at several places."""
     stands = found.twist.question == {"about": "centre"} or not any(x.name in subject.names for x in symbols(*balance.place.xy))
     return (is_zero(balance.left) and stands) or (found.elsewhere and bool(subject.rows))
-
-
-def _conserved_momenta(subject: SymbolicState, symbolically: bool) -> list[Block]:
-    """Each with its reason; ``symbolically``: and what it is in the coordinates."""
-    made: list[Block] = []
-    while_idle = f"As long as {clause(subject.idle, 'carries', 'carry')} no load, the" if subject.idle else "The"
-    for each in momenta(subject):
-        reason = _reason(subject, each.found, each.where(subject))
-        made.append(Paragraph(f"{while_idle} {each.words(subject)} is conserved: {reason}."))
-        if symbolically:
-            made.append(Equation(each.letter(subject), each.momentum))
-    return made or [Paragraph(_NONE)]
 
 
 def _written(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> Momentum:

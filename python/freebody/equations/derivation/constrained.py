@@ -62,11 +62,8 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
     masses, held = ([[row[column] for column in order] for row in rows] for rows in (above, below))
     a, forces = [system.unknowns[column] for column in order], system.unknowns[moving:]
     legend = Paragraph([_LEGEND, "a = (", *listed(a), "), λ = (", *listed(forces), ")."])
-    made: list[Block] = [
-        Heading("Matrix form"),
-        Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system"),
-        legend,
-    ]
+    whole = Equation(_BLOCKS, _RIGHT, "Balances and constraints as one block system")
+    made: list[Block] = [Heading("Matrix form"), whole, legend]
     off = any(not is_zero(entry) for i, row in enumerate(masses) for j, entry in enumerate(row) if i != j)
     if masses and not off and len(masses) == len(order):
         made.append(Paragraph(["M = diag(", *listed(row[i] for i, row in enumerate(masses)), ")"]))
@@ -74,9 +71,8 @@ def _in_blocks(system: System, balances: int) -> list[Block]:
     loads = [[negative(entry) for entry in row[moving:]] for row in above]
     f, c = ([[x] for x in side] for side in (system.right[:balances], system.right[balances:]))
     blocks = (("M", masses), ("W", loads), ("G", held), ("f", f), ("c", c))
-    return made + [
-        Equation(Written(name, typed(name)), Matrices((Matrix(rows, name),))) for name, rows in blocks if rows and rows[0]
-    ]
+    there = ((name, rows) for name, rows in blocks if rows and rows[0])
+    return made + [Equation(Written(name, typed(name)), Matrices((Matrix(rows, name),))) for name, rows in there]
 
 
 def _nomenclature(names: list[str], subject: SymbolicState) -> Nomenclature:

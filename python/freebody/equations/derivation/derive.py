@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Words, listed
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Words, equations, listed
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved, preamble
 from freebody.equations.derivation.brute import brute
@@ -90,9 +90,8 @@ def derive(subject: SymbolicState, form: str = "minimal", want: str | None = Non
     own = form != "constraints"  # else the places of the bodies are the coordinates
     body: list[Block] = [*content.blocks]
     if form in FORMS:
-        law = "The law of friction, as the joint slides now"
         body = [*preamble.kinematics(subject)] * own + body
-        body += [Equation(load, tree, "" if i else law) for i, (load, tree) in enumerate(subject.laws)]
+        body += equations(subject.laws, "The law of friction, as the joint slides now")
         body += [*_matrix_form(form, content, subject), *conserved.section(subject, symbolically=own)]
     first = [Heading(subject.titled(f"equations, {title}"), 1), *(preamble.configuration(subject) if own else [])]
     blocks = (*first, *preamble.nomenclature(nomenclature, used(body)), *body)
@@ -118,16 +117,8 @@ def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block
         made.append(Paragraph(_uneven(len(system.matrix), len(system.unknowns), len(subject.laws))))
     if moving:
         places, rates = (listed([Sym(x.name, x.dots - fewer) for x in moving]) for fewer in (2, 1))
-        said: Words = [
-            "For integration the state is z = (",
-            *places,
-            ", ",
-            *rates,
-            "). Its rate is (",
-            *rates,
-            ", ",
-            *listed(moving),
-        ]
+        said: Words = ["For integration the state is z = (", *places, ", ", *rates, "). Its rate is ("]
+        said += [*rates, ", ", *listed(moving)]
         rest = "), of which the first half is in the state and the second solves the equations above at each instant."
         made += [Heading("First-order form"), Paragraph([*said, rest])]
         if len(system.unknowns) == len(system.matrix) == 1:
@@ -136,11 +127,7 @@ def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block
 
 
 def _uneven(equations: int, unknowns: int, laws: int) -> str:
-    these = (
-        f"This is one equation in {unknowns} unknowns"
-        if equations == 1
-        else f"These are {equations} equations in {unknowns} unknowns"
-    )
+    these = f"{'This is one equation' if equations == 1 else f'These are {equations} equations'} in {unknowns} unknowns"
     if laws and equations + laws == unknowns:
         return f"{these}: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
     if equations < unknowns:

@@ -14,7 +14,7 @@ from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbolic_state import Arrow, Motion
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.symbols import Name, Taken, direction, folded, subscript, unicode_name
+from freebody.symbolic.symbols import SUBSCRIPTS, Name, Taken, direction, folded, unicode_name
 from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, mul, negative, number, symbols
 
 
@@ -165,4 +165,4 @@ def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
 
 
 def _word(name: str) -> str:
-    return re.sub(r"\W+", "", re.sub(r"\[(\d+)\]", lambda found: subscript(found[1]), name)) or "1"
+    return re.sub(r"\W+", "", re.sub(r"\[(\d+)\]", lambda found: found[1].translate(SUBSCRIPTS), name)) or "1"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, equations
 from freebody.equations.derivation.form import Printed, System
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.symbolic_state import Row
@@ -32,14 +32,14 @@ def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = 
     made: list[Block] = [Heading(title[0].upper() + title[1:]), Paragraph(_why(rows, everywhere))]
     rows = written(rows)
     held, moving = ([row for row in rows if getattr(row, level) is not None] for level in ("value", "rate"))
-    made += [Equation(row.value, ZERO, "" if i else "For the positions") for i, row in enumerate(held)]
+    made += equations(((row.value, ZERO) for row in held), "For the positions")
     try:
         found = [linear_in(row.rate, [Sym(name, 1) for name in coordinates]) for row in moving]
         slopes = [{Sym(x.name, 1): tree for x, tree in row.linear.coefficients.items() if x.dots == 2} for row in moving]
         rates = System.of([Linear(own, each.rest) for own, each in zip(slopes, found, strict=True)], coordinates)
         made += _together(rates, "Differentiated, for the velocities" if held else "For the velocities")
     except ValueError:  # some are not linear in the rates
-        made += [Equation(row.rate, ZERO, "" if i else "Their rates") for i, row in enumerate(moving)]
+        made += equations(((row.rate, ZERO) for row in moving), "Their rates")
     name = "Differentiated once more, for the accelerations" if moving else "For the accelerations"
     return made + accelerations(rows, coordinates, name)
 

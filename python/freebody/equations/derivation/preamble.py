@@ -14,7 +14,7 @@ from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.nomenclature import Nomenclature
-from freebody.symbolic.symbols import superscript
+from freebody.symbolic.symbols import SUPERSCRIPTS
 from freebody.symbolic.tree import Sym, is_zero
 
 _GUIDED = re.compile(r"^(s|x|y) of (.+) from (.+) at (.+)$")
@@ -107,7 +107,7 @@ def nomenclature(known: Nomenclature, used: Collection[str]) -> list[Block]:
     shown = [symbol for symbol in known.values() if symbol.name in used]
     given: list[str | Sym] = []
     for symbol in (symbol for symbol in shown if symbol.kind in ("parameter", "constant")):
-        unit = re.sub(r"\^(-?\d+)", lambda found: superscript(found[1]), symbol.unit).replace("*", "·")
+        unit = re.sub(r"\^(-?\d+)", lambda found: found[1].translate(SUPERSCRIPTS), symbol.unit).replace("*", "·")
         said = ", ".join(filter(None, (symbol.doc, unit)))
         given += [", " if given else "Given: ", Sym(symbol.name), f" ({said})" * bool(said)]
     made: list[Block] = [Paragraph([*given, "."])] if given else []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, Words, listed
+from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, listed
 from freebody.equations.balances.smallest import COUNT, SmallestSet, smallest_set
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.form import Form
@@ -32,7 +32,12 @@ def wanted(subject: SymbolicState, name: str) -> Form:
     moving = {x.name for equation in printed for x in equation.linear.coefficients if x.dots}
     following = loop_closure.followers(subject.rows, free, moving)
     form = Form.of(subject.nomenclature, printed + loop_closure.printed(following))
-    made: list[Block] = [Heading("Balance equations"), Paragraph(_introduction(found))]
+    number, names = len(found.equations), listed(map(_symbol, found.values), " and ")
+    said = ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
+    if number > 1:
+        smaller = " and no other unknown; no smaller set determines "
+        said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, smaller, _symbol(found.wanted), "."]
+    made: list[Block] = [Heading("Balance equations"), Paragraph(said)]
     for s in stated:
         made += s.blocks(subject)
     made += _following(subject, form, free, following) if following else []
@@ -50,14 +55,6 @@ def _following(subject: SymbolicState, form: Form, free: Sequence[str], rows: Se
     return [Heading("Accelerations that follow"), Paragraph(said), *accelerations]
 
 
-def _introduction(found: SmallestSet) -> Words:
-    number, names = len(found.equations), listed(map(_symbol, found.values), " and ")
-    if number == 1:
-        return ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
-    smaller = " and no other unknown; no smaller set determines "
-    return [f"{COUNT[number].capitalize()} balance equations contain ", *names, smaller, _symbol(found.wanted), "."]
-
-
 def _symbol(name: str) -> Sym:
     return Sym(name[6:-1], 2) if name.startswith("accel(") else Sym(name)
 
@@ -66,11 +63,8 @@ def _numeric(found: SmallestSet) -> list[Block]:
     """A set that has no symbols, as numbers."""
     if not found.virtual:
         lines = [line.strip() for line in str(found).splitlines() if line.strip()]
-        return [
-            Heading("Balance equations"),
-            Paragraph("The points of this set have no symbols; in numbers it is:"),
-            Bullets(lines),
-        ]
+        said = "The points of this set have no symbols; in numbers it is:"
+        return [Heading("Balance equations"), Paragraph(said), Bullets(lines)]
     symbol = _symbol(found.wanted)
     name = f"the acceleration of {symbol.name}" if symbol.dots else symbol.name
     said = f"{name} takes more than four balance equations. One of virtual power gives it: move the bodies so that "

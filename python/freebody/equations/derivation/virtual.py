@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.core import MotionError, OutcomeKind
-from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written, equations
 from freebody.equations.derivation.sentences import clause
 from freebody.solve.perturbed_states import independent
 from freebody.solve.symbolic_state import SymbolicState
@@ -83,8 +83,6 @@ def section(subject: SymbolicState, wanted: int) -> list[Block]:
     for each in found:
         moved = {name: tree for name, tree in each.rates.items() if not is_zero(tree)}
         rates = [(Written(f"δ{unicode_name(name)}", typed("δ ", name_formula(name))), tree) for name, tree in moved.items()]
-        made += [
-            Equation(*pair, "" if i else "Where the coordinates change at the virtual rates") for i, pair in enumerate(rates)
-        ]
+        made += equations(rates, "Where the coordinates change at the virtual rates")
         made.append(Equation(each.right, each.left, "the power of inertia is that of the loads"))
     return made

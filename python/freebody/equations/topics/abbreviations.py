@@ -25,7 +25,17 @@ class Names:
 
     def angles(self, tree: Tree) -> Tree:
         """With symbols for its long angles."""
-        return rebuilt(tree, self._angle)
+
+        def put(part: Tree) -> Tree | None:
+            if not isinstance(part, Fn) or part.name not in ("sin", "cos") or not isinstance(part.args[0], Add):
+                return None
+            [angle] = part.args
+            if len(angle.terms) < _MANY and all(operations(term) <= 1 for term in angle.terms):
+                return None
+            known = next((name for name, tree in self.made.items() if tree == angle), None)
+            return Fn(part.name, (known or self._new(_ANGLE, angle),))
+
+        return rebuilt(tree, put)
 
     def entry(self, tree: Tree) -> Tree:
         """It, or the symbol for it, or for what it is the negative of."""
@@ -43,7 +53,14 @@ class Names:
 
     def plain_angles(self, tree: Tree) -> Tree:
         """Where a symbol of an angle is one of several terms of another angle, what it stands for: cos(ψ₁ − θ) is cos α."""
-        return rebuilt(tree, self._plain)
+
+        def put(part: Tree) -> Tree | None:
+            if not isinstance(part, Fn) or not isinstance(part.args[0], Add) or not symbols(part) & self.made.keys():
+                return None
+            angle = sympy.expand(to_sympy(replace(part.args[0], self.made)))
+            return from_sympy(to_sympy(Fn(part.name, (from_sympy(angle),))))
+
+        return rebuilt(tree, put)
 
     def used(self, trees: Iterable[Tree]) -> Mapping[Sym, Tree]:
         """The symbols that occur, also in what others stand for."""
@@ -51,21 +68,6 @@ class Names:
         for name in reversed(self.made):
             there |= symbols(self.made[name]) if name in there else set()
         return {name: tree for name, tree in self.made.items() if name in there}
-
-    def _angle(self, part: Tree) -> Tree | None:
-        if not isinstance(part, Fn) or part.name not in ("sin", "cos"):
-            return None
-        [angle] = part.args
-        if not isinstance(angle, Add) or (len(angle.terms) < _MANY and all(operations(term) <= 1 for term in angle.terms)):
-            return None
-        known = next((name for name, tree in self.made.items() if tree == angle), None)
-        return Fn(part.name, (known or self._new(_ANGLE, angle),))
-
-    def _plain(self, part: Tree) -> Tree | None:
-        if not isinstance(part, Fn) or not isinstance(part.args[0], Add) or not symbols(part) & self.made.keys():
-            return None
-        angle = sympy.expand(to_sympy(replace(part.args[0], self.made)))
-        return from_sympy(to_sympy(Fn(part.name, (from_sympy(angle),))))
 
     def _new(self, stem: str, tree: Tree) -> Sym:
         free = (f"{stem}{i}" for i in range(1, 1000))

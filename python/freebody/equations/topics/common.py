@@ -45,7 +45,7 @@ class Asked:
 
 def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[SymbolEntry] = ()) -> Document:
     """A document with a title and the meaning of its symbols; ``more`` are those that the model does not have."""
-    nomenclature = Nomenclature({**subject.nomenclature.table, **{symbol.name: symbol for symbol in more}})
+    nomenclature = Nomenclature({**subject.nomenclature, **{symbol.name: symbol for symbol in more}})
     first = Heading(subject.titled(title), 1)
     short = [readable(block, _ELSEWHERE) for block in blocks]
     made = (first, *preamble.configuration(subject), *preamble.nomenclature(nomenclature, used(short)), *short)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words, listed
@@ -37,11 +37,8 @@ def eliminated(subject: SymbolicState) -> Eliminated:
         raise NotHere("the coordinates depend on each other, so no momentum is that of one alone")
     kinetic, potential, found = equations(subject)
     where = symbols(kinetic, potential)
-    gone = [
-        x
-        for x in found
-        if Sym(x.coordinate) not in where and is_zero(x.force) and not is_zero(x.momentum) and Sym("t") not in where
-    ]
+    free = [x for x in found if is_zero(x.force) and not is_zero(x.momentum) and Sym("t") not in where]
+    gone = [x for x in free if Sym(x.coordinate) not in where]
     if not gone:
         raise NotHere("no momentum of a coordinate is conserved: every coordinate itself stands in the energies, or is driven")
     constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}
@@ -62,11 +59,20 @@ def elimination(asked: Asked) -> Document:
     subject = asked.subject
     found = eliminated(subject)
     names = list(found.momenta)
-    made: list[Block] = [Heading("Conserved"), Paragraph(_why(names))]
+    why = " stand in no energy, only their rates, and no force without a potential works on them. So the momenta are constant:"
+    if len(names) == 1:
+        why = " stands in no energy, only its rate, and no force without a potential works on it. So its momentum "
+        why += "∂E_k/∂q̇ is constant:"
+    made: list[Block] = [Heading("Conserved"), Paragraph([*listed(map(Sym, names)), why])]
     made += [Equation(found.constants[name], momentum) for name, momentum in found.momenta.items()]
     made += [Heading("Rates by the conserved quantities")]
     made += [Equation(x, tree) for x, tree in found.rates.items()]
-    made += [Heading("What is left"), Paragraph(_left(list(found.equations)))]
+    left: Words = "Nothing: the rates above are the whole motion."
+    if found.equations:
+        count = "one equation" if len(found.equations) == 1 else f"{len(found.equations)} equations"
+        said = f"With these rates, and their derivatives, Lagrange's equations of the other coordinates are {count} in "
+        left = [said, *listed(map(Sym, found.equations)), " alone:"]
+    made += [Heading("What is left"), Paragraph(left)]
     made += [Equation(tree, ZERO, ["For ", Sym(name)]) for name, tree in found.equations.items()]
     if found.energy is not None:
         made.append(Equation(Sym("E"), found.energy, "Its first integral, the energy, which is constant"))
@@ -94,21 +100,3 @@ def _bare(subject: SymbolicState, tree: Tree) -> Tree:
     parts = linear_in(from_sympy(sympy.expand(kept)), moving)
     terms = [mul(brief(factor, subject.nomenclature), x) for x, factor in parts.coefficients.items()]
     return add(*terms, brief(parts.rest, subject.nomenclature))
-
-
-def _why(names: Sequence[str]) -> Words:
-    if len(names) == 1:
-        return [Sym(names[0]), " stands in no energy, only its rate, and no force without a potential works on it. So its momentum "
-                "∂E_k/∂q̇ is constant:"]  # fmt: skip
-    return [
-        *listed([Sym(name) for name in names]),
-        " stand in no energy, only their rates, and no force without a potential works on them. So the momenta are constant:",
-    ]
-
-
-def _left(names: Sequence[str]) -> Words:
-    if not names:
-        return "Nothing: the rates above are the whole motion."
-    count = "one equation" if len(names) == 1 else f"{len(names)} equations"
-    said = "With these rates, and their derivatives, Lagrange's equations of the other coordinates are "
-    return [f"{said}{count} in ", *listed([Sym(name) for name in names]), " alone:"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
+from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written, equations
 from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.directions import Directions
@@ -42,13 +42,10 @@ def _chosen(subject: SymbolicState, points: list[str], bodies: list[str]) -> tup
     if not pairs:
         raise NotHere(f"{points[0]} is a point of {bodies[0]} itself; take a point of another body, or another frame")
     stated = subject.ask([{"ask": "frame", "point": p, "body": b} for p, b in pairs])
-
-    def dull(found: tuple[Any, Mapping[str, Any]]) -> tuple[bool, bool]:
-        """Without a Coriolis acceleration; in a frame that does not turn."""
-        return all(is_zero(read(part)) for part in found[1]["a_coriolis"]["xy"]), is_zero(read(found[1]["omega"]))
-
-    (point, body), answer = min(zip(pairs, stated, strict=True), key=dull)
-    return point, body, answer
+    # best with a Coriolis acceleration, else at least in a frame that turns
+    dull = [(all(is_zero(read(x)) for x in each["a_coriolis"]["xy"]), is_zero(read(each["omega"]))) for each in stated]
+    best = dull.index(min(dull))
+    return *pairs[best], stated[best]
 
 
 def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, Any]) -> list[Block]:
@@ -91,7 +88,7 @@ def _prescribed(subject: SymbolicState, directions: Directions, arrows: Mapping[
         return presented(from_sympy(to_sympy(replace(tree, known))))
 
     made: list[Block] = [Heading("With what is prescribed")]
-    made += [Equation(x, tree, "Motions give" if i == 0 else "") for i, (x, tree) in enumerate(known.items())]
+    made += equations(known.items(), "Motions give")
     for word, name in (("v", "So"), ("a", "")):
         arrow = arrows[word]
         parts = tuple(Direction(d.angle, put(d.along), put(d.across)) for d in arrow.parts)

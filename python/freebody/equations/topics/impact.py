@@ -7,16 +7,29 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import Load
-from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Side, Words, listed
+from freebody.document.blocks import (
+    Block,
+    Bullets,
+    Equation,
+    Figure,
+    Heading,
+    MatrixEquation,
+    Paragraph,
+    Side,
+    Words,
+    equations,
+    listed,
+)
 from freebody.document.document import Document
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.sentences import joined
 from freebody.equations.solve import Singular, TooLarge, Unconfirmed
-from freebody.equations.topics.common import Asked, document
-from freebody.equations.topics.impact_equations import Impact, Rows, after, applied, blow
-from freebody.equations.topics.impulse_momentum import Solution, jumps
+from freebody.equations.topics.common import Asked, NotHere, document
+from freebody.equations.topics.impact_equations import Impact, Rows, after
+from freebody.equations.topics.impulse_momentum import jumps
+from freebody.impact.applied_impulse import strike as struck
+from freebody.impact.impacts import NoImpact
 from freebody.solve.symbols import load_words
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import ZERO, Num, Sym, is_zero, symbols
@@ -46,14 +59,16 @@ def impact(
     the numbers. Raises ``NotHere`` where there is no impact."""
     how = {"direction": direction, "impulse": impulse, "frame": frame}
     strike = {name: value for name, value in how.items() if value is not None}
+    if strike and point is None:
+        raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
+    mechanism, state = asked.mechanism, asked.state
+    try:
+        blow = mechanism.blow(int(number), of=of, at=at) if point is None else struck(mechanism, state, point, **strike)
+    except NoImpact as error:
+        raise NotHere(str(error)) from None
+    found, title = Impact.of(blow), f"struck at {point}"
     if point is None:
-        if strike:
-            raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
-        found = blow(asked.mechanism, int(number), of, at)
-        title = f"impact at {joined(list(found.change.of))}" if found.change.of else "impact of the parts that engage"
-    else:
-        found = applied(asked.mechanism, asked.state, point, **strike)
-        title = f"struck at {point}"
+        title = f"impact at {joined(list(blow.change.of))}" if blow.change.of else "impact of the parts that engage"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
     return document(found.subject, title, made, list(found.nomenclature.values()))
 
@@ -68,17 +83,16 @@ def _what(found: Impact) -> list[Block]:
     made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
         loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
-        items: list[Words] = [[found.symbol(load), f", {_named(found, load, body)}"] for load in loads]
+        # A pair of equal pushes or pulls is described as that on the body, what has a sign as it is counted.
+        words = {x: load_words(x, [body] if x.kind in ("contact", "string") else ()).removeprefix("the ") for x in loads}
+        words |= {x: "applied impulse" for x in loads if x.name in found.subject.blow.given}
+        items: list[Words] = [
+            [found.symbol(x), f", {'' if x.name in found.subject.blow.given else 'of '}the {of}"] for x, of in words.items()
+        ]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
     made.append(Figure(impulse_diagram(found.subject.blow), "Impulses, and the jumps of momentum.", "impulses"))
     missing = found.subject.blow.absent()
     return [*made, Paragraph("No impulse comes from:"), Bullets(missing)] if missing else made
-
-
-def _named(found: Impact, load: Load, body: str) -> str:
-    """A pair of equal pushes or pulls is told as that on the body, what has a sign as it is counted."""
-    words = load_words(load, [body] if load.kind in ("contact", "string") else ())
-    return "the applied impulse" if load.name in found.subject.blow.given else f"of the {words.removeprefix('the ')}"
 
 
 def _equations(found: Impact) -> list[Block]:
@@ -160,25 +174,17 @@ def _answers(found: Impact) -> list[Block]:
         return [*made, Paragraph(f"No more is given symbolically: {error}."), *_matrix(found)]
     except Unconfirmed as error:
         return [*made, Paragraph(f"No more is given symbolically: {error}.")]
-    made += _given(found)
-    made += _stated(solved.known, "From the constraints before the impact, the rates then")
-    made += _stated(solved.names, "With")
-    own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
-    made += _stated(own, "So" if made[1:] else "") + _stated(solved.joints, "and for the joints")
-    return made + [Paragraph(f"The impulses of joints are not given: {solved.untold}.")] * bool(solved.untold)
-
-
-def _stated(solution: Solution, name: str) -> list[Block]:
-    return [Equation(x, tree, name if i == 0 else "") for i, (x, tree) in enumerate(solution.items())]
-
-
-def _given(found: Impact) -> list[Block]:
     rest = bool(found.subject.blow.given)  # then no rate before it stands anywhere
     there = [x for x, tree in found.zeros.items() if is_zero(tree) and not (rest and x.dots)]
     said: list[str | Side] = [piece for x in there for piece in (x, " = ")] + ["0"] * bool(there)
     for x, tree in found.zeros.items():
         said += [", " if said else "", x, " = ", tree] if not is_zero(tree) else []
-    return [Paragraph(["At this impact ", *said, "."])] if said else []
+    made += [Paragraph(["At this impact ", *said, "."])] if said else []
+    made += equations(solved.known.items(), "From the constraints before the impact, the rates then")
+    made += equations(solved.names.items(), "With")
+    own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
+    made += equations(own.items(), "So" if made[1:] else "") + equations(solved.joints.items(), "and for the joints")
+    return made + [Paragraph(f"The impulses of joints are not given: {solved.untold}.")] * bool(solved.untold)
 
 
 def _matrix(found: Impact) -> list[Block]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,8 +17,7 @@ from freebody.equations.balances.minimal import minimal_form
 from freebody.equations.derivation.balance_text import Stated, of_bodies
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.solve import TooLarge
-from freebody.equations.topics.common import NotHere
-from freebody.impact.impacts import Impulsive, NoImpact
+from freebody.impact.impacts import Impulsive
 from freebody.impact.symbols import ImpulsiveState
 from freebody.solve.symbolic_state import Balance
 from freebody.solve.symbols import load_words
@@ -48,8 +47,7 @@ from freebody.symbolic.tree import (
 from freebody.symbolic.tree import replace as put
 
 if TYPE_CHECKING:
-    from freebody.core import Change, State
-    from freebody.model.builder import Builder
+    from freebody.core import Change
 
 _NOTHING = 1e-9
 """Part of the mechanism's size, or of its largest rate, below which a length, an arm or a rate is 0: what an event leaves of it."""
@@ -74,6 +72,11 @@ class Impact:
     """An impact of a run and the mechanism symbolically during it."""
 
     subject: ImpulsiveState
+
+    @classmethod
+    def of(cls, happened: Impulsive) -> Impact:
+        """What happened, symbolically."""
+        return cls(ImpulsiveState.of(happened))
 
     @property
     def change(self) -> Change:
@@ -217,7 +220,7 @@ class Impact:
                 made.append(SymbolEntry(impulse(load), "unknown", "N*s", words, written[load.symbol]))
         own = {name: e.name for name, e in self.coefficients.items() if e.name not in known}
         made += [SymbolEntry(e, "parameter", "", f"restitution at {name}") for name, e in own.items()]
-        return Nomenclature({**known.table, **{symbol.name: symbol for symbol in made}})
+        return Nomenclature({**known, **{symbol.name: symbol for symbol in made}})
 
     @cached_property
     def values(self) -> dict[Sym, float]:
@@ -290,27 +293,6 @@ def _root(value: Tree) -> tuple[Tree, Tree] | None:
     return base, quotient(negative(parts.rest), parts.coefficients[root])
 
 
-def blow(mechanism: Builder, number: int = 1, of: str | None = None, at: str | float | None = None) -> Impact:
-    """The impact of a ``number``, counted from 1, in the run of a mechanism: of all, of those of one contact, string or stop, or of
-    those from a time ``at`` on (s, or ``"200 ms"``). Raises ``NotHere``."""
-    return _seen(lambda: mechanism.blow(number, of=of, at=at))
-
-
-def applied(mechanism: Builder, state: State, point: str, **how: Any) -> Impact:
-    """An impulse at a point of a mechanism at rest, see ``freebody.impact.applied_impulse.strike``. Raises ``NotHere``, ``ModelFileError``."""
-    from freebody.impact.applied_impulse import strike
-
-    return _seen(lambda: strike(mechanism, state, point, **how))
-
-
-def _seen(happens: Callable[[], Impulsive]) -> Impact:
-    try:
-        found = happens()
-    except NoImpact as error:
-        raise NotHere(str(error)) from None
-    return Impact(ImpulsiveState.of(found))
-
-
 def impulse(load: Load) -> str:
     """The symbol of an impulse: ``bump.J_N``, ``pivot.J_x``."""
     owner, _, part = load.symbol.rpartition(".")
@@ -347,13 +329,6 @@ class Rows:
             [(each, row) for each, row in asked if not all(map(is_zero, row[0]))],
             [impulses[k] for k in felt],
         )
-
-    def require_small(self) -> None:
-        """Raises ``TooLarge`` where no answer symbolically is sought."""
-        if len(self.impulses) != len(self.conditions):
-            raise TooLarge(f"{len(self.conditions)} equations for {len(self.impulses)} unknowns: constraints are redundant")
-        rows = [*self.mass, *(row for row, _ in self.gives), *(row for _, (row, _) in self.conditions)]
-        require_brief([entry for row in rows for entry in row])
 
     def matrix(self, found: Impact) -> tuple[list[list[float]], list[float]]:
         """A and b of A (rates after, impulses) = b, in numbers."""

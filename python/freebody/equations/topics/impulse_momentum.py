@@ -9,6 +9,7 @@ import numpy as np
 
 from freebody.core import Array
 from freebody.equations.answers import with_positive_divisors
+from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.solve import Singular, TooLarge, Unconfirmed, linear_system, solve
 from freebody.equations.topics.abbreviations import Names
 from freebody.equations.topics.common import spread
@@ -88,7 +89,10 @@ def jumps(found: Impact) -> Jumps:
     if not all(found.holds(each) for each in found.conditions()):
         raise Unconfirmed(found.otherwise())
     rows = Rows.of(found)
-    rows.require_small()
+    if len(rows.impulses) != len(rows.conditions):
+        raise TooLarge(f"{len(rows.conditions)} equations for {len(rows.impulses)} unknowns: constraints are redundant")
+    factors = [*rows.mass, *(row for row, _ in rows.gives), *(row for _, (row, _) in rows.conditions)]
+    require_brief([entry for row in factors for entry in row])
     solved = _System(found, rows).solved()
     if not found.agrees(solved.spelt()):
         raise Unconfirmed(found.otherwise())
@@ -138,13 +142,14 @@ class _System:
         changes = [add(self.follow.get(x, x), negative(self._of_before(y))) for x, y in zip(self.after, self.before, strict=True)]
         momenta = [add(*map(mul, row, changes), negative(rest)) for row, (_, rest) in zip(self.mass, self.gives, strict=True)]
         balances = [(add(*(mul(way[k], p) for way, p in zip(ways, momenta, strict=True))), ZERO) for k in range(len(free))]
-        found = self._together(balances, free)
-        rates = {x: self._stated(tree, tree) for x, tree in found.items()}
+        rates = {x: self._stated(tree, tree) for x, tree in self._together(balances, free).items()}
         if any(self._signs(tree) > _READABLE for tree in rates.values()):
             return None
         full = {**rates, **{x: replace(tree, rates) for x, tree in self.follow.items()}}
         still = {x: tree for x, tree in full.items() if is_zero(tree)}
-        impulses = {x: self._finished(replace(tree, still)) for x, tree in self._by_rates(self.acting).items()}
+        found = self._by_balances(self.found.of_coordinates(), self.acting, self.known)
+        by_rates = {x: self._stated(tree, tree) for x, tree in found.items()}
+        impulses = {x: self._finished(replace(tree, still)) for x, tree in by_rates.items()}
         rest = {x: self._stated(full[x], full[x]) for x in self.follow}  # by rates before where that is brief
         for x, tree in rest.items():
             if self._signs(tree) > max(_BRIEF, self._signs(self.follow[x])):
@@ -191,12 +196,6 @@ class _System:
     def _signs(self, tree: Tree) -> int:
         return length(tree, self.found.nomenclature)[0]
 
-    def _by_rates(self, wanted: Sequence[Sym]) -> Solution:
-        """Impulses by the rates before and after."""
-        balances = [(self.found.acting(each.balance), self.found.jump(each.balance)) for each in self.found.of_coordinates()]
-        chosen = [(self._put(left), self._put(replace(right, self.known))) for left, right in self._enough(balances, wanted)]
-        return {x: self._stated(tree, tree) for x, tree in self._one_by_one(chosen, wanted).items()}
-
     def _bound(self, held: Sequence[Tree], there: Sequence[Sym]) -> Solution:
         """Some rates by others where some expressions of them vanish; those that are short."""
         there = [x for x in there if x not in self.found.zeros]
@@ -215,7 +214,10 @@ class _System:
         right = [negative(add(*(mul(rows[i][k], there[k]) for k in free), self._put(parts[i].rest))) for i in chosen]
         solution = solve([[rows[i][k] for k in bound] for i in chosen], right, self.found.nomenclature, patience=_PATIENCE)
         stated = {there[k]: self._finished(tree) for k, tree in zip(bound, solution, strict=True)}
-        return {x: tree for x, tree in stated.items() if operations(tree) <= _HELPS and not _divides(tree)}
+        short = {x: tree for x, tree in stated.items() if operations(tree) <= _HELPS}
+        parts = {x: [part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0] for x, tree in short.items()}
+        zeros = {x for x, below in parts.items() if any(isinstance(part, Fn) for base in below for part in walk(base))}
+        return {x: tree for x, tree in short.items() if x not in zeros}  # those are divided by what is 0 in some places
 
     def _of_before(self, rate: Sym) -> Tree:
         return self.found.zeros.get(rate, self.known.get(rate, rate))
@@ -228,12 +230,12 @@ class _System:
             return {}
         if any(np.isnan(sizes[x]) for x in wanted):
             raise Singular("they are not determined, as constraints are redundant")
-        balances = [(self.found.acting(each.balance), self.found.jump(each.balance)) for each in self.found.of_bodies()]
-        staged = self._one_by_one([(self._put(left), self._put(right)) for left, right in self._enough(balances, wanted)], wanted)
+        staged = self._by_balances(self.found.of_bodies(), wanted, {})
         return {x: self._stated(tree, replace(replace(tree, self.known), solution)) for x, tree in staged.items()}
 
-    def _enough(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> list[_Sides]:
-        """The first equations that together give what is wanted, at the numbers of the impact."""
+    def _by_balances(self, stated: Sequence[Stated], wanted: Sequence[Sym], known: Solution) -> Solution:
+        """Impulses by the rates before and after, with what is ``known`` of these, from the first balances that together give them
+        at the numbers of the impact."""
         values = {x: 0.0 if np.isnan(value) else value for x, value in self._numbers().items()}  # NaN: not determined
         largest = max((abs(values[x]) for x in self.found.sizes()), default=0.0) or 1.0
 
@@ -241,8 +243,10 @@ class _System:
             much, none = (evaluate(tree, values | {x: size}, self.found.subject.tables) for size in (largest, 0.0))
             return float(much - none) / largest
 
-        table = np.array([[factor(x, left) for x in wanted] for left, _ in equations])
-        return [equations[i] for i in independent(table)]
+        balances = [(self.found.acting(each.balance), self.found.jump(each.balance)) for each in stated]
+        chosen = independent(np.array([[factor(x, left) for x in wanted] for left, _ in balances]))
+        put = [(self._put(left), self._put(replace(right, known))) for left, right in (balances[i] for i in chosen)]
+        return self._one_by_one(put, wanted)
 
     def _one_by_one(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> Solution:
         """First each equation that has only one unknown left, then the rest together."""
@@ -292,12 +296,6 @@ def _fourier(tree: Tree) -> Tree:
 
     above, below = (TR8(sympy.expand(part)) for part in sympy.fraction(sympy.together(to_sympy(tree))))
     return from_sympy(sympy.cancel(above / below))
-
-
-def _divides(tree: Tree) -> bool:
-    """Whether an expression is divided by something that is 0 in some places."""
-    below = (part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0)
-    return any(isinstance(part, Fn) for base in below for part in walk(base))
 
 
 def _require_few(unknowns: int) -> None:

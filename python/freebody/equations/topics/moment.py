@@ -9,7 +9,7 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Writte
 from freebody.document.document import Document
 from freebody.equations.solve import Unconfirmed
 from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, known, place_of, rate, rates, spread
-from freebody.solve.symbolic_state import Balance, SymbolicState
+from freebody.solve.symbolic_state import Balance
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
 from freebody.symbolic.symbols import name_formula
@@ -23,8 +23,11 @@ def moment(asked: Asked, *, about: str | None = None, bodies: Sequence[str] | st
     subject = asked.subject
     if about is not None:
         known(about, subject.points, "point")
-    point = about or _first_moving(subject)
     group, names = group_of(subject, bodies), subject.names
+    carried = (name for name, (body, _, _) in subject.points.items() if body != GROUND)
+    moving = (name for name in carried if not all(map(is_zero, rates(place_of(subject, name).xy, names))))
+    if (point := about or next(moving, None)) is None:
+        raise NotHere("no named point moves; give one")
     questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
     of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])
     v, changing = rates(of.place.xy, names), rate(of.momentum, names)
@@ -36,13 +39,6 @@ def moment(asked: Asked, *, about: str | None = None, bodies: Sequence[str] | st
     )
     made = _fixed(of, point) if all(map(is_zero, v)) else _moving(of, point, changing, spread(extra))
     return document(subject, f"moments about {point}", [Heading("What acts"), acting, *made])
-
-
-def _first_moving(subject: SymbolicState) -> str:
-    for name, (body, _, _) in subject.points.items():
-        if body != GROUND and not all(map(is_zero, rates(place_of(subject, name).xy, subject.names))):
-            return name
-    raise NotHere("no named point moves; give one")
 
 
 def _fixed(of: Balance, point: str) -> list[Block]:

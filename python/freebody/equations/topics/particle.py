@@ -10,7 +10,7 @@ from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.tree import Fn, Sym, Tree, add, is_zero, minus, mul, negative, number, over, power, replace
+from freebody.symbolic.tree import Fn, Sym, add, is_zero, minus, mul, negative, number, over, power, replace
 
 _R, _PHI = "r", "phi"
 
@@ -63,9 +63,13 @@ def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance
         made += [Equation(Sym(r), length, "Here"), Equation(Sym(phi), angle)]
         unit = (Fn("cos", (angle,)), Fn("sin", (angle,)))
     elif isinstance(x, Sym) and isinstance(y, Sym):
-        new = _replaced(x, y, place, r, phi)
+        length, (cos, sin), (w, out) = Sym(r), (Fn(f, (Sym(phi),)) for f in ("cos", "sin")), (Sym(phi, 1), Sym(r, 1))
+        new = {
+            x: add(place[0], mul(length, cos)), y: add(place[1], mul(length, sin)),
+            Sym(x.name, 1): minus(mul(out, cos), mul(length, w, sin)), Sym(y.name, 1): add(mul(out, sin), mul(length, w, cos)),
+        }  # fmt: skip
         made += [Equation(s, new[s], "Here" if s == x else "") for s in (x, y)]
-        forces, unit = [replace(f, new) for f in forces], (Fn("cos", (Sym(phi),)), Fn("sin", (Sym(phi),)))
+        forces, unit = [replace(f, new) for f in forces], (cos, sin)
     else:
         made.append(Equation(power(Sym(r), 2), brief(add(power(arm[0], 2), power(arm[1], 2)), subject.nomenclature), "Here"))
         unit = (over(arm[0], Sym(r)), over(arm[1], Sym(r)))
@@ -77,13 +81,3 @@ def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance
     made.append(Equation(mul(m, outward), brief(radial, subject.nomenclature), "Σ F·e_r = m (r̈ − r φ̇²)"))
     made.append(Equation(mul(m, around), brief(across, subject.nomenclature), "Σ F·e_φ = m (r φ̈ + 2 ṙ φ̇)"))
     return made, polar
-
-
-def _replaced(x: Sym, y: Sym, place: tuple[Tree, Tree], r: str, phi: str) -> dict[Sym, Tree]:
-    """Coordinates and their rates by polar ones."""
-    cos, sin = (Fn(f, (Sym(phi),)) for f in ("cos", "sin"))
-    length, w, out = Sym(r), Sym(phi, 1), Sym(r, 1)
-    return {
-        x: add(place[0], mul(length, cos)), y: add(place[1], mul(length, sin)),
-        Sym(x.name, 1): minus(mul(out, cos), mul(length, w, sin)), Sym(y.name, 1): add(mul(out, sin), mul(length, w, cos)),
-    }  # fmt: skip

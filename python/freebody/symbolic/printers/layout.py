@@ -38,7 +38,12 @@ class Product:
 def is_bare(tree: Tree) -> bool:
     """Whether a function is written without brackets: sin θ, cos 2θ, sin²θ."""
     node = tree.base if isinstance(tree, Pow) else tree
-    return isinstance(node, Fn) and node.name in SIMPLE_FUNCTIONS and _is_plain(node.args[0])
+    match node:
+        case Fn(name, (Sym(),)):
+            return name in SIMPLE_FUNCTIONS
+        case Fn(name, (Mul((Num(count), Sym())),)):
+            return name in SIMPLE_FUNCTIONS and count > 0 and float(count).is_integer()
+    return False
 
 
 def product(tree: Tree, nomenclature: Nomenclature) -> Product:
@@ -81,13 +86,6 @@ def _factors(tree: Tree) -> list[Tree]:
     if isinstance(tree, Pow) and isinstance(tree.base, Mul) and tree.exponent.denominator == 1:
         return [power(inner, tree.exponent) for inner in tree.base.factors]
     return [inner for factor in tree.factors for inner in _factors(factor)] if isinstance(tree, Mul) else [tree]
-
-
-def _is_plain(tree: Tree) -> bool:
-    if isinstance(tree, Mul) and len(tree.factors) == 2:
-        factor, symbol = tree.factors
-        return isinstance(factor, Num) and factor.value > 0 and float(factor.value).is_integer() and isinstance(symbol, Sym)
-    return isinstance(tree, Sym)
 
 
 def _sorted(factors: Iterable[Tree], nomenclature: Nomenclature) -> list[Tree]:

@@ -14,7 +14,7 @@ from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.line_breaking import broken
 from freebody.symbolic.printers.printer import Printer
-from freebody.symbolic.symbols import ascii_name, superscript, unicode_name
+from freebody.symbolic.symbols import SUPERSCRIPTS, ascii_name, unicode_name
 from freebody.symbolic.tree import Fn, Num, Pow, Sym, Tree
 
 WIDTH = 100
@@ -84,7 +84,7 @@ class TextPrinter(Printer[str]):
         if math.isinf(value):
             return "∞"
         mantissa, _, exponent = f"{value:.10g}".partition("e")
-        return f"{mantissa}×10{superscript(str(int(exponent)))}" if exponent else mantissa
+        return f"{mantissa}×10{str(int(exponent)).translate(SUPERSCRIPTS)}" if exponent else mantissa
 
     def product(self, number: Fraction | float, factors: Sequence[Tree]) -> str:
         if isinstance(number, float) or number.denominator == 1:
@@ -125,7 +125,7 @@ class TextPrinter(Printer[str]):
         return f"{name}{'' if exponent != 1 else ' '}{inner}" if layout.is_bare(tree) else f"{name}({inner})"
 
     def _exponent(self, exponent: Fraction) -> str:
-        return superscript(str(exponent)) if exponent.denominator == 1 else f"^({exponent})"
+        return str(exponent).translate(SUPERSCRIPTS) if exponent.denominator == 1 else f"^({exponent})"
 
     def _vulgar(self, value: Fraction) -> str:
         return _VULGAR.get(value, "")

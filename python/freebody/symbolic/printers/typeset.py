@@ -51,11 +51,6 @@ def equation_latex(left: Tree, right: Tree, nomenclature: Nomenclature | None = 
     return spelled.aligned(equation(formula(left, nomenclature), formula(right, nomenclature), room))
 
 
-def matrix_latex(entries: Entries, nomenclature: Nomenclature | None = None) -> str:
-    """A vector (as a column) or a matrix of trees."""
-    return spelled.latex((matrix(entries, nomenclature),))
-
-
 def matrix(entries: Entries, nomenclature: Nomenclature | None = None) -> Grid:
     """A vector (as a column) or a matrix of trees, set in type."""
     rows = (row if isinstance(row, Sequence) else [row] for row in entries)
