@@ -19,7 +19,7 @@ _OF_LIMITS = {"gap", "slack", "N", "T", "tension", "x", "y", "slip"}
 @every(ANSWERED)
 def test_what_a_model_reads_of_its_parts_a_statement_reads(model: str) -> None:
     checker = Checker(mechanism(model))
-    known = checker.letters()
+    known = checker.symbols()
     for owner, readings in known.named.readings.items():
         read = [word for word in readings if f"{quote(owner)}.{word}" in known.meanings]
         if known.named.owners[owner] not in ("joint", "lock") or read:

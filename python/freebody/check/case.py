@@ -55,13 +55,13 @@ class StatementSymbols:
         return self._one(symbol).texts if symbol.name in self.symbols.meanings else ()
 
     def values(self, samples: Samples) -> Mapping[str, Array]:
-        """The value of every symbol on true states, by ``Sym.key``; what is 0 on all of them but for round-off is 0."""
+        """The value of every symbol on true states, by ``Sym.key``; what is 0 but for round-off is 0."""
         found = self.symbols.values(self._valued, samples)
         for n in self._valued:
             one = self._one(n)
             if one.kind not in ("parameter", "gravity"):
                 size = self.sampler.unit(one.dimension) * self.sampler.rate**n.dots
-                found[n.key] = found[n.key] * (np.max(np.abs(found[n.key]), initial=0.0) >= _ROUND_OFF * size)
+                found[n.key] = found[n.key] * (np.abs(found[n.key]) >= _ROUND_OFF * size)
         return found
 
     def fits(self, equation: Equation) -> bool:

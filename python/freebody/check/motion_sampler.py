@@ -266,10 +266,8 @@ class MotionSampler:
     @cached_property
     def restricted(self) -> bool:
         """Whether limits, joint friction, events at the start or the moment decide what moves, so that states lie near that."""
-        events, joints = self.spec.get("events", []), self.spec["joints"]
-        if self.moment or any(event.get("opening") for event in events) or any(joint.get("friction") for joint in joints):
-            return True
-        return not all(limit.is_open for limit in self.core.instant(self.first).limits.values())
+        named = [event.get("opening") for event in self.spec["events"]] + [joint.get("friction") for joint in self.spec["joints"]]
+        return bool(self.moment) or any(named) or not all(x.is_open for x in self.core.instant(self.first).limits.values())
 
     def _run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
