@@ -76,9 +76,9 @@ def _actions(write: Writer, path: Path, name: str, given: EventActions, welds: l
     gone += _removed(write, path, given.remove)
     actions: dict[str, Any] = {
         "release": list(dict.fromkeys(gone)),
-        "unlock": _gauges(write, path, "unlock", given.unlock),
+        "unlock": [write.expression(here, gauge) for here, gauge in _each(path, "unlock", given.unlock)],
         "engage": _parts(write, path, "engage", given.engage) + welds,
-        "lock": _gauges(write, path, "lock", given.lock),
+        "lock": [write.expression(here, gauge) for here, gauge in _each(path, "lock", given.lock)],
         "reset": _rates(write, (*path, "reset"), given.reset or {}),
         "set": dict(_set(write, (*path, "set", name), name, value) for name, value in (given.set or {}).items()),
     }
@@ -89,14 +89,18 @@ def _actions(write: Writer, path: Path, name: str, given: EventActions, welds: l
     return found
 
 
+def _each(path: Path, word: str, names: str | list[str] | None) -> list[tuple[Path, str]]:
+    """What stands after a word, a name or several, each with its path."""
+    return [((*path, word) if isinstance(names, str) else (*path, word, i), name) for i, name in enumerate(listed(names))]
+
+
 # -- parts
 
 
 def _parts(write: Writer, path: Path, word: str, names: str | list[str] | None, kind: str = "") -> list[str]:
     """The items of the core behind names of joints, forces and so on."""
     owners, found = write.meanings.owners, []
-    for i, name in enumerate(listed(names)):
-        here = (*path, word) if isinstance(names, str) else (*path, word, i)
+    for here, name in _each(path, word, names):
         full = write.full(name)
         if full not in owners:
             known = write.meanings.seen_from(write.scope, (k for k, v in owners.items() if kind in ("", v)))
@@ -111,8 +115,8 @@ def _parts(write: Writer, path: Path, word: str, names: str | list[str] | None, 
 
 def _removed(write: Writer, path: Path, names: str | list[str] | None) -> list[str]:
     found: list[str] = []
-    for i, name in enumerate(listed(names)):
-        body = write.place((*path, "remove") if isinstance(names, str) else (*path, "remove", i), name, "body")
+    for here, name in _each(path, "remove", names):
+        body = write.place(here, name, "body")
         if body == "ground":
             write.scope.complain((*path, "remove"), "the ground cannot be removed", "name a body")
         else:
@@ -154,11 +158,6 @@ def _touching(write: Writer, body: str) -> list[str]:
 
 
 # -- numbers
-
-
-def _gauges(write: Writer, path: Path, word: str, texts: str | list[str] | None) -> list[str]:
-    here = lambda i: (*path, word) if isinstance(texts, str) else (*path, word, i)
-    return [write.expression(here(i), gauge) for i, gauge in enumerate(listed(texts))]
 
 
 def _rates(write: Writer, path: Path, given: Mapping[str, Any]) -> dict[str, str]:
