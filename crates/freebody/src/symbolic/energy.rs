@@ -43,14 +43,14 @@ impl SymbolicState<'_> {
         sum
     }
 
-    /// Of every coordinate d/dt ∂T/∂q̇ − ∂T/∂q + ∂V/∂q and the generalised force of all that has no potential.
+    /// Of every coordinate d/dt ∂T/∂q̇ − ∂T/∂q + ∂V/∂q and the generalized force of all that has no potential.
     pub(super) fn lagrange(&self) -> Value {
         let (kinetic, potential) = (self.kinetic(), potential(self.at()));
         let of = |i: usize| {
             let q = self.variable(i, 0);
             let momentum = kinetic.derivative(&self.variable(i, 1));
             let left = self.rate(momentum) - kinetic.derivative(&q) + potential.derivative(&q);
-            let force = self.generalised_force(i);
+            let force = self.generalized_force(i);
             json!({
                 "coordinate": self.m.coordinate(i).name, "momentum": tree(momentum),
                 "left": tree_by(left, &self.unknowns()), "force": tree(force),
@@ -64,21 +64,10 @@ impl SymbolicState<'_> {
     }
 
     /// The power of all loads without a potential for a unit rate of a coordinate.
-    fn generalised_force(&self, i: usize) -> Symbol {
-        let rate = self.variable(i, 1);
-        let mut sum = Symbol::zero();
-        for (load, &size) in self.loads.iter().zip(&self.sizes) {
-            if load.origin.is_conservative(self.m) {
-                continue;
-            }
-            for part in load.parts.iter().filter(|part| part.body > 0) {
-                let twist = self.k.twist[part.body];
-                let v = twist.at(part.point - self.k.pose[part.body].at);
-                let along = crate::plane::vec2(v.x.derivative(&rate), v.y.derivative(&rate));
-                sum += (part.force.dot(along) + part.couple * twist.w.derivative(&rate)) * size;
-            }
-        }
-        sum
+    fn generalized_force(&self, i: usize) -> Symbol {
+        let mut rates = vec![Symbol::zero(); self.m.freedom()];
+        rates[i] = Symbol::of(1.0);
+        self.power_of(&rates, |load| !load.origin.is_conservative(self.m))
     }
 
     /// The equations of the coordinates near rest: matrices of M ẍ + C ẋ + K x = 0, and what is left at the place

@@ -4,6 +4,7 @@ use super::vectors::{tree, tree_by};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
 use crate::dynamics::{momentum_rate, DynamicsError};
+use crate::free_bodies::Load;
 use crate::plane::{vec2, Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
@@ -31,13 +32,7 @@ impl SymbolicState<'_> {
     }
 
     fn power_in(&self, rates: &[Symbol]) -> Value {
-        let (mut acts, mut moves) = (Symbol::zero(), Symbol::zero());
-        for (load, &size) in self.loads.iter().zip(&self.sizes) {
-            for part in load.parts.iter().filter(|part| part.body > 0) {
-                let (v, w) = self.virtual_motion(part.body, part.point - self.k.pose[part.body].at, rates);
-                acts += (part.force.dot(v) + part.couple * w) * size;
-            }
-        }
+        let (acts, mut moves) = (self.power_of(rates, |_| true), Symbol::zero());
         for body in self.m.listed_bodies() {
             let (v, w) = self.virtual_motion(body, self.arm(body), rates);
             moves += momentum_rate(self.at(), body, self.bodies[body]).power(Twist { v, w });
@@ -49,6 +44,18 @@ impl SymbolicState<'_> {
             "rates": rates, "left": tree_by(acts, &unknowns), "right": tree_by(moves, &unknowns),
             "linear": self.linear(moves - acts),
         })
+    }
+
+    /// The power of some of the loads at virtual rates of the coordinates.
+    pub(super) fn power_of(&self, rates: &[Symbol], counts: impl Fn(&Load<Symbol>) -> bool) -> Symbol {
+        let mut sum = Symbol::zero();
+        for (load, &size) in self.loads.iter().zip(&self.sizes).filter(|(load, _)| counts(load)) {
+            for part in load.parts.iter().filter(|part| part.body > 0) {
+                let (v, w) = self.virtual_motion(part.body, part.point - self.k.pose[part.body].at, rates);
+                sum += (part.force.dot(v) + part.couple * w) * size;
+            }
+        }
+        sum
     }
 
     /// Velocity at an arm from the joint origin of a body, and its turning rate, at given rates of the coordinates.
