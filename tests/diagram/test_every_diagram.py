@@ -199,6 +199,13 @@ def test_a_tension_pulls(model):
                 assert mark.at is mark.tail
 
 
+def test_strings_that_are_taut_without_load_are_drawn():
+    """On both of their ends, though they carry nothing at the start; to scale a line says so."""
+    seen = sum((drawn_loads(cut) for cut in drawn("19.3.2/with_spin").cuts), Counter())
+    assert seen["p.tension"] == seen["q.tension"] == 2
+    assert [cut.notes for cut in drawn("19.3.2/with_spin", None, True).cuts] == [["T_p, T_q = 0"], ["T_p = 0"], ["T_q = 0"]]
+
+
 def test_there_are_tensions():
     marks = [
         mark for model in ("19.3.21/model", "S19.18/model", "19.3.14/model") for cut in drawn(model).cuts for mark in cut.forces
