@@ -5,6 +5,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from store import MODELS, WITHOUT_ANSWER, every, run
 from typer.testing import CliRunner
 
@@ -46,6 +47,34 @@ def test_rates_that_are_not_those_of_the_motion_are_found():
     wrong = Certificate(replace(good, motion=Lying(good.motion)))
     digits = {route.name: route.digits for route in wrong.routes}
     assert 3 < digits["finite differences"] < 4.5 and digits["three forms"] > 12
+
+
+STRIKING = ("19.3.22/model", "19.3.30/model", "19.3.30/slippery", "GEN-STEP/floor", "examples/tossed_box")
+
+
+@pytest.mark.parametrize("model", STRIKING)
+def test_impulses_and_losses_of_impacts_are_routes_of_their_own(model):
+    routes = {route.name: route.digits for route in Certificate(run(model)).routes}
+    assert run(model).impacts and min(routes["impulses of impacts"], routes["energy of impacts"]) > 12
+    assert "impulses of impacts" not in {route.name for route in Certificate(run("examples/new_gun")).routes}
+
+
+@pytest.mark.parametrize(
+    ("field", "of"), [("lost", "energy of impacts"), ("impulses", "impulses of impacts"), ("after", "impulses of impacts")]
+)
+def test_what_is_not_that_of_the_impact_is_found(field, of):
+    good = run("examples/tossed_box")
+    hit = next(impact for impact in good.impacts if impact.kind == "impact")
+    stated = {
+        "lost": 1.01 * hit.lost,
+        "impulses": replace(hit.impulses, contacts={name: (x, 1.01 * y) for name, (x, y) in hit.impulses.contacts.items()}),
+        "after": replace(hit.after, u={name: rate + 0.01 for name, rate in hit.after.u.items()}),
+    }
+    motion = Lying(good.motion)
+    motion.changes = [replace(hit, **{field: stated[field]}) if change is hit else change for change in good.changes]
+    motion.state = good.motion.state
+    routes = {route.name: route.digits for route in Certificate(replace(good, motion=motion)).routes}
+    assert routes[of] < 3
 
 
 def test_the_command_names_the_weakest_link_and_fails_below_what_is_asked():

@@ -167,6 +167,10 @@ def test_instants_of_an_impact_are_compared_and_not_what_jumps_there():
     first = next(change for change in accuracy.changes if change.kind == "impact")
     apart = math.sqrt(2 / G) * 0.5e-9
     assert abs(first.t - math.sqrt(2 / G)) < first.t.error == pytest.approx(3 * apart, rel=1e-3)
+    # m (1 + e) √(2 g h), which changes by half of what the height does; what is lost, by all of it.
+    impulse = first.sizes["floor"]
+    assert impulse == pytest.approx(1.5 * math.sqrt(2 * G)) and impulse.error == pytest.approx(1.5e-9 * impulse, rel=1e-3)
+    assert first.lost.error == pytest.approx(3e-9 * first.lost, rel=1e-3) and first.work is None
     assert accuracy.digits("rate(ball.y)", np.array([0.3, 0.6, 0.8])).min() >= 7
 
 
@@ -176,6 +180,22 @@ def test_nothing_holds_after_the_events_of_the_two_runs_part():
     assert accuracy.parting == pytest.approx(math.sqrt(2 / G))
     assert accuracy.digits("ball.y", np.array([0.5])).max() == 0
     assert accuracy.time(runs[0].impacts[0].t).digits == 0
+
+
+def test_when_a_run_ends_is_known_as_far_as_two_runs_agree():
+    ended = [
+        fb.Mechanism.loads(f"""
+freebody: 1
+bodies: {{b: {{shape: particle, mass: 1}}}}
+initial: {{b.x: 0, b.y: {height} m, at_rest: true}}
+events: {{down: {{when: b.y, then: stop}}}}
+""").simulate(2)
+        for height in (1.0, 1.0 + 1e-9)
+    ]
+    end = Accuracy(*ended).end
+    assert end == pytest.approx(math.sqrt(2 / G)) and end.error == pytest.approx(1.5e-9 * end, rel=1e-3)
+    assert ball(1.0).simulate(0.1).accuracy.end.error == 0
+    assert Accuracy(ended[0], ball(8.0).simulate(0.1)).end.digits == 0
 
 
 def test_another_method_follows_where_the_tolerance_is_at_its_end_or_steps_are_fixed():

@@ -15,7 +15,7 @@ MAY_USE = {
     "document": {"symbolic", "formats"},
     "solve": CORE,
     "impact": CORE | {"model", "solve"},
-    "run": CORE | {"model", "solve"},
+    "run": CORE | {"model", "solve", "impact"},
     "views": SOLVED | {"document"},
     "codegen": CORE | {"model", "solve", "document"},
     "equations": SOLVED | {"document", "views", "codegen"},

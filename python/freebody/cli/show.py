@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from freebody.cli.terminal import print_json
+from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
 from freebody.views.peaks import known_peaks
 
@@ -50,7 +51,10 @@ def runs_as_json(done: Sequence[Run], files: Sequence[Sequence[Path]]) -> None:
             "outcome": asdict(each.outcome),
             "digits": each.accuracy.to_json(),
             "events": [asdict(event) | _digits(t=each.accuracy.time(event.t)) for event in each.events],
-            "changes": [asdict(change) | _digits(t=change.t, lost=change.lost) for change in each.accuracy.changes],
+            "changes": [
+                asdict(change) | _digits(t=known.t, lost=known.lost, work=known.work)
+                for change, known in zip(each.changes, each.accuracy.changes, strict=True)
+            ],
             "report": {
                 label: asdict(reported) | _digits(value=reported.value, t=reported.t)
                 for label, reported in each.accuracy.report.items()
@@ -112,11 +116,11 @@ def _ending(done: Run) -> Text:
     """How and when the run ended; a bad end by its name, where the mechanism stood, what happened and what to do."""
     outcome, name = done.outcome, (done.name, "bold")
     if outcome.ok:
-        return Text.assemble(name, ": ", (f"{outcome.sentence}, t = {outcome.t:.6g} s", "green"), "\n")
+        return Text.assemble(name, ": ", (f"{outcome.sentence}, t = {figure(done.accuracy.end)} s", "green"), "\n")
     place = ", ".join(f"{name} = {value + 0.0:.6g}" for name, value in list(zip(done.coordinates, done.end.q, strict=True))[:6])
     where = f", at {place}" if place else ""
     stated = "\n  ".join(["", *outcome.sentence.split("; ")])
-    return Text.assemble(name, ": ", (f"{outcome.name}, t = {outcome.t:.6g} s", "bold red"), where, stated, "\n")
+    return Text.assemble(name, ": ", (f"{outcome.name}, t = {figure(done.accuracy.end)} s", "bold red"), where, stated, "\n")
 
 
 def _assembled(source: CompiledModel) -> list[Text]:

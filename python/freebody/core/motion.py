@@ -92,6 +92,11 @@ class Change:
         """What motions put in by their impulses, J; None where they have none."""
         return sum(self.impulses.works.values()) if self.impulses and self.impulses.works else None
 
+    @property
+    def sizes(self) -> Mapping[str, float]:
+        """How large the impulses are; none where there was no impact."""
+        return self.impulses.sizes if self.impulses else {}
+
 
 def there(changes: Sequence[Change], name: str, engaged: bool, times: Array) -> Array:
     """Whether a part is in place (nt,) at each time; ``engaged``: before all changes."""
@@ -137,7 +142,9 @@ class Motion:
         return Change(**plain, of=tuple(of), note=note or "", impulses=impulses and self._impulses(**impulses),
                       **dict(zip(("before", "after"), sides, strict=True)))  # fmt: skip
 
-    def _impulses(self, limits: Any, joints: Any, contact_impulses: Any, spared: list[str], drives: Any = (), works: Any = ()) -> Impulses:
+    def _impulses(
+        self, limits: Any, joints: Any, contact_impulses: Any, spared: list[str], drives: Any = (), works: Any = ()
+    ) -> Impulses:
         stops = {limit["name"] for limit in self.metadata["limits"] if limit["type"] == "stop"}
         names = [joint["name"] for joint in self.metadata["joints"]]
         locks = {lock["name"] for lock in self.metadata["locks"]}

@@ -80,17 +80,22 @@ class Impulsive(ABC):
         stated += [f"{name}, which is closed, but not pressed by the impact" for name in idle]
         return stated + [f"friction of {name}, which is neglected in impacts" for name in has_friction]
 
+    def velocities(self, rates: Mapping[str, float]) -> Array:
+        """Velocity of the mass centre and angular velocity of every body (nb, 3) at rates of the coordinates: linear in these, as
+        accelerations are in theirs."""
+        bodies = self.free.bodies.values()
+        of = [sum((np.array(by) * rates[c] for c, by in body.by_accelerations.items()), np.zeros(3)) for body in bodies]
+        return np.array(of).reshape(-1, 3)
+
     @cached_property
     def impulses(self) -> FreeBodies:
         """The impulse diagrams as data: loads are impulses, N·s and N·m·s; in place of accelerations stand the jumps of the
         velocities, so that for each body, and each group, impulses add up to m Δv at G and I Δω."""
         before, after = self.change.before, self.change.after
         assert before is not None and after is not None
-        bodies = {}
-        for name, body in self.free.bodies.items():  # velocities are as linear in the rates as accelerations in theirs
-            parts = (np.array(by) * (after.u[c] - before.u[c]) for c, by in body.by_accelerations.items())
-            x, y, turn = sum(parts, np.zeros(3)).tolist()
-            bodies[name] = replace(body, a=(x, y), alpha=turn)
+        jumps = self.velocities({c: after.u[c] - before.u[c] for c in after.u}).tolist()
+        each = zip(self.free.bodies.items(), jumps, strict=True)
+        bodies = {name: replace(body, a=(x, y), alpha=turn) for (name, body), (x, y, turn) in each}
         loads, sizes = self.free.loads, self._sizes(bodies)
         stated = [replace(load, value=sizes[i]) for i, load in enumerate(loads) if self.grows(load)]
         place = {i: k for k, i in enumerate(i for i, load in enumerate(loads) if self.grows(load))}

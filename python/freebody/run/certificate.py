@@ -11,11 +11,12 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.core import Array, Indeterminate, cards, quote
+from freebody.impact.impacts import impacts
 from freebody.run.digits import TIGHTEST, Accuracy
 from freebody.solve.figures import digits_of
 from freebody.solve.instant import Instant
@@ -79,12 +80,17 @@ class Certificate:
     @cached_property
     def routes(self) -> list[Route]:
         """All routes."""
-        return [*self._at_instants(), *self._over_time(), *self._integrated_again()]
+        return [*self._at_instants(), *self._over_time(), *self._over_impacts(), *self._integrated_again()]
 
     @property
     def weakest(self) -> Route:
         """The route on which fewest digits agree."""
         return min((route for route in self.routes if not math.isnan(route.digits)), key=lambda route: route.digits)
+
+    @property
+    def _parts(self) -> list[dict[str, Any]]:
+        """The joints and limits of the model."""
+        return [*self.run.metadata["joints"], *self.run.metadata["limits"]]
 
     @cached_property
     def _stretches(self) -> list[Stretch]:
@@ -143,6 +149,31 @@ class Certificate:
         largest = max((np.abs(ledger[name]).max(initial=0.0) for name in ledger.names if name != "balance"), default=0.0)
         left = [apart(ledger.balance, np.zeros_like(ledger.balance), largest)]
         yield Route("energy", agreement(left), "energy stored, and all works")
+
+    def _over_impacts(self) -> Iterator[Route]:
+        """The balance of momentum of each body over every impact, the impulses of joints and contacts, and what is lost."""
+        balances, losses = [], []
+        for impact in impacts(self.run):
+            free, stated, change = impact.impulses, impact.change.impulses, impact.change
+            mass = np.array([[body.mass, body.mass, body.inertia] for body in free.bodies.values()])
+            before, after = (impact.velocities(each.u) for each in (change.before, change.after) if each)
+            jump, largest = mass * (after - before) / self._reach, float(np.abs(mass * [before, after] / self._reach).max())
+            kinetic = max(float((mass * v**2).sum()) / 2 for v in (before, after))
+            gain = float((mass * (after - before) * (after + before)).sum()) / 2
+            losses.append(apart(np.array((change.work or 0.0) - gain), np.array(change.lost), kinetic))
+            known = [("second", stated.joints), ("first", stated.contacts)] if stated else []
+            parts = [(part, side, of[part["name"]]) for side, of in known for part in self._parts if part["name"] in of]
+            try:
+                acting = np.array([free.acting(name, about=body.G) for name, body in free.bodies.items()]) / self._reach
+            except Indeterminate:
+                continue
+            balances.append(apart(jump, acting, largest))
+            for part, side, impulse in parts:
+                on_body = (load.acting([part[side]]) for load in free.loads if load.name == part["name"])
+                balances.append(apart(sum(on_body, np.zeros(3))[:2], np.array(impulse[:2]), largest))
+        if losses:
+            yield Route("impulses of impacts", agreement(balances), "jumps of the momentum of each body, and the impulses on it")
+            yield Route("energy of impacts", agreement(losses), "kinetic energy lost, the work of motions, and what is booked")
 
     def _works(self, s: Stretch) -> Iterator[float]:
         """How far works over a stretch are from the integrals of powers, beside the largest of them."""

@@ -8,8 +8,8 @@ instants of one impact the instants are compared, not what jumps there.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -60,6 +60,24 @@ class Band:
     values: Array
     error: Array
     size: Array
+
+
+@dataclass(frozen=True)
+class KnownChange(Change):
+    """A mode change whose work of motions and sizes of impulses are known as far as two runs agree."""
+
+    known_work: Known | None = None
+    known_sizes: Mapping[str, Known] = field(default_factory=dict)
+
+    @property
+    def work(self) -> Known | None:
+        """What motions put in, J."""
+        return self.known_work
+
+    @property
+    def sizes(self) -> Mapping[str, Known]:
+        """How large the impulses are."""
+        return self.known_sizes
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,18 +138,39 @@ class Accuracy:
         return np.clip([self._both.get(float(t), float(t)) for t in times], *self.other.edges[[0, -1]])
 
     @cached_property
+    def end(self) -> Known:
+        """When the run ended."""
+        mine, other = self.run.outcome.t, self.other.outcome.t
+        lost = mine >= self.parting and mine != self.run.settings.until
+        return Known(mine, math.inf if lost else SAFETY * abs(mine - other), abs(mine))
+
+    @cached_property
     def changes(self) -> list[Change]:
-        """The mode changes of the run, their times and losses with the digits that hold."""
-        there: dict[Any, list[float]] = {}
+        """The mode changes of the run: their times, losses, works of motions and sizes of impulses with the digits that hold."""
+        there: dict[Any, list[Change]] = {}
         for change in reversed(self.other.changes):
-            there.setdefault((change.kind, change.of), []).append(change.lost)
+            there.setdefault((change.kind, change.of), []).append(change)
         apart: dict[Any, float] = {}
         largest, known = max((abs(change.lost) for change in self.run.changes), default=0.0), []
         for change in self.run.changes:
             key, t = (change.kind, change.of), self.time(change.t)
-            lost = there[key].pop() if there.get(key) else math.inf
-            apart[key] = max(apart.get(key, 0.0), math.inf if t.error == math.inf else abs(change.lost - lost))
-            known.append(replace(change, t=t, lost=Known(change.lost, SAFETY * apart[key], abs(change.lost)).beside(largest)))
+            other = there[key].pop() if there.get(key) else None
+            lost = t.error == math.inf or other is None
+
+            def figure(of: str, mine: float, its_value: float, key: Any = key, lost: bool = lost) -> Known:
+                apart[key, of] = max(apart.get((key, of), 0.0), math.inf if lost else abs(mine - its_value))
+                return Known(mine, SAFETY * apart[key, of], abs(mine))
+
+            its_sizes, its_work = (other.sizes, other.work or 0.0) if other else ({}, 0.0)
+            sizes = {name: figure(f"impulse {name}", size, its_sizes.get(name, math.inf)) for name, size in change.sizes.items()}
+            known.append(
+                KnownChange(
+                    **{field.name: getattr(change, field.name) for field in fields(change)}
+                    | {"t": t, "lost": figure("lost", change.lost, other.lost if other else math.inf).beside(largest)},
+                    known_work=None if change.work is None else figure("work", change.work, its_work),
+                    known_sizes=sizes,
+                )
+            )
         return known
 
     # How far quantities are known
@@ -284,7 +323,9 @@ class Accuracy:
     @cached_property
     def report(self) -> dict[str, Reported]:
         """The reported quantities of the run, with the digits that hold."""
-        of = {label: item for item in self.run.source.report for label in self.run.report if label.rpartition("[")[0] == item.label}
+        of = {
+            label: item for item in self.run.source.report for label in self.run.report if label.rpartition("[")[0] == item.label
+        }
         of |= {item.label: item for item in self.run.source.report if item.label in self.run.report}
         return {label: self._reported(of[label], label, mine) for label, mine in self.run.report.items()}
 

@@ -38,7 +38,8 @@ class Table:
 
 def ending(run: Run) -> list[str]:
     """How and when the run ended, and how many digits hold, line by line."""
-    when, stated = f"t = {_figure(run.outcome.t)} s", sentence(run.outcome.sentence)
+    end = run.outcome.t if run.recorded else run.accuracy.end
+    when, stated = f"t = {_figure(end)} s", sentence(run.outcome.sentence)
     lines = [f"{stated}, {when}"] if run.outcome.ok else [when, *stated.split("; ")]
     return lines if run.recorded else [*lines, f"The motion {run.accuracy.sentence}."]
 
@@ -109,7 +110,7 @@ def _mode_changes(run: Run) -> Table:
     changes = (run if run.recorded else run.accuracy).changes
     many, rows = len(changes) > _FIRST + _LAST, []
     for c in [*changes[:_FIRST], *changes[-_LAST:]] if many else changes:
-        impulses = "; ".join(f"{name} {_figure(size)}" for name, size in (c.impulses.sizes if c.impulses else {}).items())
+        impulses = "; ".join(f"{name} {_figure(size)}" for name, size in c.sizes.items())
         work = "" if c.work is None else _figure(c.work)
         rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", work, impulses, c.note))
     remark = f"the first {_FIRST} and the last {_LAST} of {len(changes)}" if many else ""
