@@ -82,7 +82,13 @@ def test_a_summary_is_printed_before_files_are_written(command, tmp_path, fallin
 
 @pytest.mark.parametrize(
     "words",
-    [("run", "nowhere.yaml"), ("run", GUN, "--until", "soon"), ("run", GUN, "--rtol"), ("solve", GUN, "--at", "omega=1"), ("solve",)],
+    [
+        ("run", "nowhere.yaml"),
+        ("run", GUN, "--until", "soon"),
+        ("run", GUN, "--rtol"),
+        ("solve", GUN, "--at", "omega=1"),
+        ("solve",),
+    ],
 )
 def test_errors_are_json_where_json_was_asked_for(command, words):
     done = command(*words, "--json")

@@ -101,7 +101,9 @@ def test_every_body_is_placed_by_itself(model):
 def test_the_sketch_with_constraints_has_their_coordinates(model):
     made = mechanism(model).equations("constraints")
     stated = [name for name in made.letters if made.letters.kind(name) == "coordinate"]
-    assert sorted(symbol(name) for name in stated) == sorted(each.text for each in drawn(model, each_body=True).scenery.dimensions)
+    assert sorted(symbol(name) for name in stated) == sorted(
+        each.text for each in drawn(model, each_body=True).scenery.dimensions
+    )
     html = made.html()
     assert html.count("<svg") == 1 and "[Figure" not in html
 

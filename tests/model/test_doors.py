@@ -247,7 +247,9 @@ def test_an_option_that_cannot_be_is_answered_with_its_name_its_value_and_an_exa
     with pytest.raises((ModelFileError, ModelProblem)) as caught:
         Mechanism.loads(PENDULUM).simulate(**{"until": 1.0} | {option: value})
     stated = str(caught.value)
-    what, hint = (caught.value.problems[0].what, caught.value.problems[0].hint) if hasattr(caught.value, "problems") else caught.value.args
+    what, hint = (
+        (caught.value.problems[0].what, caught.value.problems[0].hint) if hasattr(caught.value, "problems") else caught.value.args
+    )
     assert f"`{option}` is" in what and str(value).split(".")[0] in what and hint, stated
 
 
@@ -255,9 +257,13 @@ def test_what_is_said_of_many_places_is_one_complaint():
     forces = "".join(f"  f{i}: {{type: force, at: b.end, x: {i}*push}}\n" for i in range(10))
     hinges = "".join(f"  h{i}: {{type: hinge, of: [ground.O, rod.start]}}\n" for i in range(5))
     with pytest.raises(ModelFileError) as caught:
-        Mechanism.loads(PENDULUM.replace("joints: {p: ", "joints:\n  p: ").replace("theta}}", "theta}") + hinges + "forces:\n" + forces).compile()
+        Mechanism.loads(
+            PENDULUM.replace("joints: {p: ", "joints:\n  p: ").replace("theta}}", "theta}") + hinges + "forces:\n" + forces
+        ).compile()
     hinge, push = caught.value.problems
-    assert hinge.what == "there is no body `rod`" and [place.path for place in hinge.also] == [f"joints.h{i}.of[1]" for i in range(1, 5)]
+    assert hinge.what == "there is no body `rod`" and [place.path for place in hinge.also] == [
+        f"joints.h{i}.of[1]" for i in range(1, 5)
+    ]
     assert push.what == "nothing is called `push`" and len(push.also) == 9 and "and 5 more" in str(push)
 
 

@@ -42,7 +42,9 @@ def mutated(seed):
                 lines[i] = " ".join(words)
             case 5:
                 at = rng.randrange(len(lines[i]) + 1)
-                lines[i] = lines[i][:at] + rng.choice([*ODD, "", ",", ":", "]", "}", '"', "\t", " "]) + lines[i][at + rng.randrange(4) :]
+                lines[i] = (
+                    lines[i][:at] + rng.choice([*ODD, "", ",", ":", "]", "}", '"', "\t", " "]) + lines[i][at + rng.randrange(4) :]
+                )
             case 6:
                 lines[i] = "  " * rng.randrange(4) + lines[i].lstrip()
     return path, "\n".join(lines) + "\n"
@@ -56,4 +58,6 @@ def test_a_mutated_file_is_read_or_refused_with_a_place(seed, monkeypatch):
         Mechanism.loads(text, path.name).compile()
     except ModelFileError as error:
         whole = ("this is no YAML", "a model file is a mapping")
-        assert error.problems and all(each.what and (each.where.line > 0 or each.what.startswith(whole)) for each in error.problems)
+        assert error.problems and all(
+            each.what and (each.where.line > 0 or each.what.startswith(whole)) for each in error.problems
+        )

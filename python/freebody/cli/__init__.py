@@ -138,7 +138,9 @@ def diagram(
     if impact is None:
         drawn = mechanism.diagram(of, to_scale=to_scale, effective=effective, column=column, **asked)
     elif asked.keys() - {"at"}:
-        raise UserError("--impact is of the run: --at takes a time, and --before and --after are not for it", "change the start in the model")
+        raise UserError(
+            "--impact is of the run: --at takes a time, and --before and --after are not for it", "change the start in the model"
+        )
     else:
         drawn = mechanism.impulse_diagram(of, impact, at=asked.get("at"), to_scale=to_scale, effective=effective, column=column)
     if as_json:

@@ -20,7 +20,9 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for scripts.")
 At = Annotated[
     list[str] | None, typer.Option(metavar="TIME|NAME=VALUE", help="A time of the motion, or a coordinate of the start.")
 ]
-Before = Annotated[str | None, typer.Option(metavar="EVENT", help="Just before an event or mode change; start: what happens there.")]
+Before = Annotated[
+    str | None, typer.Option(metavar="EVENT", help="Just before an event or mode change; start: what happens there.")
+]
 After = Annotated[str | None, typer.Option(metavar="EVENT", help="Just after an event or mode change; start is the default.")]
 Until = Annotated[str | None, typer.Option(metavar="TIME", help="End of the run, like 5 or '200 ms'.")]
 

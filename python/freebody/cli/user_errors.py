@@ -90,4 +90,3 @@ def _stated(problem: Problem) -> str:
 
 def _is_of_stdout(error: Exception) -> bool:
     return isinstance(error, OSError) and error.filename is None
-

@@ -97,7 +97,9 @@ def solve_in_letters(
     chosen = given(mechanism, set or {}, limits or {})
     state = chosen.start(mechanism, at_rest, initial, **moment)
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
-        raise ValueError("it is not at rest: a motion prescribes rates that are not 0, or it has begun to move; leave at_rest out")
+        raise ValueError(
+            "it is not at rest: a motion prescribes rates that are not 0, or it has begun to move; leave at_rest out"
+        )
     subject = SymbolicState(mechanism.source(), state, at_rest)
     _require_limits(subject, chosen, limits or {})
     names = list(wanted) if wanted else subject.names
@@ -289,7 +291,9 @@ def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, T
             found, true = float(evaluate(tree, numbers, there.tables)), there.values[x]
             # relative to the largest of its kind, or among the terms that balance where all of a kind vanish
             kind = there.free.accelerations.values() if x.dots else [load.value for load in there.free.loads if load.unknown]
-            scale = max(NOTHING, Instant(there.source, state).sizes[1 if x.dots else 0], *(abs(v) for v in kind if np.isfinite(v)))
+            scale = max(
+                NOTHING, Instant(there.source, state).sizes[1 if x.dots else 0], *(abs(v) for v in kind if np.isfinite(v))
+            )
             if not abs(found - true) <= _SAME * max(abs(true), scale):
                 raise Unconfirmed(f"the answer for {x.name} is {found:g} where the numbers are {true:g}; take the numbers")
         compared += 1

@@ -184,7 +184,9 @@ def _between(left: Matrix, matrix: Matrix, right: Matrix, subject: SymbolicState
     a, m, b = (sympy.Matrix([[to_sympy(entry) for entry in row] for row in part]) for part in (left, matrix, right))
     product = a.T * m * b
     if all(entry.count_ops() <= MOST_OPERATIONS for entry in product):
-        made = [[presented(entry, subject.nomenclature, patience=PATIENCE) for entry in product.row(i)] for i in range(product.rows)]
+        made = [
+            [presented(entry, subject.nomenclature, patience=PATIENCE) for entry in product.row(i)] for i in range(product.rows)
+        ]
         if all(operations(entry) <= READABLE for row in made for entry in row):
             return made
     raise TooLarge("the linear equations of what is left free are too long symbolically")

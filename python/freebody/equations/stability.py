@@ -67,7 +67,9 @@ def factors(polynomial: Sequence[Tree], nomenclature: Nomenclature | None = None
     s = sympy.Dummy("s")
     above, _ = sympy.fraction(sympy.together(sympy.Poly(expressions, s).as_expr()))
     found = [(sympy.Poly(factor, s), count) for factor, count in sympy.factor_list(above)[1] if factor.has(s)]
-    return made + [([presented(c / p.LC(), nomenclature, patience=PATIENCE) for c in p.all_coeffs()], count) for p, count in found]
+    return made + [
+        ([presented(c / p.LC(), nomenclature, patience=PATIENCE) for c in p.all_coeffs()], count) for p, count in found
+    ]
 
 
 def eigenvalues(
@@ -87,7 +89,11 @@ def eigenvalues(
 
 
 def stability(
-    coefficients: Sequence[Tree], nomenclature: Nomenclature | None = None, *, positive: Collection[str] = (), symmetric: bool = False
+    coefficients: Sequence[Tree],
+    nomenclature: Nomenclature | None = None,
+    *,
+    positive: Collection[str] = (),
+    symmetric: bool = False,
 ) -> Stability:
     """When all roots of a polynomial (highest power first, its coefficient positive, order 1 to 4) lie to the left: Routh–Hurwitz.
 
@@ -161,7 +167,9 @@ def _eigenvalue(root: Any, count: int, nomenclature: Nomenclature | None) -> Eig
     real, imaginary = sympy.expand_complex(root).as_real_imag() if not root.has(sympy.Pow) else root.as_real_imag()
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
         real, imaginary = _apart(root)
-    parts = (_one_root(presented(sympy.radsimp(sympy.simplify(part)), nomenclature, patience=PATIENCE)) for part in (real, imaginary))
+    parts = (
+        _one_root(presented(sympy.radsimp(sympy.simplify(part)), nomenclature, patience=PATIENCE)) for part in (real, imaginary)
+    )
     return Eigenvalue(*parts, count)
 
 

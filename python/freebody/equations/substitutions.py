@@ -87,7 +87,9 @@ class Substitutions:
         parts = rng.uniform(-1, 1, len(names))
         rates = [] if subject.at_rest else [u * (1 + part / 2) if u else part for u, part in zip(state.u, parts, strict=True)]
         try:
-            found, _ = source.assemble(p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed}, history=state.history)
+            found, _ = source.assemble(
+                p, state.t, fixed=fixed, guess={n: x for n, x in q.items() if n not in fixed}, history=state.history
+            )
             return replaced(found, u=np.array(rates)) if rates and source.metadata["freedom"]["count"] == len(names) else found
         except MotionError:
             return None
@@ -105,7 +107,9 @@ class Substitutions:
         set_to = self._consistent(values)
         p = source.bind({name: set_to.get(name, value) for name, value in values.items()})
         try:
-            place, _ = source.assemble(p, state.t, guess=dict(zip(subject.names, state.q.tolist(), strict=True)), history=state.history)
+            place, _ = source.assemble(
+                p, state.t, guess=dict(zip(subject.names, state.q.tolist(), strict=True)), history=state.history
+            )
         except MotionError:
             return state
         found = replaced(place, u=state.u)

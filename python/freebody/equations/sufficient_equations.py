@@ -136,7 +136,9 @@ class Search:
     def _numbers(self, made: Sequence[tuple[Stated | Row, Linear]], unknowns: Sequence[Sym]) -> Array:
         """The coefficients beside the state, rows and then columns of like size."""
         values, tables = self._beside, self.subject.tables
-        table = np.array([[float(evaluate(each.coefficients.get(x, ZERO), values, tables)) for x in unknowns] for _, each in made])
+        table = np.array(
+            [[float(evaluate(each.coefficients.get(x, ZERO), values, tables)) for x in unknowns] for _, each in made]
+        )
         sizes = np.abs(table).max(axis=1, keepdims=True, initial=0.0)
         table = table / np.where(sizes > 0, sizes, 1.0)  # nothing unknown is left in an equation of what is known
         largest = np.abs(table).max(axis=0)

@@ -75,7 +75,9 @@ def state_of(
 
 def time_of(run: Run, name: str) -> float:
     """When an event, or a mode change of a part, of this name comes first, s. Raises ``Unreached`` where it does not come."""
-    happened = [(event.t, event.name) for event in run.events] + [(change.t, part) for change in run.changes for part in change.of]
+    happened = [(event.t, event.name) for event in run.events] + [
+        (change.t, part) for change in run.changes for part in change.of
+    ]
     if times := [t for t, what in happened if what == name]:
         return min(times)
     known = ", ".join(dict.fromkeys(what for _, what in sorted(happened))) or "nothing does"

@@ -255,5 +255,11 @@ def _read_netcdf(path: Path) -> tuple[Array, dict[str, Array], Header]:
         return t, {kind: values.reshape(len(t), -1) for kind, values in found.items()}, Header.read(data.attrs["freebody"])
 
 
-FORMATS = Formats("a run is saved as", {".nc": (lambda run, path: to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT"), _read_netcdf), ".csv": (_write_csv, _read_csv)})
+FORMATS = Formats(
+    "a run is saved as",
+    {
+        ".nc": (lambda run, path: to_xarray(run).to_netcdf(path, engine="scipy", format="NETCDF3_64BIT"), _read_netcdf),
+        ".csv": (_write_csv, _read_csv),
+    },
+)
 """What writes and what reads each kind of file."""

@@ -103,7 +103,9 @@ class Balance:
             return self
         kept = tuple(replace(each, tree=ZERO) if each.load in loads else each for each in self.contributions)
         left = add(*(each.tree for each in kept if not each.internal))
-        linear = Linear({x: c for x, c in self.linear.coefficients.items() if x.dots or x.name not in nomenclature}, self.linear.rest)
+        linear = Linear(
+            {x: c for x, c in self.linear.coefficients.items() if x.dots or x.name not in nomenclature}, self.linear.rest
+        )
         return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
 
     def with_trees(self, put: Callable[[Tree], Tree]) -> Balance:
@@ -263,7 +265,9 @@ class SymbolicState:
         given = [p["name"] for p in self.source.metadata["parameters"] if p["name"] in table]
         made = [SymbolEntry(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in self.coordinates]
         made += [SymbolEntry(name, "parameter", table[name]["unit"]) for name in given]
-        made += [SymbolEntry(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"]
+        made += [
+            SymbolEntry(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"
+        ]
         made = [x if written[x.name] == Name.parse(x.name) else replace(x, written=written[x.name]) for x in made]
         for load in self.free.loads:
             if load.unknown and not load.follows:

@@ -65,7 +65,9 @@ def clear_shifts(problem: Problem, columns: Array, boundary: Sequence[int]) -> l
         size = np.linalg.norm(force, axis=1, keepdims=True)
         if load is not None and size.min() > 0:
             question = {"along": {"clear": problem.unknowns[i].load}}
-            found.append(VirtualMotion(_shift(_across(force) / size), f"the direction across {load.symbol}", rank=4, question=question))
+            found.append(
+                VirtualMotion(_shift(_across(force) / size), f"the direction across {load.symbol}", rank=4, question=question)
+            )
     return found
 
 
@@ -117,7 +119,10 @@ def _named_turns(problem: Problem, points: NamedPoints) -> list[VirtualMotion]:
     rolling, states = touching(problem.free), [system.free for system in problem.systems]
     found = []
     for name, i in joints.items():
-        words, turn = "the point of contact" if rolling == [name] else name, _turn(problem, [free.loads[i].on[-1].point for free in states])
+        words, turn = (
+            "the point of contact" if rolling == [name] else name,
+            _turn(problem, [free.loads[i].on[-1].point for free in states]),
+        )
         found.append(VirtualMotion(turn, words, question={"about": {"load": i}}))
     named = {f"{body}.G": [free.bodies[body].G for free in states] for body in problem.bodies}
     for name, point in points.items():

@@ -68,6 +68,7 @@ class Equations(Document):
 
     def sympy(self) -> tuple[sympy.Matrix, sympy.Matrix, sympy.Matrix]:
         """A, x and b of A x = b as matrices of SymPy, coordinates as functions of time."""
+
         def matrix(rows: Sequence[Sequence[Tree]]) -> sympy.Matrix:
             return sympy.Matrix([[to_sympy(entry, self.letters, time=True) for entry in row] for row in rows])
 

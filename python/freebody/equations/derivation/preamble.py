@@ -34,7 +34,10 @@ def configuration(subject: SymbolicState) -> list[Block]:
     said += f" mechanism has {'one degree' if count == 1 else f'{count} degrees' if count else 'no degrees'} of freedom"
     said += f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     said += f". Its configuration is described by {'one coordinate' if number == 1 else f'{number} coordinates'}:"
-    rows = [([Sym(c["name"])], _GUIDED.sub(_displacement, c["doc"].replace("`", "")), c["dimension"] or "1") for c in subject.coordinates]
+    rows = [
+        ([Sym(c["name"])], _GUIDED.sub(_displacement, c["doc"].replace("`", "")), c["dimension"] or "1")
+        for c in subject.coordinates
+    ]
     made += [Paragraph(said), Table(("coordinate", "meaning", "unit"), rows)]
     made.append(Figure(Configuration(subject.source, subject.state), _CAPTION, "sketch"))
     acting = {load.name for load in subject.free.loads if load.kind == "force"}

@@ -215,7 +215,9 @@ class _System:
         solution = solve([[rows[i][k] for k in bound] for i in chosen], right, self.found.nomenclature, patience=_PATIENCE)
         stated = {there[k]: self._finished(tree) for k, tree in zip(bound, solution, strict=True)}
         short = {x: tree for x, tree in stated.items() if operations(tree) <= _HELPS}
-        parts = {x: [part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0] for x, tree in short.items()}
+        parts = {
+            x: [part.base for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0] for x, tree in short.items()
+        }
         zeros = {x for x, below in parts.items() if any(isinstance(part, Fn) for base in below for part in walk(base))}
         return {x: tree for x, tree in short.items() if x not in zeros}  # those are divided by what is 0 in some places
 

@@ -114,7 +114,9 @@ def _stability(
     parts: Factors, subject: SymbolicState, found: Linearised, shifts: Mapping[str, SymbolEntry], positive: Sequence[str]
 ) -> tuple[Stability, list[Block]]:
     near = modes(subject, found)
-    stated = [stability(p, subject.nomenclature, positive=positive, symmetric=near.symmetric) for p, _ in parts if not is_zero(p[-1])]
+    stated = [
+        stability(p, subject.nomenclature, positive=positive, symmetric=near.symmetric) for p, _ in parts if not is_zero(p[-1])
+    ]
     made: list[Block] = [Heading("Stability"), *_free(near, shifts)]
     conditions = tuple(dict.fromkeys(c for each in stated for c in each.conditions))
     kinds, never = {each.kind for each in stated}, any(each.never for each in stated)

@@ -97,9 +97,7 @@ def capture(case):
     gained = np.diff(run.evaluate("energy()", edges)) / TORQUE / 50
     error = run.accuracy.at(expression("theta"), edges).error[1:, 0] / 50
     late = [Known(*each) for each in zip(mean[5:], error[5:], abs(mean[5:]), strict=True)]
-    yield Answer(
-        "mean θ̇ over 250–300, 300–350, 350–400 s", late, "rad/s", gained[5:], "energy gained over T", 1e-7, own=True
-    )
+    yield Answer("mean θ̇ over 250–300, 300–350, 350–400 s", late, "rad/s", gained[5:], "energy gained over T", 1e-7, own=True)
 
 
 @ask("shorter arms")
