@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .core import ExpressionError, Indeterminate, ModelError, MotionError
+    from .core import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite
     from .model import Mechanism, ModelFileError
     from .run.simulation import Run
     from .solve.instant import Instant
@@ -24,6 +24,7 @@ _HOMES = {
     "ModelError": "core",
     "ModelFileError": "model",
     "MotionError": "core",
+    "NotFinite": "core",
     "Run": "run.simulation",
     "compare": "views.compare",
 }
@@ -36,6 +37,7 @@ __all__ = [
     "ModelError",
     "ModelFileError",
     "MotionError",
+    "NotFinite",
     "Run",
     "compare",
     "load",

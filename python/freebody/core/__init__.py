@@ -8,7 +8,7 @@ from __future__ import annotations
 from freebody._core import parse
 
 from .compiled import BEFORE, EXTREMES, CompiledModel, ReportItem, Settings, Spec, quote
-from .errors import ExpressionError, Indeterminate, ModelError, MotionError, OutcomeKind
+from .errors import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .motion import Change, Event, Impulses, Motion, Outcome, Snapshot, Trajectory, there
 from .solution import Limit, Rank, Solution, SymbolicAnswers
@@ -32,6 +32,7 @@ __all__ = [
     "ModelError",
     "Motion",
     "MotionError",
+    "NotFinite",
     "Outcome",
     "OutcomeKind",
     "Pair",

@@ -89,3 +89,7 @@ class MotionError(RuntimeError):
 
 class Indeterminate(LookupError):
     """A reaction that the balance equations do not determine was asked for as if they did."""
+
+
+class NotFinite(ValueError):
+    """An expression was asked for at a moment at which it has no finite value."""

@@ -198,7 +198,7 @@ class Accuracy:
     def at(self, read: Read, times: Array) -> Band:
         """How far it is known at any times of the run."""
         values, band = read(self.run, times), self.band(read)
-        apart = SAFETY * np.abs(values - read(self.other, self._there(times)))
+        apart = np.nan_to_num(SAFETY * np.abs(values - read(self.other, self._there(times))), nan=np.inf)
         rows, none = np.searchsorted(band.t, times, side="right"), np.zeros_like(values[:1])
         error = np.fmax(apart, np.vstack([none, band.error])[rows])
         error[times >= self.parting] = np.inf
@@ -342,7 +342,7 @@ class Accuracy:
             if item.how == "at":
                 [known], t = self.figures(read, t), self.time(t)
                 known = Known(value, max(known.error, SAFETY * abs(value - its_value)), max(known.size, abs(value)))
-            elif other is None:
+            elif other is None or other.value is None:
                 known = Known(value, math.inf, abs(value))
             elif item.how in ("max", "min", "maxima", "minima"):
                 t, known = self.extreme(self.band(read), 0, (t, value), (other.t, its_value))
@@ -370,5 +370,10 @@ def _times(run: Run) -> dict[tuple[str, str], list[float]]:
 
 
 def expression(text: str) -> Read:
-    """The values of an expression, as one column."""
-    return lambda run, t: run.motion.evaluate([text], t)
+    """The values of an expression, as one column; NaN where it has no finite value."""
+
+    def read(run: Run, t: Array) -> Array:
+        values = run.motion.evaluate([text], t)
+        return np.where(np.isfinite(values), values, np.nan)
+
+    return read

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import BEFORE, Change, CompiledModel, ModelError, Motion, ReportItem, Settings, State
+from freebody.core import BEFORE, Change, CompiledModel, Indeterminate, ModelError, Motion, NotFinite, ReportItem, Settings, State
 from freebody.run import storage
-from freebody.run.digits import Accuracy, other_settings, other_start
+from freebody.run.digits import Accuracy, expression, other_settings, other_start
 from freebody.run.records import (
     ENTRIES,
     KINDS,
@@ -30,7 +30,7 @@ from freebody.run.records import (
     unit_of,
 )
 from freebody.run.sampling import Times, check_size, output_times
-from freebody.solve.instant import Instant, Reaction, Reactions, refuse_indeterminate
+from freebody.solve.instant import Instant, Reaction, Reactions, refuse
 
 if TYPE_CHECKING:
     import pandas
@@ -170,12 +170,13 @@ class Run:
     def evaluate(self, text: str, t: float | Times | None = None) -> Any:
         """Values of an expression at times within the run (default ``t``); a single time gives a single number.
 
-        An expression that reads a reaction that is not determined raises ``Indeterminate``.
+        Raises ``Indeterminate`` for an expression that reads a reaction that is not determined, ``NotFinite`` where at one of the
+        times it has no finite value.
         """
         times = np.ascontiguousarray(self.t if t is None else t, float)
         values = self.motion.evaluate([text], times)[:, 0]
-        if np.isnan(values).any():
-            refuse_indeterminate(text, self.reactions, self.metadata)
+        if (missing := times[~np.isfinite(values)]).size:
+            refuse(text, missing[0], self.metadata, lambda texts: self.motion.evaluate(texts, missing[:1]))
         return float(values[0]) if np.isscalar(t) else values
 
     def instant(self, t: float, route: str = "minimal") -> Instant:
@@ -188,25 +189,37 @@ class Run:
         """The value of an expression just before a time, at which something may switch."""
         if t > self.edges[0]:
             return self.evaluate(text, float(np.nextafter(t, -np.inf)))
-        return float(self.source.evaluate([text], self.start)[0])
+        value = float(self.source.evaluate([text], self.start)[0])
+        if not math.isfinite(value):
+            refuse(text, self.start.t, self.metadata, lambda texts: self.source.evaluate(texts, self.start))
+        return value
 
     @cached_property
     def report(self) -> dict[str, Reported]:
         """The quantities that the model asks for, by label."""
         if isinstance(self.motion, storage.Recorded):
             return dict(self.motion.header.report)
-        return {label: reported for item in self.source.report for label, reported in self.reported(item).items()}
+        found: dict[str, Reported] = {}
+        for item in self.source.report:
+            try:
+                found |= self.reported(item)
+            except (Indeterminate, NotFinite) as error:
+                found[item.label] = Reported(None, "", note=str(error))
+        return found
 
     def unit_of(self, text: str) -> str:
         """The SI unit of a simple expression; empty where it takes more to tell."""
         return unit_of(text, self.columns, self.metadata)
 
     def reported(self, item: ReportItem) -> dict[str, Reported]:
-        """One such quantity, by its label; all local extremes as ``label[1]``, ``label[2]`` …."""
+        """One such quantity, by its label; all local extremes as ``label[1]``, ``label[2]`` …. Raises as ``evaluate`` does."""
         si = self.unit_of(item.value)
         if item.how != "at":
             window, own = Window.within(self.edges, item.over), f"{si}*s" if si and item.how == "integral" else si
-            found = reduce(item.how, lambda t: self.evaluate(item.value, t), window, self._rate(item.value))
+            with np.errstate(over="ignore", invalid="ignore"):
+                found = reduce(item.how, lambda t: self.evaluate(item.value, t), window, self._rate(item.value))
+            if not all(math.isfinite(value) for _, value in found):
+                raise NotFinite(f"{item.how} of {item.value!r} has no finite value")
             figures = [Reported.of(item, value, when, own) for when, value in found]
             if item.how not in ("maxima", "minima"):
                 return {item.label: figures[0]}
@@ -226,12 +239,13 @@ class Run:
         return {item.label: Reported.of(item, value, moments[0], si, note)}
 
     def _rate(self, text: str) -> Signal | None:
-        """The time derivative of an expression of the configuration; None for any other."""
+        """The time derivative of an expression of the configuration, NaN where there is none; None for any other."""
+        read = expression(f"rate({text})")
         try:
-            self.motion.evaluate([f"rate({text})"], self.edges[:1])
+            read(self, self.edges[:1])
         except ModelError:
             return None
-        return lambda t: self.evaluate(f"rate({text})", t)
+        return lambda t: read(self, t)[:, 0]
 
     @cached_property
     def edges(self) -> Array:
@@ -266,6 +280,7 @@ class Run:
     def digits(self, text: str, t: float | Times | None = None) -> Any:
         """How many digits of an expression hold at times within the run (default ``t``), of its largest size so far; a single time
         gives a single number. See ``accuracy``."""
+        self.evaluate(text, t)
         held = self.accuracy.digits(text, np.ascontiguousarray(self.t if t is None else t, float))
         return int(held[0]) if np.isscalar(t) else held
 

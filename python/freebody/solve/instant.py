@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, State, quote
+from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, NotFinite, State, quote
 from freebody.solve import rich_tables
 from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
@@ -24,7 +24,8 @@ STILL = 1e-4
 it a load that nothing carries."""
 NOTHING = 1e-30
 """N and m/s²: what is less is no force and no acceleration."""
-_FORCES = "N|T|F|Fx|Fy|tension"
+_LOADS = "N|T|F|Fx|Fy|Fs|Fn|M|tension|friction|force|power"
+"""Readings that the balances may leave undetermined."""
 
 
 @dataclass(frozen=True)
@@ -220,10 +221,11 @@ class Instant:
         return self.core.free_bodies(self.state)
 
     def __getitem__(self, text: str) -> float:
-        """The value of any expression at this instant; a reaction that is not determined raises."""
+        """The value of any expression at this instant. Raises ``Indeterminate`` where it reads a reaction that is not determined,
+        ``NotFinite`` where it has no finite value."""
         value = float(self._values([text])[0])
-        if np.isnan(value):
-            refuse_indeterminate(text, self.reactions, self._metadata)
+        if not np.isfinite(value):
+            refuse(text, self.state.t, self._metadata, self._values)
         return value
 
     def derivatives(self, text: str) -> dict[str, float]:
@@ -231,13 +233,13 @@ class Instant:
         kept, and by each parameter, with the parameters that follow from it. What sticks, slides or is open stays so.
 
         Where loops close, coordinates and rates do not change alone: only sums of derivatives that belong to a motion of the
-        mechanism say how the value changes in it. A reaction that is not determined raises.
+        mechanism say how the value changes in it. Where the expression has no value it raises, as that does.
         """
         names = [c["name"] for c in self._metadata["coordinates"]]
         by = ["t", *names, *(f"rate({name})" for name in names), *(p["name"] for p in self._metadata["parameters"])]
         found = self.core.derivatives([text], self.state)[0]
-        if np.isnan(found).all():
-            refuse_indeterminate(text, self.reactions, self._metadata)
+        if not np.isfinite(found).all():
+            _ = self[text]  # which raises where it has no value
         return dict(zip(by, found.tolist(), strict=True))
 
     def _values(self, texts: list[str]) -> Array:
@@ -277,11 +279,15 @@ def _gap(one: Array, other: Array, size: float) -> float:
     return float(np.abs(one - other).max(initial=0.0) / max(np.abs([one, other]).max(initial=0.0), size, NOTHING))
 
 
-def refuse_indeterminate(text: str, reactions: Mapping[str, Reaction], metadata: Mapping[str, Any]) -> None:
-    """Raise where an expression reads a reaction, or a force of a contact, that is not determined."""
-    for limit in metadata["limits"]:
-        if re.search(rf"(?<![\w.]){re.escape(quote(limit['name']))}\.({_FORCES})\b", text):
-            raise Indeterminate(f"{text!r} reads a force of {limit['name']}, which the balances do not determine")
-    for name, reaction in reactions.items():
-        if f"{quote(name)}." in text and not reaction.determinate:
-            raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")
+def refuse(text: str, t: float, metadata: Mapping[str, Any], evaluate: Callable[[list[str]], Array]) -> NoReturn:
+    """Raise for an expression without a finite value at a time: ``Indeterminate`` where it reads a load that the balances do not
+    determine, which ``evaluate`` gives as NaN; else ``NotFinite``."""
+    for kind in ("joints", "limits", "motions", "locks"):
+        for name in (part["name"] for part in metadata[kind]):
+            readings = re.findall(rf"(?<![\w.]){re.escape(quote(name))}\.(?:{_LOADS})\b", text)
+            if not readings or not np.isnan(evaluate(readings)).any():
+                continue
+            if kind == "joints":
+                raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")
+            raise Indeterminate(f"{text!r} reads a force of {name}, which the balances do not determine")
+    raise NotFinite(f"{text!r} has no finite value at t = {t:.6g} s")

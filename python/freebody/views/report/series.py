@@ -87,13 +87,13 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
 
 
 def _asked(run: Run) -> list[dict[str, Any]]:
-    """The reported quantities that are not plotted yet, over the whole run; one that reads an indeterminate reaction is left out."""
+    """The reported quantities that are not plotted yet, over the whole run; one without any value is left out."""
     plotted = {"t", *(column.name for column in run.columns), *(f"{quote(joint)}.F" for joint in run.reactions)}
     texts = [text for text in dict.fromkeys(item.value for item in run.source.report) if text not in plotted]
     units = {text: run.unit_of(text) for text in texts}
     values = dict(zip(texts, run.motion.evaluate(texts, run.t).T, strict=True)) if texts else {}
     made = []
     for unit in dict.fromkeys(units.values()):
-        curves = [(plain(text), y) for text, y in values.items() if units[text] == unit and not np.isnan(y).all()]
+        curves = [(plain(text), y) for text, y in values.items() if units[text] == unit and np.isfinite(y).any()]
         made += [_plot("Reported quantities", unit, run, curves)] if curves else []
     return made
