@@ -86,7 +86,7 @@ class Reaction:
 
     @property
     def Fs(self) -> Any:
-        """Force along the first body's line of the joint, N."""
+        """Force along the first body's line of the joint, or its curve at the contact, N."""
         return self._along(0)
 
     @property

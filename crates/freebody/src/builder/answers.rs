@@ -54,7 +54,7 @@ const JOINT: &[Answer] = &[
     answer("Fy", FORCE, |j| Reading::Reaction(j, Axis::Y), "force on it along y"),
     answer("M", Unit::Is("N*m"), |j| Reading::Reaction(j, Axis::Couple), "couple on it about the joint's point"),
     answer("F", FORCE, |j| Reading::Reaction(j, Axis::Size), "size of the force"),
-    answer("Fs", FORCE, |j| Reading::Reaction(j, Axis::Along), "force along the first body's line"),
+    answer("Fs", FORCE, |j| Reading::Reaction(j, Axis::Along), "force along the first body's line or curve"),
     answer("Fn", FORCE, |j| Reading::Reaction(j, Axis::Across), "force across it, to its left"),
 ];
 /// Of the rows of a joint, in order.

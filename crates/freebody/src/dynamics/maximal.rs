@@ -2,7 +2,7 @@
 //! is linear in the number of bodies for trees and for ladders of loops.
 
 use super::momentum::Inertia;
-use super::rows::{closing_rows, joint_rows, pair};
+use super::rows::{closing_rows, joint_rows, joint_tangent, pair};
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::Joint;
@@ -303,9 +303,9 @@ fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
 pub fn constraint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, out: &mut Vec<Row<S>>) -> Vec2<S> {
     let joint = &at.m.joints[index];
     if joint.curve.is_some() {
-        let (row, touch) = curve_row(at, index);
+        let (row, place) = curve_row(at, index);
         out.push(row);
-        return touch;
+        return place;
     }
     joint_rows(at, index, None, out);
     joint_place(at, index)
@@ -318,9 +318,9 @@ pub fn joint_place<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec2<S> {
     axes.place(JointView::new(at.m, at.n, joint, |x| x).contact(&place))
 }
 
-/// The row of a joint along a curve, which has no residual: a force across the curve where it touches. The second
-/// body's marker has, against that force, the acceleration that the coordinates give it as they go on at their rates.
-/// With it the place where the force acts.
+/// The row of a joint along a curve, which has no residual: a force across the curve, to its left. The second body's
+/// marker has, against that force, the acceleration that the coordinates give it as they go on at their rates. With it
+/// the place where the force acts.
 fn curve_row<S: Scalar>(at: StateView<'_, S>, index: usize) -> (Row<S>, Vec2<S>) {
     let joint = &at.m.joints[index];
     let child = joint.child.expect("a joint along a curve is in the tree");
@@ -328,14 +328,9 @@ fn curve_row<S: Scalar>(at: StateView<'_, S>, index: usize) -> (Row<S>, Vec2<S>)
     let view = JointView::new(at.m, at.n, joint, Jet::constant);
     let (axes, _) = relative(joint, at.m, &at);
     let fixed = |x: S, y: S| axes.turn.apply(vec2(x, y));
-    // The place of touch, with the way along the curve.
-    let mut q = [Jet::constant(S::zero()); 2];
-    q[0] = Jet { d1: S::one(), ..own_place(at, joint, start, 0) };
-    let run = view.pose(&q[..joint.size], false);
-    let touch = axes.at + fixed(run.x.d0, run.y.d0);
-    let slope = fixed(run.x.d1, run.y.d1);
-    let across = slope.perp() * (S::one() / slope.norm());
+    let across = axes.turn.apply(joint_tangent(at, index)).perp();
     // The marker, as the coordinates go on; a turn about it moves nothing.
+    let mut q = [Jet::constant(S::zero()); 2];
     for (k, c) in joint.coordinates.iter().enumerate().filter(|(_, c)| c.dimension != "rad") {
         q[c.card] = Jet { d1: at.k.nu[start + k], ..own_place(at, joint, start, k) };
     }
@@ -351,11 +346,11 @@ fn curve_row<S: Scalar>(at: StateView<'_, S>, index: usize) -> (Row<S>, Vec2<S>)
         source: Source::Joint(index, 0),
         value: None,
         rate: None,
-        bias: across.dot(second - first - along) - (touch - place).cross(across) * going.angle.d2,
-        motion: pair(at, joint, touch, Wrench { f: across, m: S::zero() }),
+        bias: across.dot(second - first - along),
+        motion: pair(at, joint, place, Wrench { f: across, m: S::zero() }),
         force: None,
     };
-    (row, touch)
+    (row, place)
 }
 
 /// Coordinate `k` of a joint of the tree by the joint's own measure, at rest.

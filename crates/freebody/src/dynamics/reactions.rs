@@ -1,6 +1,6 @@
 //! What every joint does to its bodies.
 
-use super::rows::{Row, Source};
+use super::rows::{joint_tangent, Row, Source};
 use super::{constraint_rows, joint_place, residual, SolvedView, Workspace};
 use crate::kinematics::{relative, StateView};
 use crate::mechanism::{DriveKind, FrictionSource, Mechanism};
@@ -17,8 +17,8 @@ pub struct JointLoad<S = f64> {
     pub force: Vec2<S>,
     /// Couple on the second body about the point, N·m; a plain 0 where the joint passes none.
     pub couple: S,
-    /// Direction of the first body's marker, rad.
-    pub axes: S,
+    /// Unit vector along the first body's line, or along its curve at the contact, fixed axes.
+    pub tangent: Vec2<S>,
     /// From the first body's marker to the second's, fixed axes.
     pub span: Vec2<S>,
 }
@@ -68,10 +68,9 @@ impl<S: Scalar> JointLoad<S> {
     pub fn tension(&self) -> S {
         -self.force.dot(self.span) / self.span.norm()
     }
-    /// The force along and across the first body's marker.
+    /// The force along the first body's line or curve, and across it to its left.
     pub fn in_joint_axes(&self) -> Vec2<S> {
-        let (sin, cos) = self.axes.sin_cos();
-        vec2(cos * self.force.x + sin * self.force.y, cos * self.force.y - sin * self.force.x)
+        vec2(self.tangent.dot(self.force), self.tangent.cross(self.force))
     }
 }
 
@@ -99,7 +98,8 @@ impl<S: Scalar> SolvedView<'_, S> {
             }
         };
         let couple = if joint.couple { load.m } else { S::zero() };
-        JointLoad { point, force: load.f, couple, axes: axes.turn.angle, span: axes.turn.apply(place.at()) }
+        let tangent = axes.turn.apply(joint_tangent(at, index));
+        JointLoad { point, force: load.f, couple, tangent, span: axes.turn.apply(place.at()) }
     }
 
     /// The reaction of every joint.

@@ -111,6 +111,17 @@ pub fn joint_friction_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: B
     }
 }
 
+/// Unit vector along a joint's line, or along its curve where the second body is on it, as the parameter of the curve
+/// grows; in the first marker's axes.
+pub(super) fn joint_tangent<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec2<S> {
+    let joint = &at.m.joints[index];
+    let s = joint.curve.map_or(S::zero(), |_| {
+        let first = &joint.coordinates[0];
+        at.n.values[first.zero] + at.coordinate(index, 0).scale(first.sense)
+    });
+    JointView::new(at.m, at.n, joint, |x| x).tangent(s)
+}
+
 /// The row of the first freedom of a joint in the sense of its coordinate: what the second body turns, or moves along
 /// the joint's line or curve, against the first.
 fn joint_slide_row<S: Scalar>(at: StateView<'_, S>, index: usize, turns: bool, base: Base<S>) -> Row<S> {
@@ -121,11 +132,7 @@ fn joint_slide_row<S: Scalar>(at: StateView<'_, S>, index: usize, turns: bool, b
     let (slide, load) = if turns {
         (going.angle.scale(first.sense), Wrench { f: Vec2::zero(), m: S::of(first.sense) })
     } else {
-        let s = match joint.curve {
-            Some(_) => at.n.values[first.zero] + at.coordinate(index, 0).scale(first.sense),
-            None => S::zero(),
-        };
-        let along = JointView::new(at.m, at.n, joint, |x| x).tangent(s) * S::of(first.sense);
+        let along = joint_tangent(at, index) * S::of(first.sense);
         // The direction is that of this instant: it turns across the motion.
         let slide = going.x * Jet::constant(along.x) + going.y * Jet::constant(along.y);
         (slide, Wrench { f: axes.turn.apply(along), m: S::zero() })

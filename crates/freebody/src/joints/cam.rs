@@ -17,7 +17,7 @@ impl Joint for CurvedSlot {
             .coordinate("s", "")
             .along("the tangent of {}")
             .turn()
-            .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
+            .row(RowCard::of(LoadCard::force("normal force", "Fn", "N")))
             .with_friction()
             .glyph("curve")
     }
@@ -37,7 +37,7 @@ impl Joint for Cam {
             .needs("follower", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
             .coordinate("s", "")
             .turn()
-            .row(RowCard::of(LoadCard::force("normal force", "F1", "N")))
+            .row(RowCard::of(LoadCard::force("normal force", "Fn", "N")))
             .glyph("follower")
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {

@@ -46,7 +46,7 @@ fn readings(bench: &mut Bench) -> (Vec<String>, Vec<ModelExpr>) {
     let m = &bench.compiled.mechanism;
     let mut texts: Vec<String> = (0..m.freedom()).map(|i| format!("accel({})", m.coordinate(i).name)).collect();
     for joint in &m.joints {
-        texts.extend(["Fx", "Fy", "M"].map(|word| format!("{}.{word}", joint.name)));
+        texts.extend(["Fx", "Fy", "M", "Fs", "Fn"].map(|word| format!("{}.{word}", joint.name)));
     }
     texts.extend(m.drives.iter().flat_map(|drive| ["force", "power"].map(|word| format!("{}.{word}", drive.name))));
     texts.push("energy".to_string());

@@ -70,8 +70,9 @@ fn rates(to: &Bench, from: &Bench, at: &Workspace, u: &[f64]) -> Vec<f64> {
     (0..to.q.len()).map(rate).collect()
 }
 
-fn told(load: &JointLoad) -> [f64; 3] {
-    [load.force.x, load.force.y, load.couple]
+fn told(load: &JointLoad) -> [f64; 5] {
+    let local = load.in_joint_axes();
+    [load.force.x, load.force.y, load.couple, local.x, local.y]
 }
 
 fn accelerations(m: &Mechanism, bodies: &[[f64; 3]]) -> Vec<f64> {
