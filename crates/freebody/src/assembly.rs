@@ -15,7 +15,7 @@ pub struct AssemblyRequest {
     /// Gauges that must have a value.
     pub held: Vec<(String, ModelExpr, f64)>,
     /// Gauges that should be near a value, to choose an assembly.
-    pub near: Vec<(ModelExpr, f64)>,
+    pub near: Vec<(String, ModelExpr, f64)>,
     /// Gauges whose rate must have a value.
     pub held_rates: Vec<(String, ModelExpr, f64)>,
     /// Expressions that must be positive (+1) or negative (−1).
@@ -31,6 +31,8 @@ pub struct Assembled {
     pub q: Vec<f64>,
     /// Rates.
     pub u: Vec<f64>,
+    /// Gauges that should be near a value, with the one they have.
+    pub near: Vec<(String, f64)>,
     /// Largest gap, m or rad over the unit of its row.
     pub gap: f64,
     /// Coordinates of the other assemblies that were found, when the state is fully determined.
@@ -69,7 +71,10 @@ pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) ->
     let u = velocities(workspace, t, request, &q)?;
     workspace.move_to(t, &q, &u);
     let gap = workspace.worst_gap();
-    Ok(Assembled { q, u, gap, others })
+    let laws: Vec<&ModelExpr> = request.near.iter().map(|(_, law, _)| law).collect();
+    let values = workspace.evaluate(&laws, &[])?;
+    let near = request.near.iter().map(|(name, ..)| name.clone()).zip(values).collect();
+    Ok(Assembled { q, u, near, gap, others })
 }
 
 /// Rows to close: loops, drives and what is held.
@@ -98,8 +103,7 @@ fn attempt(
 ) -> Result<Vec<f64>, DynamicsError> {
     let mut q = start.to_vec();
     if !request.near.is_empty() {
-        let near: Vec<_> = request.near.iter().map(|(law, x)| (String::new(), law.clone(), *x)).collect();
-        let all: Vec<_> = request.held.iter().chain(&near).cloned().collect();
+        let all: Vec<_> = request.held.iter().chain(&request.near).cloned().collect();
         descend(workspace, t, &all, &mut q);
     }
     let gap = descend(workspace, t, &request.held, &mut q);

@@ -70,7 +70,7 @@ impl Compiled {
             start: names.iter().map(value).collect(),
             start_rates: names.iter().map(|name| *asked.rates.get(*name).unwrap_or(&0.0)).collect(),
             held: held.into_iter().chain(placed).collect(),
-            near: near.into_iter().filter(|(name, ..)| !names.contains(&name)).map(|(_, law, x)| (law, x)).collect(),
+            near: near.into_iter().filter(|(name, ..)| !names.contains(&name)).collect(),
             held_rates,
             branch,
             free: names.iter().map(|name| !asked.fixed.contains_key(*name)).collect(),
@@ -94,7 +94,7 @@ impl Compiled {
 }
 
 impl Assembled {
-    /// `branch`: the assembly taken and the others, where there are several; `adjusted`: coordinates that are not as guessed.
+    /// `branch`: the assembly taken and the others, where there are several; `adjusted`: what is not as guessed.
     pub fn notes(&self, m: &Mechanism, asked: &Initial) -> Value {
         let name = |i: usize| &m.coordinate(i).name;
         let told = |q: &[f64]| {
@@ -105,9 +105,10 @@ impl Assembled {
         if !branch.is_empty() {
             branch.insert(0, format!("taken: {}", told(&self.q)));
         }
-        let adjusted = self.q.iter().enumerate().filter_map(|(i, x)| {
-            let guess = asked.guess.get(name(i)).filter(|guess| (*guess - x).abs() > AS_GUESSED)?;
-            Some(format!("{}: guess {guess:.6}, assembled {x:.9}", name(i)))
+        let coordinates = self.q.iter().enumerate().map(|(i, x)| (name(i), x));
+        let adjusted = coordinates.chain(self.near.iter().map(|(name, x)| (name, x))).filter_map(|(name, x)| {
+            let guess = asked.guess.get(name).filter(|guess| (*guess - x).abs() > AS_GUESSED)?;
+            Some(format!("{name}: guess {guess:.6}, assembled {x:.9}"))
         });
         json!({"branch": branch, "adjusted": adjusted.collect::<Vec<_>>(), "gap": self.gap})
     }

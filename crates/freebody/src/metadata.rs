@@ -6,7 +6,7 @@ use crate::builder::readings::FUNCTIONS;
 use crate::compile::coupling_card;
 use crate::dynamics::{Count, Source};
 use crate::joints::{Card, Joint as _, Kind};
-use crate::mechanism::{Drive, DriveKind, FrictionSource, Gap, Group, Joint, Level, Mechanism, Part};
+use crate::mechanism::{Drive, DriveKind, FrictionSource, Gap, Group, Level, Mechanism, Part};
 use crate::mode::Mode;
 use crate::motion::{Method, METHODS};
 use serde_json::{json, Map, Value};
@@ -78,19 +78,23 @@ fn parameters(m: &Mechanism, n: &BoundValues) -> Vec<Value> {
 
 /// Coordinates of the joints in the tree, or of those that close loops.
 fn coordinates(m: &Mechanism, n: &BoundValues, tree: bool) -> Vec<Value> {
-    let joints = m.joints.iter().filter(|j| j.child.is_some() == tree);
+    let joints = m.joints.iter().enumerate().filter(|(_, j)| j.child.is_some() == tree);
     joints
-        .flat_map(|j| {
-            j.coordinates.iter().map(|c| {
-                json!({"name": c.name, "word": j.kind.card().coordinates[c.card].name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, n, j, c)})
+        .flat_map(|(index, j)| {
+            j.coordinates.iter().map(move |c| {
+                json!({"name": c.name, "word": j.kind.card().coordinates[c.card].name, "joint": j.name, "dimension": c.dimension, "absolute": c.absolute, "doc": meaning(m, n, index, c)})
             })
         })
         .collect()
 }
 
 /// What a coordinate measures, in words.
-fn meaning(m: &Mechanism, n: &BoundValues, joint: &Joint, c: &crate::mechanism::Coordinate) -> String {
-    let [first, second] = m.ends(joint).map(|b| &m.bodies[b].name);
+fn meaning(m: &Mechanism, n: &BoundValues, index: usize, c: &crate::mechanism::Coordinate) -> String {
+    let joint = &m.joints[index];
+    // A curve follower only stands for the body that it carries.
+    let follower = m.curve_followers.iter().find(|follower| follower.joint == index);
+    let carrying = follower.map_or(joint, |follower| &m.joints[follower.released_joint]);
+    let [first, second] = [m.ends(joint)[0], m.ends(carrying)[1]].map(|b| &m.bodies[b].name);
     let what = joint.kind.card().coordinates[c.card].name;
     // Markers lie along the lines of their joint, so its angles are measured from these and not from the axes of the bodies.
     let turned = n.values[joint.first.angle] - n.values[joint.second.angle];

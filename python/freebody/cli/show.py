@@ -202,11 +202,12 @@ def apart(a: Instant, b: Instant) -> float:
 
 
 def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
+    values, accelerations = ({name: pair[i] for name, pair in instant.dependent.items()} for i in (0, 1))
     return {
         "route": instant.route,
         "assembly": list(instant.core.notes),
-        "state": dict(zip(instant.accelerations, instant.state.q.tolist(), strict=True)),
-        "accelerations": instant.accelerations,
+        "state": dict(zip(instant.accelerations, instant.state.q.tolist(), strict=True)) | values,
+        "accelerations": instant.accelerations | accelerations,
         "reactions": {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()},
         "limits": {name: asdict(limit) for name, limit in instant.limits.items()},
         "motions": instant.motions,
@@ -242,14 +243,15 @@ def mechanism(start: Instant, as_json: bool) -> None:
         print_json({**metadata, "assembly": list(start.core.notes)})
         return
     bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in metadata["bodies"]]
-    coordinates = [(c["name"], c["dimension"], c["doc"]) for c in metadata["coordinates"]]
+    coordinates = [(c["name"], c["dimension"], c["doc"], "") for c in metadata["coordinates"]]
+    coordinates += [(c["name"], c["dimension"], c["doc"], "follows from the others") for c in start.core.dependent_coordinates]
     joints = [(j["name"], j["type"], _ends(j), "closes a loop" if j["cut"] else "", _later(j)) for j in metadata["joints"]]
     limits = [(x["name"], x["type"], "" if x["type"] == "stop" else _ends(x), _later(x)) for x in metadata["limits"]]
     forces = [(f["name"], f["type"], _later(f)) for f in metadata["forces"]]
     motions = [(m["name"], m["level"], "" if m["ideal"] else "does work of its own", _later(m)) for m in metadata["motions"]]
     put(
         table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
-        table("coordinates", ["coordinate", "unit", "meaning"], coordinates),
+        table("coordinates", ["coordinate", "unit", "meaning", ""], coordinates),
         table("joints", ["joint", "type", "between", "", ""], joints),
         table("contacts, strings and stops", ["", "type", "between", ""], limits),
         table("forces", ["force", "type", ""], forces),

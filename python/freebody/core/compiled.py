@@ -86,6 +86,11 @@ class CompiledModel:
         """What the core says of the mechanism: bodies, coordinates, joints and so on."""
         return self.mechanism.describe()
 
+    @cached_property
+    def dependent_coordinates(self) -> list[dict[str, Any]]:
+        """The coordinates that the model names at joints that close loops or can be released: they follow from the others."""
+        return [c for c in self.metadata["closure_coordinates"] if c["name"] != f"{c['joint']}.{c['word']}"]
+
     @property
     def name(self) -> str:
         """Title for reports."""

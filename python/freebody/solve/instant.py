@@ -171,6 +171,13 @@ class Instant:
         return dict(zip(names, self._solved.accelerations.tolist(), strict=True))
 
     @property
+    def dependent(self) -> dict[str, tuple[float, float]]:
+        """Value and second time derivative of the ``dependent_coordinates`` of the model by name, m or rad."""
+        names = [c["name"] for c in self.core.dependent_coordinates]
+        values = self._values([text for name in names for text in (quote(name), f"accel({quote(name)})")])
+        return {name: tuple(pair) for name, pair in zip(names, values.reshape(-1, 2).tolist(), strict=True)}
+
+    @property
     def bodies(self) -> dict[str, tuple[float, float, float]]:
         """Acceleration ax, ay of the mass centre (m/s²) and angular acceleration (rad/s²) by body."""
         names = (b["name"] for b in self._metadata["bodies"])
@@ -248,7 +255,9 @@ class Instant:
     def tables(self) -> list[Table]:
         """Accelerations, reactions on both bodies, what contacts, strings, stops, motions, couplings and locks do, and residuals, for
         rich."""
-        coordinates = [(c["name"], self.accelerations[c["name"]], f"{c['dimension']}/s²") for c in self._metadata["coordinates"]]
+        found = self.accelerations | {name: acceleration for name, (_, acceleration) in self.dependent.items()}
+        named = [*self._metadata["coordinates"], *self.core.dependent_coordinates]
+        coordinates = [(c["name"], found[c["name"]], f"{c['dimension']}/s²") for c in named]
         locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
         drives = (
             ("prescribed motions", "motion", self.motions),
