@@ -71,3 +71,34 @@ def test_an_eccentric_presses_its_follower_along_the_line_of_centres():
         assert now["y"] == pytest.approx(y, rel=1e-9)
         assert now["touch.Fn"] == pytest.approx(push, rel=1e-8)
         assert now["touch.Fs"] == pytest.approx(0, abs=1e-9 * push)
+
+
+GUN = """
+freebody: 1
+parameters: {mu: 0.2}
+gravity: 9.81
+bodies:
+  cart: {mass: 100 kg, lines: {axle: {through: origin, angle: 0}}, points: {C: [0, 3.2]}, curves: {tube: {arc: {centre: C, radius: 1.2 m}}}}
+  ball: {shape: particle, mass: 5 kg}
+ground: {lines: {road: {through: O, angle: 0}}}
+joints:
+  wheels: {type: slider, along: ground.road, line: cart.axle, coordinate: X}
+  tube: {type: curved_slot, along: cart.tube, point: ball.centre, coordinate: {name: phi, zero: 180 deg}, friction: mu}
+initial: {X: 0, phi: 0.3, rates: {X: 0.5, phi: 2}}
+"""
+RELEASE = "events: {exit: {when: phi - 90 deg, then: {release: tube}}}\n"
+
+
+@pytest.mark.parametrize("mu", [0, 0.2])
+def test_what_can_be_released_bears_the_loads_of_what_stays(mu):
+    """The same loads on the same bodies, with the same sizes, as long as the release is not used."""
+    stays, leaves = (fb.Mechanism.loads(text) for text in (GUN, GUN + RELEASE))
+    told = []
+    for m in (stays, leaves):
+        m.parameters.update(mu=mu)
+        loads = m.solve().free_bodies().loads
+        told.append({load.symbol: (load.of, [part.body for part in load.on], load.acting({"ball"})) for load in loads})
+    assert told[0].keys() == told[1].keys()
+    for symbol, (of, on, acting) in told[0].items():
+        assert told[1][symbol][:2] == (of, on)
+        assert told[1][symbol][2] == pytest.approx(acting, rel=1e-9, abs=1e-9)

@@ -97,7 +97,8 @@ pub struct Load<S> {
     pub size: Size<S>,
 }
 
-/// All loads at a state, in the order: weights, forces, joints, motions, unilateral constraints, friction.
+/// All loads at a state, in the order: weights, forces, joints, motions, unilateral constraints, friction. What acts on
+/// a massless body that a joint along a curve carries acts on the body that is pinned to it.
 pub fn loads<S: Scalar>(at: StateView<'_, S>) -> Vec<Load<S>> {
     let mut loads = vec![];
     applied::weights(at, &mut loads);
@@ -106,6 +107,12 @@ pub fn loads<S: Scalar>(at: StateView<'_, S>) -> Vec<Load<S>> {
     reactions::drives(at, &mut loads);
     contacts::contacts(at, &mut loads);
     contacts::joint_friction(at, &mut loads);
+    for [carrier, body] in at.joints().filter_map(|(joint, _)| at.m.carried(joint)) {
+        for load in &mut loads {
+            let bodies = load.of.iter_mut().chain(load.parts.iter_mut().map(|part| &mut part.body));
+            bodies.filter(|on| **on == carrier).for_each(|on| *on = body);
+        }
+    }
     loads
 }
 

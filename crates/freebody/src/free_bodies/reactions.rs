@@ -11,7 +11,8 @@ use crate::scalar::Scalar;
 
 /// The components of the reaction of every joint in place, on its second body.
 pub fn joints<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
-    for (index, joint) in at.joints().filter(|(_, joint)| !joint.rows.is_empty()) {
+    let shown = |(index, joint): &(usize, &Joint)| !joint.rows.is_empty() && at.m.carried(*index).is_none();
+    for (index, joint) in at.joints().filter(shown) {
         let (of, mut rows) = (at.m.ends(joint), vec![]);
         let place = constraint_rows(at, index, &mut rows);
         let card = joint.kind.card();

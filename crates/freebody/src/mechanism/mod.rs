@@ -308,6 +308,12 @@ impl Mechanism {
         let follower = self.curve_followers.iter().find(|follower| part == Part::Joint(follower.released_joint))?;
         Some(Part::Drive(follower.hold))
     }
+    /// The massless body that a joint along a curve carries to close a loop, and the body that is pinned to it: those of
+    /// a pin; None for any other joint.
+    pub fn carried(&self, pin: usize) -> Option<[usize; 2]> {
+        let [carrier, body] = self.ends(&self.joints[pin]);
+        (carrier > 0 && self.bodies[carrier].listed.is_none()).then_some([carrier, body])
+    }
     /// What is released where a joint is.
     pub fn part_of(&self, joint: usize) -> Part {
         let follower = self.curve_followers.iter().find(|follower| follower.joint == joint);
