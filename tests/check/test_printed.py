@@ -114,8 +114,13 @@ LINES = 24
 MOMENTS: dict[str, dict[str, float]] = {"start": {}, "later": {"at": 0.1}}
 TOPICS = ("lagrange", "mass_centre")
 """Those whose symbols are those of the model; the others give names of their own, of a frame, a particle, a point."""
-FALSE = {"72"}
-"""A drive of a cam's own coordinate at velocity level is printed with that rate twice in the form with constraints."""
+
+
+def _unloaded(mechanism: fb.Mechanism, asked: dict[str, float]) -> bool:
+    """Whether something is closed without a load: it is printed as closed, which it need not stay."""
+    model = mechanism.model
+    names = {*model.contacts, *model.strings, *model.stops}
+    return any(load.value == 0 and load.name in names for load in mechanism.free_bodies(**asked).loads)
 
 
 def _documents(mechanism: fb.Mechanism, state: State, asked: dict[str, float]) -> Iterator[Document]:
@@ -139,8 +144,8 @@ def _alone(document: Document) -> Iterator[str]:
 @pytest.mark.parametrize("moment", MOMENTS)
 def test_what_is_printed_of_a_random_model_is_true(seed: str, moment: str) -> None:
     mechanism, asked, rng = drawn(int(seed)), MOMENTS[moment], random.Random(seed)
-    if seed in FALSE or len(set(map(folded, mechanism.model.bodies))) < len(mechanism.model.bodies):
-        pytest.skip("it is printed wrong, or two of its bodies read alike")
+    if len(set(map(folded, mechanism.model.bodies))) < len(mechanism.model.bodies):
+        pytest.skip("two of its bodies read alike")
     try:
         state = mechanism.solve(**asked).state
     except (fb.MotionError, ValueError) as error:  # it does not start, or does not come there
@@ -153,6 +158,9 @@ def test_what_is_printed_of_a_random_model_is_true(seed: str, moment: str) -> No
     for line in rng.sample(lines, min(LINES, len(lines))):
         try:
             verdict = checker.check(line, correcting=False)
+            if verdict.kind is Kind.WRONG and _unloaded(mechanism, asked):
+                assert checker.check(line).assumption == "at the start", line
+                continue
             assert verdict.kind is Kind.TRUE, f"{line}: {verdict}"
         except StatementError as error:
             assert error.what == "the derivative of this is too long", line

@@ -22,12 +22,24 @@ impl Workspace<'_> {
             let (alone, superfluous) = (self.mode().clone(), self.superfluous_rows());
             let Some(mode) = self.mode_under_load(l) else { continue };
             self.enter(&alone.with_contacts(&[l], mode));
-            match self.solve_by(Route::Minimal).is_ok() && self.superfluous_rows() == superfluous {
-                true => held.push(l),
-                false => self.enter(&alone),
+            held.push(l);
+            let holds = self.solve_by(Route::Minimal).is_ok() && self.superfluous_rows() == superfluous;
+            if !(holds && self.carry_nothing(&held)) {
+                held.pop();
+                self.enter(&alone);
             }
         }
         Ok(held)
+    }
+
+    /// Whether the forces of unilateral constraints in the last solution are round-off, beside the loads and beside what moves the
+    /// masses. What carries a load at the present rates, in a mode that it has from others, is not without load.
+    fn carry_nothing(&mut self, held: &[usize]) -> bool {
+        let rate = self.natural_rate();
+        let inertial = self.n.mass.iter().sum::<f64>() * self.length * rate * rate;
+        let (forces, most) = (self.solved_view().contact_forces(), self.term_scales().load.max(inertial));
+        let size = |l: usize| (forces[l][0] / self.lever(l)).abs().max(forces[l][1].abs());
+        held.iter().all(|&l| size(l) <= CLOSE * most)
     }
 
     /// How a unilateral constraint would be held under load in the last solution; None where that is not known.

@@ -6,9 +6,10 @@ use super::{sizes, unused_name, SymbolicState};
 use crate::algebra::{Symbol, Tree, Variable};
 use crate::dynamics::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{loads, relate_friction, Size};
-use crate::kinematics::StateView;
+use crate::joints::Joint as _;
+use crate::kinematics::{relative, JointView, MotionView, StateView};
 use crate::plane::{vec2, Pose, Turn, Twist};
-use crate::scalar::Scalar;
+use crate::scalar::{Jet, Scalar};
 use serde_json::{json, Value};
 
 impl SymbolicState<'_> {
@@ -56,7 +57,8 @@ impl SymbolicState<'_> {
 
     /// Three balance equations a body and every joint's own equations, in the places of the bodies.
     pub(super) fn constraints(&self) -> Value {
-        let (free, coordinates) = self.free();
+        let (free, mut coordinates) = self.free();
+        coordinates.extend(self.curve_starts().map(|(_, start)| self.m.coordinate(start).name.clone()));
         let mut unknowns: Vec<Variable> = coordinates.iter().map(|c| Variable::new(c, 2)).collect();
         let open = free.loads.iter().filter(|l| matches!(l.size, Size::Unknown | Size::ByLaw));
         unknowns.extend(open.map(|l| Variable::new(&l.symbol, 0)));
@@ -75,10 +77,37 @@ impl SymbolicState<'_> {
         for (index, _) in at.joints().filter(|(_, joint)| joint.curve.is_none() && !joint.rows.is_empty()) {
             joint_rows(at, index, Some(&self.bodies), &mut rows);
         }
+        self.curve_starts().for_each(|(joint, start)| rows.extend(self.rows_along_curve(joint, start)));
         let tree = |row: &Row<Symbol>| matches!(row.source, Source::Joint(..));
         rows.extend(closing_rows(at, Some(&self.bodies)).into_iter().filter(|row| !tree(row)));
         self.joint_origins(&self.k, &self.bodies, &mut rows);
         rows
+    }
+
+    /// The joints in place that run along curves, each with its coordinate along the curve, which stays a coordinate beside
+    /// those of the bodies: no place of a body tells it by a formula.
+    fn curve_starts(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let start = |joint: usize| self.m.place_in_q(joint, 0).expect("a joint along a curve is in the tree");
+        self.at().joints().filter(|(_, joint)| joint.curve.is_some()).map(move |(index, _)| (index, start(index)))
+    }
+
+    /// What a joint along a curve asks: that its second point is at its coordinate, in both directions of the first body.
+    fn rows_along_curve(&self, index: usize, start: usize) -> [Row<Symbol>; 2] {
+        let joint = &self.m.joints[index];
+        let (_, place) =
+            relative(joint, self.m, &MotionView { at: self.at(), bodies: Some(&self.bodies), accelerations: None });
+        let along = &joint.coordinates[0];
+        let [q, u, a] = [self.q[start], self.u[start], self.a[start]].map(|x| x.scale(along.sense));
+        let own = [Jet::new(self.n.values[along.zero] + q, u, a), Jet::constant(Symbol::zero())];
+        let curve = JointView::new(self.m, &self.n, joint, Jet::constant).pose(&own[..joint.size], false);
+        [place.x - curve.x, place.y - curve.y].map(|gap| Row {
+            source: Source::Joint(index, 0),
+            value: Some(gap.d0),
+            rate: Some(gap.d1),
+            bias: gap.d2,
+            motion: vec![],
+            force: None,
+        })
     }
 
     /// The balances of one body: along the fixed axes, and about its mass centre where it is no particle.

@@ -25,8 +25,9 @@ _LEGEND = (
 )
 _INTRODUCTION = (
     "Each body is placed by itself, by x and y of its mass centre and its angle φ (a particle by x and y): "
-    "{} coordinates. The joints stand as constraints."
+    "{} coordinates{}. The joints stand as constraints."
 )
+_ALONG_CURVES = ", those of joints along their curves among them"
 _CAPTION = "Every body by itself: its mass centre from the origin, its angle from the x axis. What is 0 now is drawn a little further on."
 
 _WHAT = {"x": ("m", "x of the mass centre of {}"), "y": ("m", "y of the mass centre of {}"), "phi": ("rad", "angle of {}")}
@@ -46,7 +47,7 @@ def constrained(subject: SymbolicState) -> tuple[Form, Nomenclature]:
         equations.append(Printed(title, read(data["right"]), read(data["left"]), Linear.read(data["linear"])))
     nomenclature = _nomenclature(names, subject)
     form = Form.of(nomenclature, equations + loop_closure.printed(rows))
-    made: list[Block] = [Heading("Coordinates"), Paragraph(_INTRODUCTION.format(len(names)))]
+    made: list[Block] = [Heading("Coordinates"), Paragraph(_INTRODUCTION.format(len(names), _ALONG_CURVES if {*names} & {*subject.nomenclature} else ""))]
     made.append(Figure(Configuration(subject.source, subject.state, each_body=True), _CAPTION, "sketch"))
     made += loop_closure.section(rows, names, everywhere=True) if rows else []
     made.append(Heading("Balance equations"))
@@ -79,6 +80,9 @@ def _nomenclature(names: list[str], subject: SymbolicState) -> Nomenclature:
     found: dict[str, SymbolEntry] = {}
     known, renamed = subject.nomenclature, dict(subject.nomenclature.renamed)
     for name in names:
+        if name in known:  # the coordinate of a joint along a curve
+            found[name] = known[name]
+            continue
         word, body = next(
             (word, name.removeprefix(f"{start}_")) for start, word in _STARTS.items() if name.startswith(f"{start}_")
         )
