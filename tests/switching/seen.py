@@ -60,9 +60,10 @@ def unbalanced(run: fb.Run, body: str, touches: Iterable[str], times: np.ndarray
     x, y = run.evaluate(f"x({body}.G)", times), run.evaluate(f"y({body}.G)", times)
     for name in touches:
         fx, fy = run.evaluate(f"{name}.Fx", times), run.evaluate(f"{name}.Fy", times)
-        px, py = run.evaluate(f"{name}.x", times), run.evaluate(f"{name}.y", times)
+        on = np.hypot(fx, fy) > 0  # elsewhere it acts nowhere
+        px, py = run.evaluate(f"{name}.x", times[on]), run.evaluate(f"{name}.y", times[on])
         force = [force[0] + fx, force[1] + fy]
-        moment = moment + np.where(np.hypot(fx, fy) > 0, (px - x) * fy - (py - y) * fx, 0)
+        moment[on] += (px - x[on]) * fy[on] - (py - y[on]) * fx[on]
     return float(max(np.abs(force[0]).max(), np.abs(force[1]).max(), np.abs(moment).max()))
 
 

@@ -297,6 +297,8 @@ def refuse(text: str, t: float, metadata: Mapping[str, Any], evaluate: Callable[
             if not readings or not np.isnan(evaluate(readings)).any():
                 continue
             if kind == "joints":
-                raise Indeterminate(f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least")
+                raise Indeterminate(
+                    f"{text!r} reads a reaction of {name}, which is not determined; see reactions[{name!r}].least"
+                )
             raise Indeterminate(f"{text!r} reads a force of {name}, which the balances do not determine")
     raise NotFinite(f"{text!r} has no finite value at t = {t:.6g} s")

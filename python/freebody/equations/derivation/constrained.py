@@ -47,7 +47,10 @@ def constrained(subject: SymbolicState) -> tuple[Form, Nomenclature]:
         equations.append(Printed(title, read(data["right"]), read(data["left"]), Linear.read(data["linear"])))
     nomenclature = _nomenclature(names, subject)
     form = Form.of(nomenclature, equations + loop_closure.printed(rows))
-    made: list[Block] = [Heading("Coordinates"), Paragraph(_INTRODUCTION.format(len(names), _ALONG_CURVES if {*names} & {*subject.nomenclature} else ""))]
+    made: list[Block] = [
+        Heading("Coordinates"),
+        Paragraph(_INTRODUCTION.format(len(names), _ALONG_CURVES if {*names} & {*subject.nomenclature} else "")),
+    ]
     made.append(Figure(Configuration(subject.source, subject.state, each_body=True), _CAPTION, "sketch"))
     made += loop_closure.section(rows, names, everywhere=True) if rows else []
     made.append(Heading("Balance equations"))
