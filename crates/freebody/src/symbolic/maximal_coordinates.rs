@@ -6,7 +6,6 @@ use super::{sizes, unused_name, SymbolicState};
 use crate::algebra::{Symbol, Tree, Variable};
 use crate::dynamics::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{loads, relate_friction, Size};
-use crate::joints::Joint as _;
 use crate::kinematics::{relative, JointView, MotionView, StateView};
 use crate::plane::{vec2, Pose, Turn, Twist};
 use crate::scalar::{Jet, Scalar};
