@@ -10,7 +10,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from tests.dev.conftest import FALLING
+from small_models import FALLING
 from typer.testing import CliRunner
 
 from freebody import cli
