@@ -42,7 +42,8 @@ def ratio(above: Any, below: Any) -> Tree:
 
 def rational(expression: Any) -> Any:
     """A SymPy expression in which numbers are the fractions that they are as floats, so that algebra is exact."""
-    return sympy.nsimplify(sympy.N(expression, 17), rational=True)
+    found = sympy.N(expression, 17)
+    return found.xreplace({x: sympy.nsimplify(x, rational=True) for x in found.atoms(sympy.Float)})
 
 
 def _terms(expression: Any) -> list[tuple[float, Any]]:
