@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 from typer.core import TyperGroup
 
-from freebody.cli import terminal
+from freebody.cli.terminal import SPELT, print_json
 
 if TYPE_CHECKING:
     from freebody.model.errors import Problem
@@ -32,7 +32,7 @@ class Guarded(TyperGroup):
         as_json = "--json" in context.args
         for stream in (sys.stdout, sys.stderr):
             with suppress(AttributeError):  # a stream of a notebook takes everything
-                stream.reconfigure(errors=terminal.SPELT)  # type: ignore[union-attr]
+                stream.reconfigure(errors=SPELT)  # type: ignore[union-attr]
         try:
             done = super().invoke(context)
             sys.stdout.flush()
@@ -42,7 +42,7 @@ class Guarded(TyperGroup):
             if found is None or (hasattr(error, "format_message") and not as_json):
                 raise
             if as_json and not _is_of_stdout(error):
-                terminal.print_json({"problems": [asdict(problem) for problem in found]})
+                print_json({"problems": [asdict(problem) for problem in found]})
             else:
                 print("\n".join(map(_stated, found)), file=sys.stderr)
             if _is_of_stdout(error):

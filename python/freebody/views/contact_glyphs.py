@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
@@ -21,12 +20,12 @@ _SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
 
 def draw_contacts(sketch: Sketch) -> None:
     """Every surface that is no body, once; lines as far as what touches them comes, and between the points that name them."""
-    touched: dict[str, list[Surface]] = {}
+    touched: dict[str, tuple[Surface, list[Surface]]] = {}
     for contact in sketch.spec.get("contacts", []):
         for surface, other in (contact["of"], contact["of"][::-1]):
-            touched.setdefault(json.dumps(surface), []).append(other)
-    for text, others in touched.items():
-        [(kind, shape)] = json.loads(text).items()
+            touched.setdefault(repr(surface), (surface, []))[1].append(other)
+    for surface, others in touched.values():
+        [(kind, shape)] = surface.items()
         if kind == "line":
             _draw_line(sketch, shape, others)
         elif kind == "circle" and (shape.get("ends") or shape.get("hollow")):

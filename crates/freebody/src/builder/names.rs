@@ -241,7 +241,7 @@ impl Names {
     }
 }
 
-/// Refuses time derivatives beyond the first of what is found by solving an instant: that is taken by differences.
+/// Refuses time derivatives beyond the first of what is found by solving an instant: there are no second ones along the motion.
 fn check_derivatives(law: &ModelExpr, ast: &Ast) -> Result<(), ExprError> {
     let beyond = |(inner, second): (&ModelExpr, bool)| {
         !is_measured(inner) && (second || inner.derivatives().any(|(within, _)| !is_measured(within)))

@@ -31,7 +31,7 @@ pub(super) enum Force {
 
 /// Share of a row in a dependence, or of a body in a motion, whose size is 1, below which it is round-off.
 const PART: f64 = 1e-6;
-/// How many times the shift of a body's joint its turn makes of the characteristic length where it only spins there.
+/// A body spins about its joint where its turn moves points at the characteristic length so many times as far as the joint.
 const SPINS: f64 = 1e3;
 /// Largest contradiction of the rows, over the largest of their terms, that is put down to round-off.
 pub(super) const CONTRADICTION: f64 = 1e-7;

@@ -12,7 +12,7 @@ use crate::solve::{Lu, Matrix, Orthogonal};
 const CORRECTIONS: usize = 12;
 /// Gap, relative to the characteristic length, at which a loop counts as closed.
 pub(crate) const CLOSED: f64 = 1e-14;
-/// Gap of a contact, in parts of that: it is told to the round-off of places, and to lessen it further is work for nothing.
+/// Gap below which a contact is closed: no place is known any closer.
 const SHUT: f64 = 0.1 * CLOSED;
 /// Gap above which the closing of a loop has failed.
 pub(crate) const OPEN: f64 = 1e-9;

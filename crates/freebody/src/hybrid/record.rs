@@ -1,4 +1,4 @@
-//! What is record of a run, as data.
+//! The record of a run, as data.
 
 use super::guards::SwitchingFunction;
 use super::mode_changes::{ContactImpulse, ModeChange};

@@ -11,7 +11,7 @@ const NOISE: f64 = 4.0 * f64::EPSILON;
 const TOUCH: f64 = 1e-12;
 /// or below this many tolerances of the way that its function has come since it was zero: the motion is told no nearer.
 const GRAZE: f64 = 30.0;
-/// The same of an event that acts: what is clearly across acts, and clearly is by what was asked.
+/// The same of an event that acts: whether it does must not depend on more than the tolerance asked for.
 const GRAZE_OF_ACTION: f64 = 1.0;
 /// Mean over swing from which a polynomial cannot reach zero: |Tₖ| ≤ 1, and a little for the rounding of its sums.
 const CLEAR_OF_ZERO: f64 = 1.001;
