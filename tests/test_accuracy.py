@@ -15,7 +15,7 @@ def test_every_figure_is_reached(check):
     assert [f"{row.what}: {row.reached:.1e}, wanted {row.wanted:.0e}" for row in rows if not row.ok] == []
 
 
-def test_a_missed_figure_is_told():
+def test_a_missed_figure_is_reported():
     row = ACCURACY["Row"]
     assert row("", 1e-9, 1e-9).ok
     assert not row("", 2e-9, 1e-9).ok

@@ -93,12 +93,12 @@ RELEASE = "events: {exit: {when: phi - 90 deg, then: {release: tube}}}\n"
 def test_what_can_be_released_bears_the_loads_of_what_stays(mu):
     """The same loads on the same bodies, with the same sizes, as long as the release is not used."""
     stays, leaves = (fb.Mechanism.loads(text) for text in (GUN, GUN + RELEASE))
-    told = []
+    found = []
     for m in (stays, leaves):
         m.parameters.update(mu=mu)
         loads = m.solve().free_bodies().loads
-        told.append({load.symbol: (load.of, [part.body for part in load.on], load.acting({"ball"})) for load in loads})
-    assert told[0].keys() == told[1].keys()
-    for symbol, (of, on, acting) in told[0].items():
-        assert told[1][symbol][:2] == (of, on)
-        assert told[1][symbol][2] == pytest.approx(acting, rel=1e-9, abs=1e-9)
+        found.append({load.symbol: (load.of, [part.body for part in load.on], load.acting({"ball"})) for load in loads})
+    assert found[0].keys() == found[1].keys()
+    for symbol, (of, on, acting) in found[0].items():
+        assert found[1][symbol][:2] == (of, on)
+        assert found[1][symbol][2] == pytest.approx(acting, rel=1e-9, abs=1e-9)

@@ -91,7 +91,7 @@ def test_models_can_hand_over_to_and_fro(tmp_path):
     assert times == pytest.approx([np.sqrt(2), 3 * np.sqrt(2), 6.0])
 
 
-def test_a_wrong_second_model_is_told(swing):
+def test_a_wrong_second_model_is_reported(swing):
     (swing.parent / "flight.yaml").write_text(FLIGHT.replace("length: l", "lenght: l"))
     with pytest.raises(fb.ModelFileError, match=r"flight.yaml:5:\d+: .*`lenght`"):
         fb.load(swing).simulate()
@@ -122,7 +122,7 @@ def test_an_equilibrium_is_believed():
         (("equilibrium", "rates: {s: 1}, equilibrium"), "`s` moves with 1 m/s"),
     ],
 )
-def test_no_equilibrium_is_told_by_name(change, words):
+def test_no_equilibrium_is_said_by_name(change, words):
     with pytest.raises(fb.ModelFileError, match=words) as caught:
         fb.Mechanism.loads(HANGING.replace(*change)).simulate()
     assert caught.value.problems[0].where.path == "initial.equilibrium"
@@ -136,7 +136,7 @@ def test_other_starts_are_not_held_to_it():
 
 
 @pytest.mark.parametrize("setting", [{"impacts": "newtn"}, {"painleve": "never"}])
-def test_an_unknown_law_is_told(setting):
+def test_an_unknown_law_is_reported(setting):
     with pytest.raises(ValueError, match=next(iter(setting.values()))):
         fb.Mechanism.loads(HANGING).simulate(**setting)
 

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .core import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite
-    from .model import Mechanism, ModelFileError
+    from .mechanism import Mechanism
+    from .model.errors import ModelFileError
     from .run.simulation import Run
     from .solve.instant import Instant
     from .views.compare import compare
@@ -20,9 +21,9 @@ _HOMES = {
     "ExpressionError": "core",
     "Indeterminate": "core",
     "Instant": "solve.instant",
-    "Mechanism": "model",
+    "Mechanism": "mechanism",
     "ModelError": "core",
-    "ModelFileError": "model",
+    "ModelFileError": "model.errors",
     "MotionError": "core",
     "NotFinite": "core",
     "Run": "run.simulation",
@@ -46,7 +47,7 @@ __all__ = [
 
 def load(path: Any) -> Mechanism:
     """The mechanism of a model file (YAML or JSON). Raises ``ModelFileError`` with all that is wrong in it."""
-    from .model import Mechanism
+    from .mechanism import Mechanism
 
     return Mechanism.load(path)
 

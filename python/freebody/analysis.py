@@ -193,7 +193,7 @@ class Moving:
         if initial is None and not changes and self.lowered().start.equilibrium:
             self.check_equilibrium(state)
         for file in self.lowered().hand_over.values():
-            self.handed(file).compile()  # what is wrong there is told before anything moves
+            self.handed(file).compile()  # what is wrong there is said before anything moves
         stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
         with self.core_errors():
             return follow(stage, stage.run(state, notes))

@@ -44,7 +44,7 @@ class Fake:
         self.body(name, (start + end) / 2, np.arctan2(d[1], d[0]), mass, mass * d @ d / 12)
 
     def load(self, name, of, parts, kind="force"):
-        self.known.append(self._told(name, kind, None, of, parts))
+        self.known.append(self._load(name, kind, None, of, parts))
 
     def hinge(self, name, first, second, at):
         for component, e in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
@@ -63,15 +63,15 @@ class Fake:
 
     def _couple(self, name, kind, component, first, second, bias):
         parts = [(second, self._place(second), (0.0, 0.0), 1.0), (first, self._place(first), (0.0, 0.0), -1.0)]
-        self.unknown.append(self._told(name, kind, component, (first, second), parts))
+        self.unknown.append(self._load(name, kind, component, (first, second), parts))
         self.biases.append(lambda v: bias)
 
     def _pair(self, name, kind, component, first, second, at, e, bias):
         parts = [(second, at, tuple(e), 0.0), (first, at, tuple(-np.array(e)), 0.0)]
-        self.unknown.append(self._told(name, kind, component, (first, second), parts))
+        self.unknown.append(self._load(name, kind, component, (first, second), parts))
         self.biases.append(bias)
 
-    def _told(self, name, kind, component, of, parts):
+    def _load(self, name, kind, component, of, parts):
         on = [{"body": b, "point": list(map(float, p)), "force": list(map(float, f)), "couple": c} for b, p, f, c in parts]
         card = {"name": component or kind, "reading": READINGS[component], "couple": component == "couple", **FACTS}
         axis = component if component in ("x", "y") else None
@@ -136,7 +136,7 @@ class Fake:
             place = {"at": list(b["G"]), "angle": float(b["angle"]), "G": list(b["G"])}
             motion = {"v": list(v[own][:2]), "omega": v[own][2], "a": list(a[own][:2]), "alpha": a[own][2]}
             plain = {"name": body, "particle": False, "mass": b["mass"], "inertia": b["inertia"]}
-            bodies.append({**plain, **place, **motion, "by_accelerations": by, "drift": [0.0, 0.0, 0.0]})
+            bodies.append({**plain, **place, **motion, "by_accelerations": by, "bias_acceleration": [0.0, 0.0, 0.0]})
         loads = [
             {**x, "unknown": True, "value": float(y), "determinate": True} for x, y in zip(self.unknown, values, strict=True)
         ]

@@ -110,7 +110,9 @@ def test_a_weight_is_on_the_diagram_of_all_bodies_together():
 
 def test_the_accelerations_are_affine_in_those_of_the_coordinates(free):
     for body in free.bodies.values():
-        motion = sum(free.accelerations[name] * np.array(by) for name, by in body.by_accelerations.items()) + body.drift
+        motion = (
+            sum(free.accelerations[name] * np.array(by) for name, by in body.by_accelerations.items()) + body.bias_acceleration
+        )
         np.testing.assert_allclose(motion, (*body.a, body.alpha), atol=1e-10)
     for row in free.rows:
         left = sum(c * free.accelerations[name] for name, c in row.coefficients.items())

@@ -109,7 +109,7 @@ def test_textbook_forms_have_their_textbook_names():
     assert ladder == "AMB about the point where the lines of floor.Fn and wall.Fn meet for ladder"
 
 
-def test_an_arm_from_a_file_and_how_it_is_told():
+def test_an_arm_from_a_file_and_how_it_is_reported():
     form = store.mechanism("EX-ARM/model").minimal_form()
     assert titles(form) == ["AMB about elbow for forearm", "AMB about shoulder for upper + forearm"]
     stated = str(form)

@@ -24,7 +24,7 @@ from freebody.check.language.spelling import spell
 from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.verdict import judged
 from freebody.check.vocabulary import Vocabulary
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.symbolic.tree import Node, Sym, substitute
 
 _OTHER_SEED = 20  # of the states at which truth is found beside the check
@@ -108,7 +108,7 @@ class Bench:
         began = time.perf_counter()
         verdict = judged(self.checker.case(text, self._said(equation)))
         seconds = time.perf_counter() - began
-        return Outcome(self.name, "", text, text, verdict.kind, True, True, _told(verdict.mends), seconds)
+        return Outcome(self.name, "", text, text, verdict.kind, True, True, _edits(verdict.mends), seconds)
 
     def _said(self, equation: Equation) -> dict[str, str]:
         names = {n.name for n in symbols_in(equation)}
@@ -136,10 +136,10 @@ class Bench:
         seconds = time.perf_counter() - began
         right = [self.same(before, self.checker.case(mend.equation, said).equations[0], rng) for mend in found]
         first = bool(right) and right[0]
-        return Outcome(self.name, slip, spell(before), text, verdict.kind, any(right), first, _told(found), seconds)
+        return Outcome(self.name, slip, spell(before), text, verdict.kind, any(right), first, _edits(found), seconds)
 
 
-def _told(found: tuple[Correction, ...]) -> tuple[str, ...]:
+def _edits(found: tuple[Correction, ...]) -> tuple[str, ...]:
     return tuple(str(mend) for mend in found)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from freebody.core import SymbolicAnswers
 from freebody.equations import text
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.symbolic.tree import Tree, add, negative, read
 
 ROOT = Path(__file__).parents[2]

@@ -7,7 +7,7 @@ import pytest
 from textbook import BOOKS
 
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.symbolic.errors import StatementError
 
 T, W, IF, D, U = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF, Kind.DIMENSIONS, Kind.UNDECIDABLE
@@ -218,7 +218,7 @@ def test_a_claim_that_lacks_a_part_is_no_label(text: str) -> None:
         book("block that slides down a slope").check(text)
 
 
-def test_a_number_that_is_a_vector_is_told_so() -> None:
+def test_a_number_that_is_a_vector_is_said_so() -> None:
     verdict = book("bob on a spring", e=["sin(theta)", "-cos(theta)"]).check("r = r e")
     assert verdict.kind is Kind.DIMENSIONS
     assert "the right side a vector" in verdict.reason

@@ -6,7 +6,7 @@ import pytest
 from textbook import BOOKS
 
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.symbolic.errors import StatementError
 
 

@@ -11,7 +11,7 @@ from store import family
 
 from freebody.check import Kind
 from freebody.check.language.parser import parse
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.symbolic.tree import Sym
 
 _EACH = 2  # correct equations, and as many with a slip, of each model
@@ -30,18 +30,18 @@ def test_correct_equations_are_true_however_they_are_arranged(bench: Bench) -> N
         assert outcome.kind is Kind.TRUE, outcome.after
 
 
-def test_no_slip_is_accepted(bench: Bench, told: list[Outcome]) -> None:
+def test_no_slip_is_accepted(bench: Bench, outcomes: list[Outcome]) -> None:
     rng = np.random.default_rng(12)
     for outcome in (bench.mutated(rng) for _ in range(_EACH)):
         if outcome is not None:
             assert outcome.kind is not Kind.TRUE, outcome.after
-            told.append(outcome)
-    missed = [f"{outcome.after} was {outcome.before}" for outcome in told if not outcome.found]
-    assert len(missed) <= 1 + 0.05 * len(told), missed
+            outcomes.append(outcome)
+    missed = [f"{outcome.after} was {outcome.before}" for outcome in outcomes if not outcome.found]
+    assert len(missed) <= 1 + 0.05 * len(outcomes), missed
 
 
 @pytest.fixture(scope="module")
-def told() -> list[Outcome]:
+def outcomes() -> list[Outcome]:
     """What the check said of all models so far."""
     return []
 

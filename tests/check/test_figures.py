@@ -9,7 +9,7 @@ from itertools import cycle, islice
 import pytest
 
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 
 _MODELS = {
     "a bob on a spring": """

@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 from freebody.check import Kind
 from freebody.check.file import judge, read
 from freebody.cli import app
+from freebody.mechanism import Mechanism
 from freebody.model.errors import ModelProblem
 
 MODEL = """
@@ -39,19 +40,19 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_a_file_of_statements_is_judged(folder: Path) -> None:
-    done = {one.statement.id: one for one in judge(folder / "statements.yaml")}
+    done = {one.statement.id: one for one in judge(folder / "statements.yaml", Mechanism.load)}
     assert [done[name].verdict.kind for name in "ACD"] == [Kind.TRUE, Kind.WRONG, Kind.TRUE]
     assert done["C"].as_expected
     assert done["A"].as_expected is None
 
 
 def test_an_own_angle_from_another_axis(folder: Path) -> None:
-    done = {one.statement.id: one for one in judge(folder / "statements.yaml")}
+    done = {one.statement.id: one for one in judge(folder / "statements.yaml", Mechanism.load)}
     # sin θ = sin(φ + π/2) = cos φ
     assert done["B"].verdict.ok
 
 
-def test_what_a_file_may_hold_is_told(folder: Path) -> None:
+def test_what_a_file_may_hold_is_reported(folder: Path) -> None:
     (folder / "bad.yaml").write_text("statements: [{id: A, say: x = 1}]")
     with pytest.raises(ModelProblem, match="says"):
         read(folder / "bad.yaml")
@@ -71,7 +72,7 @@ def test_the_command_ends_with_its_verdict(folder: Path) -> None:
     assert run(app, ["check", str(folder / "statements.yaml")]).exit_code == 0
 
 
-def test_a_model_without_an_equation_is_told_so(folder: Path) -> None:
+def test_a_model_without_an_equation_is_said_so(folder: Path) -> None:
     run = CliRunner().invoke(app, ["check", str(folder / "model.yaml")])
     assert run.exit_code == 2
     assert "no equation to check" in run.output
@@ -84,7 +85,7 @@ def test_one_statement_that_cannot_be_read_does_not_stop_the_others(folder: Path
     (folder / "many.yaml").write_text(
         "statements: [\"l q'' = 0\", {says: 'x = (1'}, \"2*l*theta'' = -3*g*sin(theta)\", {id: end, says: 'limit: g = 1'}]"
     )
-    done = [(one.statement.id, one.verdict.kind) for one in judge(folder / "many.yaml")]
+    done = [(one.statement.id, one.verdict.kind) for one in judge(folder / "many.yaml", Mechanism.load)]
     assert done == [("1", Kind.UNREADABLE), ("2", Kind.UNREADABLE), ("3", Kind.TRUE), ("end", Kind.UNREADABLE)]
     run = CliRunner().invoke(app, ["check", str(folder / "model.yaml"), "l q'' = 0", "2*l*theta'' = -3*g*sin(theta)"])
     assert run.exit_code == 3

@@ -9,7 +9,7 @@ import pytest
 from generated import chain
 
 from freebody.check import Checker, Verdict
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 
 SIZES = (1, 2, 3)
 

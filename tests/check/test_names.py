@@ -9,7 +9,7 @@ from store import ANSWERED, every, mechanism
 
 from freebody.check import Checker, Kind
 from freebody.core import quote
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.symbolic.errors import StatementError
 
 _OF_LIMITS = {"gap", "slack", "N", "T", "tension", "x", "y", "slip"}

@@ -1,4 +1,4 @@
-"""Where nothing corrects an equation, a true one with the same symbols is told; it is put to the test like any other."""
+"""Where nothing corrects an equation, a true one with the same symbols is offered; it is put to the test like any other."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import pytest
 from textbook import BOOKS
 
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 
 HOPELESS = [
     ("pendulum on a cart", "l^2*thetaddot*sin(theta)^2 = 7*g*x + 3*l*xddot", "moments"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 
 T, W = Kind.TRUE, Kind.WRONG
 BAR = """

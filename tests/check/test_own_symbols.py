@@ -1,4 +1,4 @@
-"""What symbols mean: rates, vectors, phrases; told by mechanics that holds for them."""
+"""What symbols mean: rates, vectors, phrases; seen by mechanics that holds for them."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def test_without_gravity_there_is_no_g():
     assert "g" not in Symbols(m).names
 
 
-def test_an_unknown_symbol_is_told_with_its_place_and_a_near_one(model):
+def test_an_unknown_symbol_is_said_with_its_place_and_a_near_one(model):
     letters = Symbols(model)
     with pytest.raises(StatementError) as error:
         letters.require(parse("m s̈ = m thetta", letters.names))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 
 T, W, IF = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF
 

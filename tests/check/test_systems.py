@@ -14,6 +14,7 @@ import freebody
 from freebody.check import Verdict
 from freebody.check.file import Judged, judge, read
 from freebody.cli import app
+from freebody.mechanism import Mechanism
 
 FOLDER = Path(freebody.__file__).parent / "systems"
 FILES = {path.parent.name: path for path in sorted(FOLDER.glob("*/statements.yaml"))}
@@ -25,7 +26,7 @@ STATED = {
 
 @cache
 def judged(path: Path) -> list[Judged]:
-    return list(judge(path))
+    return list(judge(path, Mechanism.load))
 
 
 def verdict(system: str, statement: str) -> Verdict:

@@ -1,4 +1,4 @@
-"""What is right is called right, what is wrong is corrected, and what is true only sometimes is told with its condition."""
+"""What is right is called right, what is wrong is corrected, and what is true only sometimes has its condition."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from textbook import BOOKS, Book
 
 import freebody as fb
 from freebody.check import Checker, Kind
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
 
@@ -117,13 +117,13 @@ def test_evidence_breaks_the_equation(cart: Checker) -> None:
     assert left == pytest.approx(-at["g"] * np.sin(at["theta"]) - at["xddot"] * np.cos(at["theta"]))
 
 
-def test_equations_that_say_the_same_twice_are_told(cart: Checker) -> None:
+def test_equations_that_say_the_same_twice_are_reported(cart: Checker) -> None:
     verdict = cart.check("l*theta'' + x''*cos(theta) + g*sin(theta) = 0\n2*l*theta'' + 2*x''*cos(theta) = -2*g*sin(theta)")
     assert verdict.ok
     assert "only 1 of them independent" in verdict.reason
 
 
-def test_what_is_the_same_by_itself_is_told(cart: Checker) -> None:
+def test_what_is_the_same_by_itself_is_reported(cart: Checker) -> None:
     assert "says nothing" in cart.check("2*l*theta''/l - theta'' = theta''").reason
     assert "says nothing" not in cart.check("l*theta'' + x''*cos(theta) + g*sin(theta) = 0").reason
 

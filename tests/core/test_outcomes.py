@@ -13,8 +13,8 @@ OF_PYTHON = {OutcomeKind.HANDS_OVER_AT_ONCE}
 
 
 def test_the_list_is_that_of_the_core():
-    told = (CORE / "error.rs").read_text() + (CORE / "motion/outcome.rs").read_text()
-    names = re.findall(r'"(\w+)"', re.sub("//.*", "", told))
+    source = (CORE / "error.rs").read_text() + (CORE / "motion/outcome.rs").read_text()
+    names = re.findall(r'"(\w+)"', re.sub("//.*", "", source))
     assert set(OutcomeKind) - OF_PYTHON == set(map(OutcomeKind, names))
 
 

@@ -135,7 +135,7 @@ def test_validate_tells_prescribed_motions_and_draws(command, tmp_path):
 
 
 @pytest.mark.parametrize(("line", "value"), [(30, 10), (-50, 20), (0, 40), (150, -70)])
-def test_an_angle_is_told_as_it_is_measured(command, tmp_path, line, value):
+def test_an_angle_is_said_as_it_is_measured(command, tmp_path, line, value):
     """The angle on a slot counts from its line: the body stands at the angles of both together."""
     path = tmp_path / "slot.yaml"
     path.write_text(f"""
@@ -150,8 +150,8 @@ run: {{until: 1 ns}}
     started = json.loads(command("run", str(path), "--no-report", "--json").stdout)["report"]["a"]["value"]
     assert np.degrees(started) == pytest.approx(line + value)
     coordinates = json.loads(command("validate", str(path), "--json").stdout)["coordinates"]
-    told = next(each["doc"] for each in coordinates if each["name"] == "phi")
-    assert (f"from the direction at {line}° to" in told) if line else ("from `ground`" in told)
+    doc = next(each["doc"] for each in coordinates if each["name"] == "phi")
+    assert (f"from the direction at {line}° to" in doc) if line else ("from `ground`" in doc)
 
 
 def test_equal_runs_are_told_in_a_line(command, tmp_path):
@@ -161,7 +161,7 @@ def test_equal_runs_are_told_in_a_line(command, tmp_path):
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "examples" / "wrong").glob("*.yaml")), ids=lambda path: path.stem)
-def test_a_wrong_model_is_told_with_a_hint(command, path):
+def test_a_wrong_model_is_said_with_a_hint(command, path):
     done = command("run", str(path), "--no-report")
     print(done.output)  # pytest -s shows what a newcomer reads
     assert done.exit_code == 2 and "Traceback" not in done.output
@@ -189,7 +189,7 @@ def test_a_missing_file_is_said_in_a_line(command):
 
 
 @pytest.mark.parametrize(
-    "error, told",
+    "error, said",
     [
         (
             ModelError("joints.pivot.of[1]", "no point is called rod.Z", "did you mean rod.A?"),
@@ -200,9 +200,9 @@ def test_a_missing_file_is_said_in_a_line(command):
         (ValueError("until must be positive"), "until must be positive"),
     ],
 )
-def test_what_a_user_can_mend_is_told(error, told):
+def test_what_a_user_can_mend_is_reported(error, said):
     (problem,) = problems(error)
-    assert f"{problem.where.path}: {problem.what}".removeprefix(": ").startswith(told)
+    assert f"{problem.where.path}: {problem.what}".removeprefix(": ").startswith(said)
 
 
 @pytest.mark.parametrize("error", [KeyError("x"), IndexError(), TypeError("x"), RecursionError(), AssertionError()])

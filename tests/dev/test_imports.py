@@ -13,15 +13,16 @@ MAY_USE = {
     "core": set(),
     "symbolic": set(),
     "document": {"symbolic", "formats"},
+    "model": CORE,
     "solve": CORE,
     "impact": CORE | {"model", "solve"},
     "run": CORE | {"model", "solve", "impact"},
     "views": SOLVED | {"document"},
     "codegen": CORE | {"model", "solve", "document"},
-    "equations": SOLVED | {"document", "views", "codegen"},
+    "equations": SOLVED | {"document", "codegen"},
     "check": SOLVED | {"equations"},
-    "catalogue": SOLVED | {"document", "equations", "check"},
-    "cli": SOLVED | {"document", "codegen", "equations", "check", "views", "catalogue"},
+    "catalogue": SOLVED | {"document", "equations", "check", "mechanism"},
+    "cli": SOLVED | {"document", "codegen", "equations", "check", "views", "catalogue", "mechanism"},
 }
 """What a folder may use; of those not named here, only that there are no circles of modules."""
 

@@ -12,7 +12,7 @@ from store import SYSTEMS, every, mechanism, start
 from freebody.core import CompiledModel
 from freebody.core.cards import joints
 from freebody.equations.topics import topic
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.views.diagram.configuration import Configuration
 from freebody.views.diagram.names import symbol
 from freebody.views.dimension_lines import dimension_lines

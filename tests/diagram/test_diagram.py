@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from freebody.cli import app
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.views.diagram.gallery import write_gallery
 from freebody.views.diagram.names import symbol
 from freebody.views.diagram.paper import round_below
@@ -100,7 +100,7 @@ def test_a_place_may_be_given(gun):
     assert normal.head - normal.tail == pytest.approx([-np.hypot(*(normal.head - normal.tail)), 0], abs=1e-9)
 
 
-def test_svg_is_told_to_those_who_cannot_see_it_and_its_text_is_text(gun):
+def test_svg_is_said_to_those_who_cannot_see_it_and_its_text_is_text(gun):
     root = ElementTree.fromstring(gun.diagram()._repr_svg_())
     assert root.get("role") == "img"
     assert root[0].tag == f"{SVG}title" and gun.source().name in root[0].text

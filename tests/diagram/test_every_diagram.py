@@ -69,7 +69,7 @@ def acts(on):
     return any(on["force"]) or on["couple"] != 0
 
 
-def still(model):
+def immobile(model):
     """Known loads that are 0 at the instant: they have a direction only a little further on."""
     return {load["symbol"] for load in stated(model) if not any(acts(on) for on in load["on"])}
 
@@ -79,19 +79,19 @@ def test_every_load_on_a_body_is_drawn_once(model):
     for cut in drawn(model).cuts:
         [body] = cut.group
         due = Counter(load["symbol"] for load in stated(model) for on in load["on"] if on["body"] == body and acts(on))
-        assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in still(model)}) == due
+        assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in immobile(model)}) == due
 
 
 @every_model
 def test_a_load_that_is_zero_is_drawn_as_well(model):
     seen = sum((drawn_loads(cut) for cut in drawn(model).cuts), Counter())
-    assert all(seen[symbol] for symbol in still(model))
+    assert all(seen[symbol] for symbol in immobile(model))
 
 
 def test_there_are_loads_that_are_zero():
-    assert still("S19.19/model") == {"spring", "motor.weight", "load.weight"}
-    assert still("19.3.23/model") == {"rod1.weight"}
-    assert len(still("GEN-STEP/model")) == 6
+    assert immobile("S19.19/model") == {"spring", "motor.weight", "load.weight"}
+    assert immobile("19.3.23/model") == {"rod1.weight"}
+    assert len(immobile("GEN-STEP/model")) == 6
 
 
 @pytest.mark.parametrize("model", ["S19.19/model", "19.3.23/model"])
@@ -155,7 +155,7 @@ def test_what_acts_within_a_group_is_not_drawn(model):
         load for load in stated(model) if "ground" in load["of"] or any(on["body"] == "ground" and acts(on) for on in load["on"])
     ]
     due = Counter(load["symbol"] for load in outer for on in load["on"] if on["body"] in cut.group and acts(on))
-    assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in still(model)}) == due
+    assert Counter({s: n for s, n in drawn_loads(cut).items() if s not in immobile(model)}) == due
 
 
 @every_model

@@ -58,7 +58,7 @@ def test_a_law_is_what_acts_along_its_arrow(model):
 
 @every(FORCED)
 @pytest.mark.parametrize("column", [COLUMN, 241.0])
-def test_what_is_more_than_a_symbol_is_told_and_can_be_printed(model, column):
+def test_what_is_more_than_a_symbol_is_said_and_can_be_printed(model, column):
     source, state, free = moved(model)
     parser = MathTextParser("path")
     for cut in diagram(source, state, free, column=column).cuts:
@@ -72,7 +72,7 @@ def test_what_is_more_than_a_symbol_is_told_and_can_be_printed(model, column):
             assert 0 < width <= 1.7 * (column - 2 * MARGIN)  # at 12 pt of the default font, where notes have 8
 
 
-def test_a_spring_aslant_is_told_by_its_length():
+def test_a_spring_aslant_is_said_by_its_length():
     m = fb.Mechanism("particle and rod", gravity=0)
     particle, rod = m.particle("a", mass=1), m.rod("b", mass=1, length=2)
     m.free(m.ground.O, particle.centre, coordinates=["x", "y"])
@@ -85,7 +85,7 @@ def test_a_spring_aslant_is_told_by_its_length():
     assert second == rf"$F_{{\text{{damper}}}} = \frac{{d}}{{dt}}{length}$".replace(r"} a}", r"}\,a}")
 
 
-def test_nothing_is_told_below_a_diagram_to_scale():
+def test_nothing_is_said_below_a_diagram_to_scale():
     spring = mechanism("19.3.20/model")
     assert spring.diagram("block").cuts[0].laws == [r"where $F_{\text{spring}} = k\,y$"]
     assert not spring.diagram("block", to_scale=True).cuts[0].laws

@@ -13,6 +13,7 @@ from material import LETTERS, cos, half, product, sin, square, sym
 
 from freebody.document.blocks import Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Table, Vector, Written
 from freebody.document.document import Document
+from freebody.document.drawings import drawn
 from freebody.document.rendering import FORMATS
 from freebody.equations import latex, read
 from freebody.symbolic.alphabet import columns
@@ -25,6 +26,8 @@ LONG = add(*(mul(sym(f"k{n}"), A2, sin(TH1)) for n in range(14)))
 
 
 class Shown:
+    """A drawing that is its own picture."""
+
     description = "A box & nothing in it"
 
     def inline(self):
@@ -35,6 +38,7 @@ class Shown:
         return path
 
 
+drawn.register(Shown, lambda drawing: drawing)
 BOX = b"""%PDF-1.4
 1 0 obj <</Type /Catalog /Pages 2 0 R>> endobj
 2 0 obj <</Type /Pages /Kids [3 0 R] /Count 1>> endobj

@@ -114,7 +114,7 @@ def test_what_is_printed_is_read_back_as_true(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_no_two_symbols_of_a_derivation_read_alike(seed: int) -> None:
-    """In text, in plain text and in LaTeX; and every name that is not the usual one is told where the symbols are."""
+    """In text, in plain text and in LaTeX; and every name that is not the usual one is listed where the symbols are."""
     mechanism = model(seed)
     for form in FORMS:
         made = mechanism.equations(form)

@@ -140,7 +140,7 @@ def test_where_symbols_fill_pages_the_equations_stand_in_numbers():
     assert "in numbers (SI) at this impact" in topic(model, "impact", state, point="trunk.S").text()
 
 
-def test_what_stays_finite_is_told_and_has_no_part():
+def test_what_stays_finite_is_said_and_has_no_part():
     said = topic(fb.load(SYSTEMS / "19.3.20" / "equilibrium.yaml"), "impact", point="bob.G").text()
     assert "finite" in said and "spring" in said
 

@@ -15,8 +15,8 @@ CLOSE = 1e-9
 are closed within 1e-10 of the mechanism's length."""
 
 
-def size(blow):
-    stated = [load.value for load in blow.impulses.loads if load.determinate]
+def size(impact):
+    stated = [load.value for load in impact.impulses.loads if load.determinate]
     return max(map(abs, stated))
 
 
@@ -68,7 +68,7 @@ def test_what_is_finite_has_no_impulse(name):
         assert all(f"weight of {body}" in said for body in weights)
 
 
-def test_all_models_of_the_catalogue_with_a_blow_are_visited():
+def test_all_models_of_the_catalogue_with_an_impact_are_visited():
     found = set()
     for system in catalogue.systems():
         for path in system.models:
@@ -80,7 +80,7 @@ def test_all_models_of_the_catalogue_with_a_blow_are_visited():
     assert found == CATALOGUE
 
 
-def test_friction_on_two_feet_is_not_told():
+def test_friction_on_two_feet_is_not_reported():
     """A plate that lands flat and slides on neither: their friction together is known, not that of each."""
     [impact] = first_impacts("plate")
     unknown = {load.symbol for load in impact.impulses.loads if not load.determinate}
@@ -102,7 +102,7 @@ def test_what_lets_go_and_what_rubs_is_said():
     assert any("oil" in sentence for sentence in first_impacts("door")[0].absent("bob"))
 
 
-def test_blows_are_chosen_by_number_name_and_time():
+def test_impacts_are_chosen_by_number_name_and_time():
     wheel = mechanism("19.3.30/model")
     second, fourth = wheel.blow(2), wheel.blow(1, of="foot[4]")
     assert second.change.of == ("foot[3]",) and fourth.change.of == ("foot[4]",)

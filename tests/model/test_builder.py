@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from freebody.core import cards
+from freebody.mechanism import Mechanism
 from freebody.model.errors import ModelFileError
-from freebody.model.mechanism import Mechanism
 
 
 class Core:

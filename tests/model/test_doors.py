@@ -9,9 +9,9 @@ from itertools import product
 import pytest
 
 from freebody.core import cards
+from freebody.mechanism import Mechanism
 from freebody.model import expand, names, units
 from freebody.model.errors import ModelFileError, ModelProblem
-from freebody.model.mechanism import Mechanism
 
 PENDULUM = """freebody: 1
 parameters: {al: 10 deg, m1: 1 kg}

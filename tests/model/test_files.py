@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from freebody.mechanism import Mechanism
 from freebody.model import file, schema
 from freebody.model.errors import ModelFileError
-from freebody.model.mechanism import Mechanism
 from freebody.model.reading import reads
 
 COMMENTED = """\

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from freebody.core import CompiledModel, ModelError, ReportItem
+from freebody.mechanism import Mechanism
 from freebody.model import lower, reading, syntax
 from freebody.model.errors import ModelFileError
-from freebody.model.mechanism import Mechanism
 
 
 def lowered(text: str, file: str | None = None) -> lower.Lowered:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from freebody.mechanism import Mechanism
 from freebody.model.errors import ModelFileError
-from freebody.model.mechanism import Mechanism
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted([*(ROOT / "examples").glob("*.yaml"), *(ROOT / "python/freebody/systems").glob("*/*.yaml")])

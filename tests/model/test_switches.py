@@ -1,4 +1,4 @@
-"""What switches: contacts, strings, stops, guides with ends and what events do, as the core is told of them."""
+"""What switches: contacts, strings, stops, guides with ends and what events do, as the core receives them."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import pytest
 from switching import MODEL, lowered
 
 from freebody.core import cards
+from freebody.mechanism import Mechanism
 from freebody.model import elements, lower, reading
 from freebody.model.errors import ModelFileError
-from freebody.model.mechanism import Mechanism
 
 
 def named(items: list[dict[str, Any]], name: str) -> dict[str, Any]:
@@ -294,7 +294,7 @@ def test_file_and_builder_say_the_same(tmp_path):
     assert said().lowered().spec == lowered(text=SAID).spec
 
 
-def test_a_wrong_word_is_told_at_the_call():
+def test_a_wrong_word_is_said_at_the_call():
     m = said()
     with pytest.raises(ModelFileError, match="did you mean `restitution`") as caught:
         m.contact("other", "ball", "ground.floor", restitutoin=1)

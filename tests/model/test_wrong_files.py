@@ -168,12 +168,12 @@ def test_a_wrong_file(case, tmp_path):
         assert word in f"{first.what}\n{first.hint}", shown
 
 
-def test_all_that_is_wrong_is_told_at_once(tmp_path):
+def test_all_that_is_wrong_is_said_at_once(tmp_path):
     text = GOOD.replace("rod.A], coo", "rod.C], coo").replace("value: T", "value: 3 kg").replace("30 deg", "30 mm")
     assert [p.where.line for p in problems(text, tmp_path)] == [7, 9, 10]
 
 
-def test_what_only_follows_from_another_problem_is_not_told(tmp_path):
+def test_what_only_follows_from_another_problem_is_not_reported(tmp_path):
     found = problems(GOOD.replace("l: 1 m,", "l: 1 metr, k: 2*l,"), tmp_path)
     assert [p.where.path for p in found] == ["parameters.l"]
 

@@ -1,4 +1,4 @@
-"""What is wrong with contacts, strings, stops and events is told with its place and with what to try."""
+"""What is wrong with contacts, strings, stops and events is reported with its place and with what to try."""
 
 from __future__ import annotations
 

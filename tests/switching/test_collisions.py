@@ -39,7 +39,7 @@ DISKS = """
 gravity: none
 parameters: {b: 0.12 m, e: 0.7, m2: 3 kg}
 bodies: {one: {shape: disk, radius: 0.1 m, mass: 1 kg}, two: {shape: disk, radius: 0.15 m, mass: m2}}
-contacts: {blow: {of: [one, two], restitution: e}}
+contacts: {bump: {of: [one, two], restitution: e}}
 initial: {one.x: -1 m, one.y: b, two.x: 0, two.y: 0, rates: {one.x: 2, one.angle: 3}}
 """
 
@@ -71,12 +71,12 @@ initial: {points: {stick.start: [0, 0]}, stick.angle: a, rates: {stick.x: vx, st
 
 
 @pytest.mark.parametrize("law", ["stop", "newton", "poisson", "sequential"])
-def test_what_holds_of_any_blow(law):
+def test_what_holds_of_any_impact(law):
     """The impulse is a push within the cone of friction and explains the change of momentum and spin; no energy is made.
 
     Newton's restitution with friction could make some, where the slip ends or turns during the impact (Kane 1984).
     """
-    rng, struck = np.random.default_rng(7), 0
+    rng, collided = np.random.default_rng(7), 0
     for _ in range(60):
         a, mu, e = rng.uniform(0.05, math.pi - 0.05), rng.uniform(0, 4), rng.uniform(0, 1)
         vx, vy, w = rng.uniform(-3, 3), rng.uniform(-2, 0.5), rng.uniform(-6, 6)
@@ -86,7 +86,7 @@ def test_what_holds_of_any_blow(law):
         run = model(STICK, a=a, mu=mu, e=e, vx=vx, vy=vy, w=w).simulate(until=1e-3, impacts=law)
         assert run.outcome.ok, run.outcome.sentence
         impact = changes(run, "impact")[0]
-        struck += 1
+        collided += 1
         px, py = dict(impact.impulses["limits"])["tip"]
         u0, u1 = np.array(impact.before["u"]), np.array(impact.after["u"])
         inertia = 1.5 / 12
@@ -103,7 +103,7 @@ def test_what_holds_of_any_blow(law):
             assert slip == pytest.approx(0, abs=1e-11)
         elif abs(slip) > 1e-9:
             assert px * slip < 1e-12
-    assert struck > 30
+    assert collided > 30
 
 
 HILL = """
@@ -158,15 +158,15 @@ def test_a_pendulum_knocks_on_a_wall():
     from mpmath import ellipk
 
     run = motion(DOOR, 6, {"rtol": 1e-11})
-    blows = changes(run, "impact")
+    impacts = changes(run, "impact")
     m, omega = math.sin(0.5) ** 2, math.sqrt(G)  # length 1 m of the simple pendulum
     known, t = [], float(ellipk(m)) / omega
     while t < 6:
         known.append(t)
         m *= 0.36
         t += 2 * float(ellipk(m)) / omega
-    assert len(blows) >= 5
-    assert [b.t for b in blows] == pytest.approx(known, abs=1e-9)
-    assert [b.after["u"][0] / b.before["u"][0] for b in blows] == pytest.approx([-0.6] * len(blows), abs=1e-12)
-    energy = [0.5 * 0.75 * b.before["u"][0] ** 2 * 0.64 for b in blows]
-    assert [b.lost for b in blows] == pytest.approx(energy, rel=1e-9)
+    assert len(impacts) >= 5
+    assert [b.t for b in impacts] == pytest.approx(known, abs=1e-9)
+    assert [b.after["u"][0] / b.before["u"][0] for b in impacts] == pytest.approx([-0.6] * len(impacts), abs=1e-12)
+    energy = [0.5 * 0.75 * b.before["u"][0] ** 2 * 0.64 for b in impacts]
+    assert [b.lost for b in impacts] == pytest.approx(energy, rel=1e-9)

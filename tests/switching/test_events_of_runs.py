@@ -45,7 +45,7 @@ report: {fall: bob.y @ snip, pull: tension(cord) @ before snip}
 """
 
 
-def test_events_of_the_start_are_told():
+def test_events_of_the_start_are_reported():
     run = model(HANGING).simulate(until=1.0)
     assert [(event.name, event.t, event.kind) for event in run.events][:1] == [("snip", 0.0, "start")]
     assert run.report["fall"].value == -1 and run.report["pull"].value == pytest.approx(2 * 9.81)

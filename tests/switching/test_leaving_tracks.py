@@ -48,7 +48,7 @@ events: {end: {when: s - 3, direction: rising, then: {release: runner}}}
 """
 
 
-def test_a_body_flies_on_without_a_blow():
+def test_a_body_flies_on_without_an_impact():
     """Energy, momentum and spin go on over the release; then the mass centre falls freely and the spin stays."""
     run = motion(SLED, 1.5, {"rtol": 1e-11})
     (end,) = run.events

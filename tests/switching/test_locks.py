@@ -1,4 +1,4 @@
-"""What a lock holds is told like what a joint holds: in tables, in the largest reactions, in impulses, in free bodies."""
+"""What a lock holds is shown like what a joint holds: in tables, in the largest reactions, in impulses, in free bodies."""
 
 from pathlib import Path
 

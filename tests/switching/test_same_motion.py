@@ -1,4 +1,4 @@
-"""One switching motion told in other worlds: turned, shifted, mirrored, under other names and in another order."""
+"""One switching motion seen in other worlds: turned, shifted, mirrored, under other names and in another order."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ G = 9.81
 
 @dataclass(frozen=True)
 class World:
-    """Where x is told to be: mirrored in the y axis, then turned by ``turn`` (rad) and shifted (m); names from a list."""
+    """Where x is: mirrored in the y axis, then turned by ``turn`` (rad) and shifted (m); names from a list."""
 
     turn: float = 0.0
     shift: complex = 0j

@@ -72,6 +72,6 @@ events: {zero: {when: (t - a)*(t - b)*(t - c)}}
         b, c = a + gap, rng.choice([-1, 1]) * (1.2 + rng.random())  # c is clear of the step, and so of the other two
         m.parameters.update(a=a, b=b, c=c)
         run = m.simulate(until=1, step=1, method="rk4")
-        # Between roots so near the extremum is zero to 1e-12 of the function's size: that may be told as a touch.
+        # Between roots so near the extremum is zero to 1e-12 of the function's size: that may be recorded as a touch.
         crossings = [event.t for event in run.events if event.kind == "crossing"]
         assert crossings == pytest.approx([a, b], abs=1e-9), (a, gap, c)

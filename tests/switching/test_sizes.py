@@ -1,4 +1,4 @@
-"""Of a mechanism made larger, heavier or slower the motion is the same: lengths, masses and times are told by its own.
+"""Of a mechanism made larger, heavier or slower the motion is the same: lengths, masses and times are judged by its own.
 
 Each number below is one of lengths L, masses M and times T. Where these are powers of two no digit of the motion may change, so
 nothing in it can be measured by a metre, a kilogram or a second.

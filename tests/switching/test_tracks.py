@@ -147,7 +147,7 @@ initial: {x: 0, bead.x: -1, bead.y: 1.2, at_rest: true}
 
 
 def test_what_slides_off_the_end_of_a_road_lifts_off_there():
-    """The end of a level stretch: a bead flies on at its height and speed, and is told to have lifted off."""
+    """The end of a level stretch: a bead flies on at its height and speed, and is said to have lifted off."""
     for shape in ("particle", "disk"):
         r = BODIES[shape][0]
         text = (

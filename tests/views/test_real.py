@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.run.simulation import Run
 from freebody.views import plots, shapes
 from freebody.views.labels import Label, Obstacles, placed

@@ -6,7 +6,7 @@ import matplotlib
 import numpy as np
 import pytest
 
-from freebody.model import Mechanism
+from freebody.mechanism import Mechanism
 from freebody.run.simulation import Run
 from freebody.views import plots
 from freebody.views.animate import animate

@@ -25,7 +25,7 @@ pub struct Branch {
 
 /// Grows a tree from node 0, most wanted edges first, breadth first among equals (Prim's algorithm).
 ///
-/// Nodes that no edge reaches are attached by `adopt`, which is told the node and returns the index of a
+/// Nodes that no edge reaches are attached by `adopt`, which gets the node and returns the index of a
 /// new edge from node 0; `orphans`, all nodes but 0, says which is asked first. Branches come parents first.
 pub fn spanning_tree(orphans: &[usize], edges: &[Edge], mut adopt: impl FnMut(usize) -> usize) -> Vec<Branch> {
     let nodes = orphans.len() + 1;

@@ -97,13 +97,13 @@ impl Assembled {
     /// `branch`: the assembly taken and the others, where there are several; `adjusted`: what is not as guessed.
     pub fn notes(&self, m: &Mechanism, asked: &Initial) -> Value {
         let name = |i: usize| &m.coordinate(i).name;
-        let told = |q: &[f64]| {
+        let values = |q: &[f64]| {
             let each = q.iter().enumerate().map(|(i, x)| format!("{} = {x:.6}", name(i)));
             each.collect::<Vec<_>>().join(", ")
         };
-        let mut branch: Vec<String> = self.others.iter().map(|o| format!("another assembly: {}", told(o))).collect();
+        let mut branch: Vec<String> = self.others.iter().map(|o| format!("other assembly: {}", values(o))).collect();
         if !branch.is_empty() {
-            branch.insert(0, format!("taken: {}", told(&self.q)));
+            branch.insert(0, format!("assembled: {}", values(&self.q)));
         }
         let coordinates = self.q.iter().enumerate().map(|(i, x)| (name(i), x));
         let adjusted = coordinates.chain(self.near.iter().map(|(name, x)| (name, x))).filter_map(|(name, x)| {

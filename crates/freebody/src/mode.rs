@@ -20,7 +20,7 @@ pub struct Mode {
     pub resting: bool,
 }
 
-/// How a unilateral constraint is held, and on which feature its gap is told.
+/// How a unilateral constraint is held, and on which feature its gap is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactState {
     /// How.
@@ -29,7 +29,7 @@ pub struct ContactState {
     pub feature: Feature,
 }
 
-/// The feature on which a gap is told, and what was found when its motion started.
+/// The feature on which a gap is measured, and what was found when its motion started.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Feature {
     /// Which one: an edge, a corner, a way of being wound. What the number means is the gap's own.

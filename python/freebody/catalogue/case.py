@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from freebody.catalogue.answers import Answer, formula
 
 if TYPE_CHECKING:
-    from freebody.model import Mechanism
+    from freebody.mechanism import Mechanism
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant
 
@@ -27,7 +27,7 @@ class Case:
 
     def mechanism(self, file: str = "model.yaml", **parameters: Any) -> Mechanism:
         """A model of the system, some parameters overruled."""
-        from freebody.model import Mechanism
+        from freebody.mechanism import Mechanism
 
         name = _name(file, parameters)
         if name not in self._mechanisms:

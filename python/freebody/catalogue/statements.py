@@ -9,6 +9,7 @@ from pathlib import Path
 
 from freebody.catalogue.system import System
 from freebody.check.file import Judged, judge
+from freebody.mechanism import Mechanism
 
 
 def statements(systems: Iterable[System]) -> Iterator[tuple[System, list[Judged]]]:
@@ -29,4 +30,4 @@ def statements(systems: Iterable[System]) -> Iterator[tuple[System, list[Judged]
 
 
 def _judged(path: Path) -> list[Judged]:
-    return list(judge(path))
+    return list(judge(path, Mechanism.load))

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 from ruamel.yaml import YAML, YAMLError
 
-from freebody.model import Mechanism
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
 from .api import Checker
 from .verdict import Kind, Verdict
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
 
 _SAID = str | list[str | float]
 
@@ -99,8 +101,8 @@ def read(path: Path) -> Statements:
         raise ModelProblem(f"{path}: {place}: {first['msg']}", "see docs/check.md for what a file of statements holds") from None
 
 
-def judge(path: Path) -> Iterator[Judged]:
-    """The verdicts about all statements of a file, one by one. Raises ``ModelProblem`` where the file or a model cannot be read."""
+def judge(path: Path, load: Callable[[Path], Builder]) -> Iterator[Judged]:
+    """The verdicts about all statements of a file, one by one; ``load`` reads their models. Raises ``ModelProblem`` where the file or a model cannot be read."""
     given = read(path)
     checkers: dict[tuple[str, str], Checker] = {}
     for statement in given.statements:
@@ -111,18 +113,23 @@ def judge(path: Path) -> Iterator[Judged]:
                 f"{path}: `{statement.id}`: the lists of `set` have different lengths", "give each as many numbers"
             )
         settings = [{name: each[i % len(each)] for name, each in said.items()} for i in range(*counts)]
-        found = [_one(path, given, statement, values, checkers) for values in settings]
+        found = [_one(load, path, given, statement, values, checkers) for values in settings]
         verdict = next((v for v in found if not v.ok), found[0])
         expected = None if statement.verdict is None else verdict.kind is WORDS.get(statement.verdict)
         yield Judged(statement, verdict, expected)
 
 
 def _one(
-    path: Path, given: Statements, statement: Statement, values: Mapping[str, Any], checkers: dict[tuple[str, str], Checker]
+    load: Callable[[Path], Builder],
+    path: Path,
+    given: Statements,
+    statement: Statement,
+    values: Mapping[str, Any],
+    checkers: dict[tuple[str, str], Checker],
 ) -> Verdict:
     key = (statement.model or given.model, json.dumps(values, sort_keys=True))
     if key not in checkers:
-        mechanism = Mechanism.load(path.parent / key[0])
+        mechanism = load(path.parent / key[0])
         mechanism.parameters.update(values)
         checkers[key] = Checker(mechanism, given.letters)
     verdict = judged_alone(checkers[key], statement.says, statement.letters)

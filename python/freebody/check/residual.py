@@ -35,7 +35,7 @@ HOLDS = 1e-10
 FAILS = 1e-6
 """Above it an equation is wrong; between the two a bad condition is to be suspected."""
 REACH = 1e-3
-"""A term below it, relative to all, cannot be told right or wrong."""
+"""A term below it, relative to all, cannot be judged right or wrong."""
 OFTEN = 8
 """Samples in which a term must reach that far."""
 _FLOOR = 1e-6  # of a component of a vector against its largest: below it is round-off of directions

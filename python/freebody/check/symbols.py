@@ -103,7 +103,7 @@ class Symbols:
         return [name for name, m in self.meanings.items() if m.kind in kinds]
 
     @property
-    def still(self) -> list[str]:
+    def constants(self) -> list[str]:
         """Symbols that do not change with time."""
         return self.of_kind("parameter", "gravity", "direction")
 
@@ -122,7 +122,7 @@ class Symbols:
                 has = [name.removeprefix(f"{owner}.") for name in self.meanings if name.startswith(f"{owner}.")]
                 hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
                 raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
-        program = parse(text, self.names, self.still)
+        program = parse(text, self.names, self.constants)
         taken = {folded(name) for name in (*self.meanings, *(line.name.name for line in program.assignments))}
         for part in ("plain", "momenta"):  # what printed equations call things comes after the symbols of the model
             if not self._unknown(program):
@@ -131,15 +131,15 @@ class Symbols:
                 if folded(name) not in taken:
                     with suppress(ModelProblem):
                         self._declare(name, said)
-            program = parse(text, self.names, self.still)
+            program = parse(text, self.names, self.constants)
         names = self.names
         if clashing := self._clashing(program):
             names = tuple(name for name in names if name not in clashing)
-            program = parse(text, names, self.still)
+            program = parse(text, names, self.constants)
         if not units or not misfit(program, self.dimensions, strictly=True):
             return program
         try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
-            other = parse(text, names, self.still, units=True)
+            other = parse(text, names, self.constants, units=True)
             check_dimensions(other, self.dimensions)
         except StatementError:
             return program
@@ -156,7 +156,7 @@ class Symbols:
         for line in program.equations if len(program.lines) > 1 else ():
             meaning = self.meanings.get(line.left.name) if isinstance(line.left, Sym) and not line.left.dots else None
             if meaning is not None and line.left.name not in self.declared:
-                moves = any(isinstance(n, Sym) and n.name not in self.still for n in walk(line.right))
+                moves = any(isinstance(n, Sym) and n.name not in self.constants for n in walk(line.right))
                 other = meaning.kind == "direction" or (meaning.kind in ("parameter", "gravity") and moves)
                 other |= isinstance(line.right, Column | Matrix) and not meaning.is_vector
                 if other or misfit(Program((line,)), self.dimensions, strictly=True):
@@ -270,7 +270,7 @@ class Symbols:
             return self._measure(said)
         except ModelProblem as problem:
             try:
-                return self._measure(written(parse_expression(said, self.names, self.still)))
+                return self._measure(written(parse_expression(said, self.names, self.constants)))
             except (StatementError, ModelProblem):
                 raise problem from None
 

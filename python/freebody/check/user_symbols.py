@@ -165,10 +165,10 @@ class Reader:
     def moment(self, what: str, bodies: str, point: str, number: str | None) -> Meaning:
         """Angular momentum of bodies about a point, or the moment on them; as a ``number``, or along k."""
         group, axis = self.group(bodies), 2 if number else None
-        still, moving = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
+        first, second = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
         if what == "moment":
-            return OfBodies("declared", moving, ENERGY, group, axis=axis)
-        return OfBodies("declared", still, ENERGY.times(TIME), group, (moving,), axis)
+            return OfBodies("declared", second, ENERGY, group, axis=axis)
+        return OfBodies("declared", first, ENERGY.times(TIME), group, (second,), axis)
 
     def orbits(self, group: Sequence[str], point: str, symbol: str, spin: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""

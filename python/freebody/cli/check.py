@@ -35,6 +35,7 @@ def check(
     from freebody.check import Checker
     from freebody.check import file as stated
     from freebody.check.symbols import declarations
+    from freebody.mechanism import Mechanism
 
     found, fine, asked = [], True, moment(at, before, after)
     if asked and not statements:
@@ -48,7 +49,7 @@ def check(
             if not as_json:
                 show(text, verdict)
     else:
-        for judged in stated.judge(model):
+        for judged in stated.judge(model, Mechanism.load):
             found.append(judged.to_json())
             fine &= judged.verdict.ok if judged.as_expected is None else judged.as_expected
             if not as_json:

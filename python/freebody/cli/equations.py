@@ -16,7 +16,7 @@ from freebody.document.rendering import FORMATS, text
 
 if TYPE_CHECKING:
     from freebody.document.document import Document
-    from freebody.model import Mechanism
+    from freebody.mechanism import Mechanism
 
 _ENDINGS = ", ".join(f".{ending}" for ending in FORMATS)
 SOLVED = "solved"

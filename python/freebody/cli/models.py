@@ -15,7 +15,7 @@ _AT_START = "look for laws without a value at the start, like 1/x at x = 0"
 
 def opened(path: Path, changes: list[str] | None = None) -> Any:
     """The mechanism of a model file, with some parameters changed."""
-    from freebody.model import Mechanism
+    from freebody.mechanism import Mechanism
 
     mechanism = Mechanism.load(path)
     mechanism.parameters.update(pairs(changes))

@@ -94,7 +94,7 @@ class Body:
     """A body and its motion: mass in kg, inertia about the mass centre in kg·m²; frame origin ``at`` and ``angle``; mass
     centre ``G``, its velocity ``v`` and acceleration ``a`` in fixed axes, ``omega`` and ``alpha``; all SI.
 
-    (a, α) = Σ ``by_accelerations[c]`` c̈ + ``drift`` over the coordinates c of the state.
+    (a, α) = Σ ``by_accelerations[c]`` c̈ + ``bias_acceleration`` over the coordinates c of the state.
     """
 
     name: str
@@ -109,7 +109,7 @@ class Body:
     a: Pair
     alpha: float
     by_accelerations: Mapping[str, tuple[float, float, float]]
-    drift: tuple[float, float, float]
+    bias_acceleration: tuple[float, float, float]
 
     def effective(self, about: Pair = (0.0, 0.0), motion: Collection[float] | None = None) -> Array:
         """The effective side of its balance, m a and its moment about a fixed place plus I α, (3,); for its own motion, or
@@ -226,8 +226,8 @@ def _body(item: Mapping[str, Any]) -> Body:
     pairs = {name: _pair(item[name]) for name in ("at", "G", "v", "a")}
     plain = {name: float(item[name]) for name in ("mass", "inertia", "angle", "omega", "alpha")}
     by = {name: tuple(row) for name, row in item.get("by_accelerations", {}).items()}
-    drift = tuple(item.get("drift", (*pairs["a"], plain["alpha"])))
-    return Body(name=item["name"], particle=item["particle"], by_accelerations=by, drift=drift, **pairs, **plain)
+    bias = tuple(item.get("bias_acceleration", (*pairs["a"], plain["alpha"])))
+    return Body(name=item["name"], particle=item["particle"], by_accelerations=by, bias_acceleration=bias, **pairs, **plain)
 
 
 def _load(item: Mapping[str, Any]) -> Load:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, Protocol, TypeAlias
+from functools import cached_property
+from typing import Any, TypeAlias
 
+from freebody.document.drawings import Picture, drawn
 from freebody.symbolic.formula import Formula
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
@@ -109,28 +110,19 @@ class Bullets:
     data: Sequence[Mapping[str, float]] = ()
 
 
-class Picture(Protocol):
-    """Something drawn when it is asked for."""
-
-    @property
-    def description(self) -> str:
-        """What is seen, in words."""
-
-    def inline(self) -> str:
-        """SVG for a page with others: its identifiers are its own."""
-
-    def save(self, path: Path) -> Path:
-        """Writes a file, .svg or .pdf."""
-
-
 @dataclass(frozen=True)
 class Figure:
     """A picture. It is inside of HTML; for Markdown and LaTeX it is a file, where there is none its words stand for it. Text and
     JSON have no pictures: the blocks about it tell the same."""
 
-    picture: Picture
+    drawing: Any
     caption: Words = ""
     name: str = "figure"
+
+    @cached_property
+    def picture(self) -> Picture:
+        """The drawing, drawn."""
+        return drawn(self.drawing)
 
 
 Block: TypeAlias = Heading | Paragraph | Equation | MatrixEquation | Table | Bullets | Figure

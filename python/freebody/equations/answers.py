@@ -13,12 +13,12 @@ from freebody.core import MotionError, State
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Side, Words, equations, listed
 from freebody.document.document import Document
 from freebody.equations.balances.system import NotUnknown
-from freebody.equations.dependent_coordinates import held_still
+from freebody.equations.dependent_coordinates import immobile_coordinates
 from freebody.equations.derivation.preamble import unloaded
 from freebody.equations.derivation.sentences import joined, lettered
 from freebody.equations.linearization import is_natural, place_of
 from freebody.equations.solve import TooLarge, Unconfirmed, limit, solve
-from freebody.equations.substitutions import Substitutions, given
+from freebody.equations.substitutions import Substitutions, substitutions_of
 from freebody.equations.sufficient_equations import Search, SufficientSet
 from freebody.equations.velocity_ratios import blocks as of_ratios
 from freebody.equations.velocity_ratios import driven, ratios
@@ -50,7 +50,7 @@ _SAME = 1e-9
 """Difference of an answer from the numbers, relative to the largest acceleration or load of its kind, beyond which it is refused."""
 _INERTIAS = ("kg", "kg*m^2")
 _BRIEF = 1.0
-"""Seconds for the shortest form of what is told beside an answer."""
+"""Seconds for the shortest form of what is said beside an answer."""
 _OTHERS = 3
 _SEED = 5
 
@@ -94,7 +94,7 @@ def solve_in_letters(
     parameters as other parameters, ``{"m2": "m1"}``. ``limits``: symbols and what they go to, ``{"m2": "inf", "m1": 0}``.
     What switches (contacts, arms of laws) is as it is at that start. Every answer is held against numbers at the start and at
     states near by. Raises ``TooLarge``, ``Unconfirmed``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
-    chosen = given(mechanism, set or {}, limits or {})
+    chosen = substitutions_of(mechanism, set or {}, limits or {})
     state = chosen.start(mechanism, at_rest, initial, **moment)
     if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
         raise ValueError(
@@ -129,7 +129,7 @@ def _require_limits(subject: SymbolicState, chosen: Substitutions, limits: Mappi
 
 def _ways(subject: SymbolicState, chosen: Substitutions, limits: Collection[str]) -> Iterator[tuple[Substitutions, bool]]:
     """What is set; where that is too long, in loops with ratios of rates that are named, or at the places of the start that are so
-    whatever the lengths are, first where strings and contacts are told that way; with all lengths and angles as numbers; with
+    whatever the lengths are, first where strings and contacts are written that way; with all lengths and angles as numbers; with
     masses as well."""
     yield chosen, False
     settled = {*chosen.trees, *chosen.defined, *limits}
@@ -156,10 +156,10 @@ def _answers(
     nomenclature, wanted = subject.nomenclature, {name: _symbol(subject, name) for name in names}
     generic, rng = chosen.generic(subject), np.random.default_rng(_SEED)
     states = nearby(subject.source, generic, [chosen.parameters_near(subject, generic, rng) for _ in range(_OTHERS)])
-    held = held_still(subject, chosen, states)
+    held = immobile_coordinates(subject, chosen, states)
     made = [*_title(subject, chosen), *_held(subject, held)]
-    chosen = replace(chosen, trees={**chosen.trees, **held.trees}, still=held.still, follow=held.follow)
-    found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_still(x)}
+    chosen = replace(chosen, trees={**chosen.trees, **held.trees}, immobile=held.immobile, follow=held.follow)
+    found: dict[Sym, Tree] = {x: ZERO for x in wanted.values() if held.is_immobile(x)}
     ratio = None
     if with_ratios:  # by what is driven, else by the first acceleration that is wanted, or by the first coordinate
         first = driven(subject) or next((x.name for x in wanted.values() if x.dots), subject.names[0])
@@ -202,11 +202,11 @@ def _title(subject: SymbolicState, chosen: Substitutions) -> list[Block]:
 
 def _held(subject: SymbolicState, held: Substitutions) -> list[Block]:
     """What cannot move, and where it is."""
-    still = [Sym(name) for name in subject.names if held.is_still(Sym(name, 1))]
-    if not still:
+    immobile = [Sym(name) for name in subject.names if held.is_immobile(Sym(name, 1))]
+    if not immobile:
         return []
-    said: list[str | Side] = ["Nothing can move: " if len(still) == len(subject.names) else "What cannot move: "]
-    said += [*listed(still), " stand still" if len(still) > 1 else " stands still"]
+    said: list[str | Side] = ["Nothing can move: " if len(immobile) == len(subject.names) else "What cannot move: "]
+    said += [*listed(immobile), " stand still" if len(immobile) > 1 else " stands still"]
     for i, (name, place) in enumerate(held.trees.items()):
         said += [", " if i else ", with ", Sym(name), " = ", place]
     return [Paragraph([*said, "."])]
@@ -215,7 +215,7 @@ def _held(subject: SymbolicState, held: Substitutions) -> list[Block]:
 def _stated(
     subject: SymbolicState, system: SufficientSet, chosen: Substitutions, labels: dict[str, str], solution: Mapping[Sym, Tree]
 ) -> list[Block]:
-    """The balances that were not told before, numbered on; what is closed; what symbols are by others, as parameters that are defined
+    """The balances that were not stated before, numbered on; what is closed; what symbols are by others, as parameters that are defined
     so and what follows from what is closed; and the solution."""
     made: list[Block] = []
     for stated in system.stated:
@@ -304,7 +304,7 @@ def _check(subject: SymbolicState, chosen: Substitutions, values: Mapping[Sym, T
 
 def _closed(subject: SymbolicState, chosen: Substitutions) -> list[State]:
     """States near by at which contacts and strings stay closed; none where a coordinate is set that could move."""
-    if not subject.source.metadata["limits"] or set(subject.names) & chosen.trees.keys() - chosen.still:
+    if not subject.source.metadata["limits"] or set(subject.names) & chosen.trees.keys() - chosen.immobile:
         return []
     found = others(subject.source, subject.state)
     places = {tuple(state.q): replace(state, u=np.zeros_like(state.u)) for state in found}

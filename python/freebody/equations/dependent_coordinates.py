@@ -27,7 +27,7 @@ _HELD = 1e-7
 def followed(
     rows: Sequence[Row], put: Callable[[Tree], Tree], free: Collection[str], values: Mapping[Sym, float]
 ) -> dict[Sym, Tree]:
-    """Of the coordinates ``free`` to be told by others, those of which a row is linear whatever the rest is, and their rates;
+    """Of the coordinates ``free`` to be written by others, those of which a row is linear whatever the rest is, and their rates;
     ``values`` are the numbers at which a factor by which is divided should be large."""
     places = solved([put(row.value) for row in rows if row.value is not None], free, 0, values)
     rates = solved([replace(put(row.rate), places) for row in rows if row.rate is not None], free, 1, values)
@@ -61,20 +61,20 @@ def _one(value: Any, free: Collection[str], dots: int, values: Mapping[Sym, floa
     return Sym(chosen.name.rstrip("'"), dots), from_sympy(made)
 
 
-def held_still(subject: SymbolicState, chosen: Substitutions, states: Sequence[FreeBodies]) -> Substitutions:
-    """The coordinates that nothing lets move, at all ``states``, as ``still``, and their places where these do not depend on any
+def immobile_coordinates(subject: SymbolicState, chosen: Substitutions, states: Sequence[FreeBodies]) -> Substitutions:
+    """The coordinates that nothing lets move, at all ``states``, as ``immobile``, and their places where these do not depend on any
     symbol but those ``chosen``; and what ``follow`` from others."""
     names = subject.names
-    fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Substitutions({}, still=frozenset(names)))]
+    fixed = [i for i, row in enumerate(subject.rows) if _is_fixed(row, Substitutions({}, immobile=frozenset(names)))]
     free = [np.array([[state.rows[i].coefficients[name] for name in names] for i in fixed]) for state in states]
-    still = frozenset(name for i, name in enumerate(names) if fixed and all(holds(rows, i) for rows in free))
-    held = Substitutions({}, still=still)
+    immobile = frozenset(name for i, name in enumerate(names) if fixed and all(holds(rows, i) for rows in free))
+    held = Substitutions({}, immobile=immobile)
     natural = {
-        name: place for name, place in place_of(subject).items() if is_natural(place) and name in still - chosen.trees.keys()
+        name: place for name, place in place_of(subject).items() if is_natural(place) and name in immobile - chosen.trees.keys()
     }
-    moving = [name for name in names if name not in still and name not in chosen.trees]
+    moving = [name for name in names if name not in immobile and name not in chosen.trees]
     closed = [held.put(chosen.put(value)) for i in fixed if (value := subject.rows[i].value) is not None]
-    places = Substitutions(_closing(closed, natural, moving, subject.values), still=still)
+    places = Substitutions(_closing(closed, natural, moving, subject.values), immobile=immobile)
     rows = [row for row in subject.rows if row.kind != "motion"]
     return replaced(places, follow=followed(rows, lambda tree: places.put(chosen.put(tree)), moving, subject.values))
 

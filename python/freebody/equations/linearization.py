@@ -131,8 +131,8 @@ def _slope(row: Row, symbol: Sym, put: Mapping[str, Tree]) -> Tree:
     """How what a row asks changes by a symbol, at rest."""
     expression = to_sympy(with_exact_numbers(row.acceleration))
     slope = expression.diff(sympy.Symbol(symbol.name + "'" * symbol.dots))
-    still = {x: 0 for x in slope.free_symbols if x.name.endswith("'")}
-    return _put(from_sympy(slope.subs(still)), put)
+    at_rest = {x: 0 for x in slope.free_symbols if x.name.endswith("'")}
+    return _put(from_sympy(slope.subs(at_rest)), put)
 
 
 def place_of(subject: SymbolicState) -> dict[str, Tree]:

@@ -35,24 +35,24 @@ _NEAR = 0.15
 @dataclass(frozen=True)
 class Substitutions:
     """Symbols with what they are set to; ``measured``: lengths and angles among them, because symbols would fill pages.
-    ``still``: coordinates whose rates and accelerations are 0. ``defined``: parameters by those that define them. ``follow``:
+    ``immobile``: coordinates whose rates and accelerations are 0. ``defined``: parameters by those that define them. ``follow``:
     coordinates and rates by the others on which they depend. ``at_start``: symbols set to where they start."""
 
     trees: Mapping[str, Tree]
     measured: bool = False
-    still: frozenset[str] = frozenset()
+    immobile: frozenset[str] = frozenset()
     defined: Mapping[str, Tree] = field(default_factory=dict)
     follow: Mapping[Sym, Tree] = field(default_factory=dict)
     at_start: frozenset[str] = frozenset()
 
-    def is_still(self, symbol: Sym) -> bool:
+    def is_immobile(self, symbol: Sym) -> bool:
         """Whether a symbol is the rate or acceleration of a coordinate that stands still."""
-        return symbol.dots > 0 and symbol.name in self.still
+        return symbol.dots > 0 and symbol.name in self.immobile
 
     def put(self, tree: Tree) -> Tree:
         """An expression with the symbols replaced, and plain numbers exact."""
         new = {Sym(name): value for name, value in self.trees.items()}
-        new |= {Sym(name, dots): ZERO for name in self.still for dots in (1, 2)}
+        new |= {Sym(name, dots): ZERO for name in self.immobile for dots in (1, 2)}
         new |= self.follow
         given = with_exact_numbers(tree)
         made = replace(given, {Sym(name): value for name, value in self.defined.items()})
@@ -126,7 +126,7 @@ class Substitutions:
         return {name: float(evaluate(tree, values)) for name, tree in self.trees.items()}
 
 
-def given(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()) -> Substitutions:
+def substitutions_of(mechanism: Builder, set: Mapping[str, Any], free: Collection[str] = ()) -> Substitutions:
     """What is set, exactly, and lengths and angles that the model defines by others, but what is ``free``. Raises ``ValueError`` where it is no
     quantity and no symbol."""
     source = mechanism.source()

@@ -110,7 +110,7 @@ class Search:
 
     def _put(self, linear: Linear, known: Mapping[Sym, Tree]) -> Linear:
         """With what is set, and what is known in its place."""
-        found = {x: self.chosen.put(tree) for x, tree in linear.coefficients.items() if not self.held.is_still(x)}
+        found = {x: self.chosen.put(tree) for x, tree in linear.coefficients.items() if not self.held.is_immobile(x)}
         if self.chosen.measured:  # as the arm of a load about the very point where it acts
             found = {x: tree for x, tree in found.items() if not self._is_round_off(tree, linear.coefficients[x])}
         rest = add(self.chosen.put(linear.rest), *(mul(tree, known[x]) for x, tree in found.items() if x in known))

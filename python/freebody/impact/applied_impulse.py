@@ -1,4 +1,4 @@
-"""A model at rest that is struck: an impulse at a point, and what it does at once.
+"""An impulse applied at a point of a model at rest, and what it does at once.
 
 An impulse does to velocities what a force does to the accelerations of what is at rest. So a strike is the instant of the model
 without all that stays finite, with a force in place of the impulse: N·s for N, rates for accelerations.
@@ -20,8 +20,8 @@ from freebody.model.start import quantity
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
-_NAME = "blow"
-_SYMBOLS = ("J", "J0", "J_blow")
+_NAME = "applied_impulse"
+_SYMBOLS = ("J", "J0", "J_applied")
 _ROUND_OFF = 1e-12
 """Of the impulse over the mass of all bodies, below which a rate is what is left of 0."""
 
@@ -30,7 +30,7 @@ _ROUND_OFF = 1e-12
 class AppliedImpulse(Impulsive):
     """The impulse ``symbol``, a parameter of ``source`` (N for N·s), on a ``whole`` model at rest.
 
-    ``before`` is its state without the impulse; ``source`` is the model without weights, springs, dampers, motors and friction of joints; its force ``blow`` is the impulse."""
+    ``before`` is its state without the impulse; ``source`` is the model without weights, springs, dampers, motors and friction of joints; its force ``applied_impulse`` is the impulse."""
 
     whole: CompiledModel
     source: CompiledModel
@@ -74,10 +74,10 @@ class AppliedImpulse(Impulsive):
             x, y, turn = sum((np.array(by) * jumps[name] for name, by in body.by_accelerations.items()), np.zeros(3))
             energy += float(body.mass * (x * x + y * y) + body.inertia * turn * turn) / 2
         before, after = Snapshot(q, dict.fromkeys(names, 0.0)), Snapshot(q, {name: jumps[name] for name in names})
-        return Change(self.state.t, "struck", (), -energy, impulses=stated, before=before, after=after)
+        return Change(self.state.t, "applied impulse", (), -energy, impulses=stated, before=before, after=after)
 
     def symbolic_answers(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        """What the core tells of it symbolically."""
+        """What the core says of it symbolically."""
         return self.source.symbolic_answers(self.state, questions)
 
     def rows_before(self) -> list[Any]:
@@ -95,7 +95,7 @@ def strike(
     if state.u.any() and mechanism.source().metadata["limits"]:
         raise NoImpact(
             "the model moves at its start, and it has contacts, strings or stops, which then decide by that motion what an impact does; "
-            "what is struck here stands still: give the start no rates, or let a run strike it"
+            "an impulse is applied to a model at rest: give the start no rates, or let something hit it in a run"
         )
     state = replace(state, u=np.zeros_like(state.u))
     size = quantity("impulse", impulse, "N*s")
@@ -116,6 +116,6 @@ def _bare(spec: Mapping[str, Any]) -> dict[str, Any]:
     """A model without what stays finite, and with prescribed motions that stand still."""
     joints = [joint | {"with": {k: v for k, v in joint["with"].items() if k != "friction"}} for joint in spec["joints"]]
     joints = [{k: v for k, v in joint.items() if k != "friction"} for joint in joints]
-    still = [motion | {"is": 0.0, "level": "velocity"} for motion in spec["motions"]]
+    locked = [motion | {"is": 0.0, "level": "velocity"} for motion in spec["motions"]]
     impact = [force for force in spec["forces"] if force["name"] == _NAME]
-    return {**spec, "gravity": None, "joints": joints, "motions": still, "forces": impact, "events": []}
+    return {**spec, "gravity": None, "joints": joints, "motions": locked, "forces": impact, "events": []}

@@ -36,7 +36,7 @@ class Impulsive(ABC):
     source: CompiledModel
     """The mechanism, to be drawn in that state."""
     free: FreeBodies
-    """All loads during the impact: those of what was struck for a unit of each."""
+    """All loads during the impact: those of what takes part for a unit of each."""
 
     @abstractmethod
     def symbolic_answers(self, questions: Sequence[Question]) -> SymbolicAnswers:
@@ -145,7 +145,7 @@ class Impact(Impulsive):
 
     @cached_property
     def free(self) -> FreeBodies:
-        """All loads during the impact: those of what was struck for a unit of each."""
+        """All loads during the impact: those of what takes part for a unit of each."""
         # What strikes at several places moves there as no constraint allows; where impulses act does not depend on it.
         return self.source.free_bodies(replace(self.state, u=np.zeros_like(self.state.u)))
 

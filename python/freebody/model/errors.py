@@ -76,7 +76,7 @@ class ModelProblem(Exception):
 
 
 class Consequence(ModelProblem):
-    """A complaint that only follows from another one, which is told elsewhere."""
+    """A complaint that only follows from another one, which is reported elsewhere."""
 
 
 def path_text(path: Path) -> str:

@@ -261,7 +261,7 @@ class Accuracy:
     @property
     def better(self) -> tuple[float, float] | None:
         """The tolerance with which as many digits as ``stated`` would hold for longer, and up to when, s (infinite: to the end); None
-        where they do, or that cannot be told. Digits are taken to be lost at the rate at which they were, and errors to be as large as
+        where they do, or that cannot be known. Digits are taken to be lost at the rate at which they were, and errors to be as large as
         the tolerance makes them."""
         rtol, most, end = self.run.settings.rtol, self.stated, self.run.edges[-1]
         if most < 2 or self.until(most) == math.inf or cards.methods()[self.run.settings.method].fixed_step:

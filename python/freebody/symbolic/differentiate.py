@@ -77,12 +77,12 @@ def derivative(node: Node, symbol: Callable[[Sym], Node]) -> Node:
     raise StatementError("this has no derivative here", node.span, "write the derivative out")
 
 
-def rate(node: Node, still: Collection[str] = ()) -> Node:
-    """What a person wrote, differentiated by time. Symbols in ``still`` do not change; the others get one dot more, and ``t`` has the rate 1.
+def rate(node: Node, constants: Collection[str] = ()) -> Node:
+    """What a person wrote, differentiated by time. Symbols in ``constants`` do not change; the others get one dot more, and ``t`` has the rate 1.
 
     Raises ``StatementError`` at what has no derivative.
     """
-    one_more = lambda n: _ZERO if n.name in still else Sym(n.name, n.dots + 1, span=n.span)
+    one_more = lambda n: _ZERO if n.name in constants else Sym(n.name, n.dots + 1, span=n.span)
     return _short(node, derivative(node, lambda symbol: _ONE if symbol == Sym("t") else one_more(symbol)))
 
 

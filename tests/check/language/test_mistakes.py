@@ -1,4 +1,4 @@
-"""What cannot be read is told with the place, and what to try."""
+"""What cannot be read is reported with the place, and what to try."""
 
 from __future__ import annotations
 

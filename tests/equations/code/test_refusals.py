@@ -24,7 +24,7 @@ initial: {s: 0.1}
 
 
 @pytest.mark.parametrize(
-    ("path", "told"),
+    ("path", "reason"),
     [
         ("examples/tossed_box.yaml", r"contacts\.floor opens and closes"),
         ("systems/19.3.21/model.yaml", r"strings\.cable goes slack"),
@@ -32,13 +32,13 @@ initial: {s: 0.1}
         ("examples/beam_held_twice.yaml", r"do not determine left\.Fx, right\.Fx"),
     ],
 )
-def test_what_switches_or_is_not_determined(path, told):
-    with pytest.raises(CannotGenerate, match=told):
+def test_what_switches_or_is_not_determined(path, reason):
+    with pytest.raises(CannotGenerate, match=reason):
         fb.load(ROOT / path).code()
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "told"),
+    ("before", "after", "reason"),
     [
         ("coordinate: s}", "coordinate: s, friction: 0.2}", r"joints\.track has friction, which sticks or slides"),
         ("x: F,", 'x: "max(0, F - k*s)",', r"forces\.push: '.*' switches between formulas \(max\); a smooth law"),
@@ -50,11 +50,11 @@ def test_what_switches_or_is_not_determined(path, told):
         ),
     ],
 )
-def test_friction_cases_and_tables(before, after, told):
+def test_friction_cases_and_tables(before, after, reason):
     text = CART.replace(before, after)
     if "bump" in after:
         text += "tables:\n  bump: {x: [0 m, 1 m, 2 m], y: [0 N, 1 N, 0 N]}\n"
-    with pytest.raises(CannotGenerate, match=told):
+    with pytest.raises(CannotGenerate, match=reason):
         fb.Mechanism.loads(text).code()
 
 

@@ -73,7 +73,7 @@ def test_the_smallest_set_gives_what_the_full_solve_gives(wanted):
     assert len(found.parts) == len(mechanism.smallest(wanted).equations)
 
 
-def test_what_is_not_unknown_is_told():
+def test_what_is_not_unknown_is_reported():
     result = CliRunner().invoke(app, ["equations", str(ROOT / GUN), "--for", "nosuch"])
     assert result.exit_code == 2 and "nosuch" in result.output
 

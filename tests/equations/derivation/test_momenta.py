@@ -13,15 +13,15 @@ from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym
 
 
-def told(text):
-    """Bodies, the point or direction, and whether it turns, of all that is told of a model."""
+def conserved(text):
+    """Bodies, the point or direction, and whether it turns, of all that is conserved."""
     made = fb.Mechanism.loads(text)
     found = momenta(SymbolicState(made.source(), made.start()[0]))
     return {("+".join(each.found.bodies), each.found.twist.name) for each in found}
 
 
 @every(ANSWERED)
-def test_what_is_told_has_no_rate_in_any_motion(model):
+def test_what_is_said_has_no_rate_in_any_motion(model):
     found = momenta(subject(model))
     for at in elsewhere(model):
         for each in found:
@@ -30,7 +30,7 @@ def test_what_is_told_has_no_rate_in_any_motion(model):
 
 
 @pytest.mark.parametrize("name", ["19.3.15/model", "19.3.10/model", "19.3.5/model", "19.3.3/model"])
-def test_what_is_told_is_constant_along_a_simulated_motion(name):
+def test_what_is_said_is_constant_along_a_simulated_motion(name):
     source, state = mechanism(name).source(), start(name)[0]
     run = mechanism(name).simulate(until=0.5, rtol=1e-10)
     names = [c["name"] for c in source.metadata["coordinates"]]
@@ -103,33 +103,33 @@ run: {until: 1 s}
 
 
 def test_a_disk_on_a_pin_through_its_centre_keeps_its_own_spin():
-    assert told(PINNED_DISK) == {("disk", "the mass centre of disk")}
+    assert conserved(PINNED_DISK) == {("disk", "the mass centre of disk")}
 
 
 def test_friction_in_the_pin_takes_the_spin_away():
     rubbing = "forces:\n  drag: {type: torque, on: disk, from: arm, value: -c*rate(phi)}\n"
-    assert told(PINNED_DISK.replace("initial:", rubbing + "initial:")) == set()
+    assert conserved(PINNED_DISK.replace("initial:", rubbing + "initial:")) == set()
 
 
 def test_a_pin_beside_the_centre_takes_the_spin_away():
-    assert told(PINNED_DISK.replace("{C: centre}", "{C: [r/3, 0]}")) == set()
+    assert conserved(PINNED_DISK.replace("{C: centre}", "{C: [r/3, 0]}")) == set()
 
 
 def test_across_a_tilted_gravity_a_momentum_is_kept():
-    assert told(TILTED) == {("P+Q", "the direction across gravity"), ("P+Q", "the mass centre of P + Q")}
+    assert conserved(TILTED) == {("P+Q", "the direction across gravity"), ("P+Q", "the mass centre of P + Q")}
 
 
 def test_a_free_chain_keeps_its_momentum_and_its_spin_about_its_mass_centre():
-    assert told(FREE_BODIES) == {("one+two", "x"), ("one+two", "y"), ("one+two", "the mass centre of one + two")}
+    assert conserved(FREE_BODIES) == {("one+two", "x"), ("one+two", "y"), ("one+two", "the mass centre of one + two")}
 
 
 def test_along_a_frictionless_slope_the_momentum_is_kept_without_gravity_and_not_with_it():
-    assert told(SLOPE) == {("block+rod", "rail")}
-    assert told(SLOPE.replace("gravity: none", "gravity: 9.81 m/s^2")) == set()
+    assert conserved(SLOPE) == {("block+rod", "rail")}
+    assert conserved(SLOPE.replace("gravity: none", "gravity: 9.81 m/s^2")) == set()
 
 
 def test_a_central_force_keeps_the_moment_of_momentum_about_its_centre_until_there_is_a_wind():
-    assert told(MODELS["19.3.1/model"].read_text()) == {("particle", "ground.O")}
+    assert conserved(MODELS["19.3.1/model"].read_text()) == {("particle", "ground.O")}
 
 
 def test_every_reason_is_said_in_the_symbols_of_the_equations():

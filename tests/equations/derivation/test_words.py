@@ -67,7 +67,7 @@ def written(tmp_path):
 
 
 @every_model
-def test_a_load_in_a_balance_is_told_for_a_body_of_it(model):
+def test_a_load_in_a_balance_is_said_for_a_body_of_it(model):
     free = subject(model).free
     for body in free.bodies:
         for load in free.on(body):
@@ -76,7 +76,7 @@ def test_a_load_in_a_balance_is_told_for_a_body_of_it(model):
 
 
 @every_model
-def test_a_push_or_pull_on_the_ground_is_told_for_the_body(model):
+def test_a_push_or_pull_on_the_ground_is_said_for_the_body(model):
     for load in subject(model).free.loads:
         if load.kind in ("contact", "string"):
             assert f"on {GROUND}" not in load_words(load)

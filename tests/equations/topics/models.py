@@ -9,7 +9,7 @@ import numpy as np
 
 import freebody as fb
 from freebody.equations import from_sympy
-from freebody.equations.substitutions import given
+from freebody.equations.substitutions import substitutions_of
 from freebody.solve.symbolic_state import SymbolicState
 
 SYSTEMS = Path(fb.__file__).parent / "systems"
@@ -26,7 +26,7 @@ def random_subjects(mechanism: fb.Mechanism, number: int = 3, seed: int = 3) -> 
     rng = np.random.default_rng(seed)
     found = 0
     for _ in range(10 * number):
-        state = given(mechanism, {}).near(first, rng)
+        state = substitutions_of(mechanism, {}).near(first, rng)
         if state is not None and found < number:
             found += 1
             yield SymbolicState(first.source, state)

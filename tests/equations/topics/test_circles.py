@@ -62,7 +62,7 @@ def test_no_squares_of_sine_and_cosine_are_added(name, kind):
 
 
 @pytest.mark.parametrize("path", COLLIDING, ids=lambda path: f"{path.parent.name}/{path.stem}")
-def test_none_are_added_where_a_blow_is_told(path):
+def test_none_are_added_to_an_impact(path):
     made = topic(fb.load(path), "impact")
     assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]
 

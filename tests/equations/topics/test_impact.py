@@ -48,7 +48,7 @@ MODELS = {
 
 
 @pytest.mark.parametrize("name", MODELS)
-def test_rates_after_a_blow_are_those_of_the_run(name: str) -> None:
+def test_rates_after_an_impact_are_those_of_the_run(name: str) -> None:
     found = Impact.of(MODELS[name]().blow())
     solved, values = jumps(found).spelt(), found.values
     for coordinate, true in found.change.after.u.items():
@@ -90,12 +90,12 @@ def test_carts_bounce() -> None:
     assert equal(jumps(Impact.of(carts(0.6).blow())).spelt()[Sym(after("xA"), 1)], from_sympy(known))
 
 
-def test_a_run_without_blow_is_named() -> None:
+def test_a_run_without_impact_is_named() -> None:
     with pytest.raises(NotHere, match="0 impacts"):
         topic(system("19.3.1"), "impact")
 
 
-def test_what_is_absent_is_told() -> None:
+def test_what_is_absent_is_reported() -> None:
     said = topic(rod_on_a_floor(), "impact").text()
     assert "weight of rod: finite" in said
     assert "J_N_floor" in said

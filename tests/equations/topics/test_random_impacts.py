@@ -33,7 +33,7 @@ def on_body(found: Impact, sizes: dict[Sym, float], true: dict[str, np.ndarray])
     metadata, made = found.subject.source.metadata, dict[str, np.ndarray]()
     first = {each["name"]: each["first"] for each in metadata["limits"] if each["type"] != "stop"}
     body = first | {each["name"]: each["second"] for each in metadata["joints"] if each["reaction"]}
-    for load in found.subject.blow.acting:
+    for load in found.subject.impact.acting:
         size = sizes[found.symbol(load)]
         if load.name in body:
             part, sign = next(((p, 1) for p in load.on if p.body == body[load.name]), (load.on[0], -1))
@@ -56,7 +56,7 @@ def agree(found: Impact) -> None:
         assert solved[Sym(after(name), 1)] == pytest.approx(u, abs=AGREE * most), name
     known = numbers | {to_sympy(x): size for x, size in solved.items()}
     sizes = solved | {found.symbol(load): value(found.law(load), known) for load in found.slides}
-    if not all(found.symbol(load) in sizes for load in found.subject.blow.acting):
+    if not all(found.symbol(load) in sizes for load in found.subject.impact.acting):
         return
     true = core_impulses(found)
     largest = max((np.abs(each).max() for each in true.values()), default=0.0)

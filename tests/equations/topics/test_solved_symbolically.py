@@ -152,7 +152,7 @@ def test_a_slider_crank_in_all_its_symbols() -> None:
 
 
 def test_reactions_of_a_loop_by_its_accelerations() -> None:
-    """The pin of a moving four-bar: its force is told by θ̈, β̈, φ̈, and these by ratios, at a state of the program's own."""
+    """The pin of a moving four-bar: its force is written by θ̈, β̈, φ̈, and these by ratios, at a state of the program's own."""
     mechanism = system("S19.21")
     answers = mechanism.solve_in_letters(["theta", "D.Fx"])
     subject = SymbolicState(mechanism.source(), mechanism.start()[0])

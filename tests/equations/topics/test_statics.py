@@ -119,7 +119,7 @@ def test_reactions(name: str) -> None:
     assert stated and not any(x.dots for x in symbols(*stated)), "no acceleration or rate stands in statics"
 
 
-def test_what_stands_still_is_told_and_has_no_acceleration() -> None:
+def test_what_stands_still_is_said_and_has_no_acceleration() -> None:
     """Of the frame both angles, and where they are; the floor holds the ladder's foot at y = 0, x and φ are as it is put."""
     frame, ladder = fb.Mechanism.loads(FRAME), fb.Mechanism.loads(LADDER)
     assert "Nothing can move: α, β stand still, with α = 0, β = 0." in str(frame.solve_in_letters(["A.Fy"]))

@@ -68,19 +68,19 @@ def test_linear_matrices_are_slopes_of_accelerations(make: str, place: dict[str,
     mechanism = system(make)
     state = mechanism.start()[0]
     rest = np.array([place.get(c["name"], 0.0) for c in mechanism.source().metadata["coordinates"]])
-    still = State(state.p, 0.0, rest, np.zeros_like(state.u))
-    subject = SymbolicState(mechanism.source(), still, at_rest=True)
+    rest_state = State(state.p, 0.0, rest, np.zeros_like(state.u))
+    subject = SymbolicState(mechanism.source(), rest_state, at_rest=True)
     found = linearised(subject, {})
     m, c, k = (numbers(subject, matrix) for matrix in (found.mass, found.damping, found.stiffness))
     core, h = mechanism.compile(), 1e-6
 
     def slopes(which: str) -> np.ndarray:
         columns = []
-        for i in range(len(still.q)):
-            step = np.zeros_like(still.q)
+        for i in range(len(rest_state.q)):
+            step = np.zeros_like(rest_state.q)
             step[i] = h
             q, u = (step, 0 * step) if which == "q" else (0 * step, step)
-            ahead, behind = (core.instant(State(still.p, 0.0, rest + s * q, s * u)).accelerations for s in (1, -1))
+            ahead, behind = (core.instant(State(rest_state.p, 0.0, rest + s * q, s * u)).accelerations for s in (1, -1))
             columns.append((ahead - behind) / (2 * h))
         return np.array(columns).T
 

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// A circle that a string touches, or a point, which is a circle of radius 0.
 pub(super) struct WrapCircle<T> {
-    /// Site by which its centre is told.
+    /// Site by which its centre is given.
     pub site: usize,
     /// The centre from that site, fixed axes, m.
     pub off: Vec2<T>,

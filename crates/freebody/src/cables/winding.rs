@@ -14,7 +14,7 @@ pub enum WrapState {
     WoundBack,
 }
 
-/// How both ends of a string are wound: the feature on which its slack is told.
+/// How both ends of a string are wound: the feature on which its slack is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Winding {
     /// How it leaves the drum at each end.

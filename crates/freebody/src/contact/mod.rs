@@ -5,7 +5,7 @@
 //! unilateral constraint that is reached holds with a force along its gap; a contact may also have friction, along its
 //! *slide*.
 //!
-//! Gaps are told feature by feature: an edge or a corner of a polygon, a string wound on its drum or hanging from its
+//! Gaps are measured feature by feature: an edge or a corner of a polygon, a string wound on its drum or hanging from its
 //! attachment. On one feature they are smooth; what leads from one feature to the next is a border.
 
 pub mod complementarity;

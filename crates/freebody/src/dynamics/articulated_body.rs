@@ -101,9 +101,9 @@ impl ArticulatedBody {
         for i in 1..at.m.bodies.len() {
             let body = &at.m.bodies[i];
             let tree_joint = body.tree_joint.expect("every body hangs in the tree");
-            let (base, drift) = (bodies[tree_joint.parent], at.k.bias_acceleration[i]);
+            let (base, bias) = (bodies[tree_joint.parent], at.k.bias_acceleration[i]);
             let mut a =
-                Twist { v: base.at(at.k.arm[i]) + drift.v, w: if body.particle { 0.0 } else { base.w + drift.w } };
+                Twist { v: base.at(at.k.arm[i]) + bias.v, w: if body.particle { 0.0 } else { base.w + bias.w } };
             if tree_joint.hinge && !body.particle {
                 let full = &self.full[i];
                 let alpha = -(full.pm + full.h.dot(a.v)) * self.inverse_inertia[i];
@@ -223,11 +223,11 @@ impl ArticulatedBody {
     }
 }
 
-/// The bias of a freed hinge with the drift of its joint origin.
+/// The bias of a freed hinge, that of its joint origin included.
 #[inline(always)]
 fn shift_bias(rest: ArticulatedInertia, at: StateView<'_>, i: usize) -> ArticulatedInertia {
-    let drift = at.k.bias_acceleration[i].v;
-    let moved = vec2(rest.xx * drift.x + rest.xy * drift.y, rest.xy * drift.x + rest.yy * drift.y);
+    let bias = at.k.bias_acceleration[i].v;
+    let moved = vec2(rest.xx * bias.x + rest.xy * bias.y, rest.xy * bias.x + rest.yy * bias.y);
     ArticulatedInertia { p: rest.p + moved, ..rest }
 }
 

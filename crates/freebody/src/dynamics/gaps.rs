@@ -114,7 +114,7 @@ impl Workspace<'_> {
         Ok(())
     }
 
-    /// The feature of a gap as it is told by the state alone.
+    /// The feature of a gap as the state alone gives it.
     fn initial_feature(&self, l: usize) -> Feature {
         let constraint = &self.m.unilateral[l];
         let mut feature = Feature::default();

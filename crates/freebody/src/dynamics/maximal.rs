@@ -249,15 +249,15 @@ impl Workspace<'_> {
         self.order_rows();
     }
 
-    /// Joint accelerations (or, without drift, displacements) from those of the bodies, by least squares over each
+    /// Joint accelerations (or, without bias, displacements) from those of the bodies, by least squares over each
     /// joint's columns.
-    fn joint_motion(&self, bodies: &[Twist], drift: bool) -> Vec<f64> {
+    fn joint_motion(&self, bodies: &[Twist], bias: bool) -> Vec<f64> {
         let mut nu = vec![0.0; self.m.freedom()];
         for i in 1..self.m.bodies.len() {
             let b = self.m.bodies[i].tree_joint.expect("every body hangs in the tree");
             let base = bodies[b.parent];
             let carried = Twist { v: base.at(self.k.arm[i]), w: if self.m.bodies[i].particle { 0.0 } else { base.w } };
-            let own = bodies[i] - carried - if drift { self.k.bias_acceleration[i] } else { Twist::zero() };
+            let own = bodies[i] - carried - if bias { self.k.bias_acceleration[i] } else { Twist::zero() };
             let rates = fit(&self.k.motion_subspace[i][..b.freedom], own, self.length);
             nu[b.start..b.start + b.freedom].copy_from_slice(&rates[..b.freedom]);
         }

@@ -15,6 +15,7 @@ mod derivatives;
 mod energy;
 mod gaps;
 mod gear_flank;
+mod generalized_force;
 mod impact;
 mod instant;
 mod joint_friction;
@@ -23,6 +24,7 @@ mod maximal;
 mod minimal;
 mod momentum;
 mod newton_euler;
+mod painleve;
 mod projection;
 mod rank;
 mod reactions;
@@ -56,7 +58,7 @@ use crate::kinematics::{gradient, Kinematics, StateView};
 use crate::mechanism::{self, Mechanism};
 use crate::mode::Mode;
 use crate::plane::{Twist, Vec2, Wrench};
-use crate::scalar::Scalar;
+use generalized_force::{generalized_force, size_of_power, visit_ancestors};
 
 /// How the equations of an instant are set up and solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -367,36 +369,4 @@ impl<'m> Workspace<'m> {
         self.k.propagate_motion(self.m, nu, false, &mut bodies);
         self.k.user_rates(self.m, &self.n, &bodies, nu, out);
     }
-}
-
-/// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.
-fn generalized_force<S: Scalar>(at: StateView<'_, S>, wrenches: &[(usize, Wrench<S>)], out: &mut [S]) {
-    visit_ancestors(at, wrenches, |i, load, column| out[i] += load.power(column));
-}
-
-/// Every coordinate on which loads may do work, with the load at the joint origin of its body and its column.
-fn visit_ancestors<S: Scalar>(
-    at: StateView<'_, S>,
-    wrenches: &[(usize, Wrench<S>)],
-    mut visit: impl FnMut(usize, Wrench<S>, Twist<S>),
-) {
-    for &(body, load) in wrenches {
-        let (mut body, mut load) = (body, load);
-        while let Some(b) = at.m.bodies[body].tree_joint {
-            for k in 0..b.freedom {
-                visit(b.start + k, load, at.k.motion_subspace[body][k]);
-            }
-            load = load.seen_from(at.k.arm[body]);
-            if at.m.bodies[body].particle {
-                // A particle passes no couple on.
-                load = Wrench::force(load.f, at.k.arm[body]);
-            }
-            body = b.parent;
-        }
-    }
-}
-
-/// How large the power of a load may be on its way to cancelling, levers being of the characteristic length.
-fn size_of_power(load: Wrench, motion: Twist, length: f64) -> f64 {
-    load.f.norm() * (motion.v.norm() + length * motion.w.abs()) + (load.m * motion.w).abs()
 }

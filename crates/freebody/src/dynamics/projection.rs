@@ -58,7 +58,7 @@ impl Workspace<'_> {
         let targets: Vec<Row> = held.iter().map(|(gauge, value)| self.target_row(gauge, *value, 0.0)).collect();
         self.rows.extend(targets);
         let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
-        // What cannot be told (wheels that overlap) is wide open.
+        // What has no gap (wheels that overlap) is wide open.
         self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
     }
 

@@ -67,7 +67,7 @@ impl<S: Scalar> Row<S> {
     }
 }
 
-/// The accelerations of the bodies at which biases are told.
+/// The accelerations of the bodies at which biases are taken.
 pub type Base<'a, S> = Option<&'a [Twist<S>]>;
 
 /// All rows outside the tree that hold in the present mode.

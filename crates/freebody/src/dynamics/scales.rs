@@ -1,4 +1,4 @@
-//! The mechanism's own length and rate, by which it is told what is long, near, fast and small.
+//! The mechanism's own length and rate, by which is judged what is long, near, fast and small.
 
 use super::minimal::column_scales;
 use super::Workspace;
@@ -81,7 +81,7 @@ impl Workspace<'_> {
         self.placed.u.iter().zip(units).map(|(u, unit)| u.abs() / unit).fold(fall, f64::max)
     }
 
-    /// Accelerations of the coordinates at the present state in the present mode; 0 where they cannot be told.
+    /// Accelerations of the coordinates at the present state in the present mode; 0 where there are none.
     fn accelerations_unheld(&mut self) -> Vec<f64> {
         let mut accelerations = vec![0.0; self.placed.u.len()];
         if self.solve().is_ok() {

@@ -104,13 +104,12 @@ fn friction_load<S: Scalar>(at: StateView<'_, S>, friction: usize) -> Option<(Or
 /// Friction of every joint with friction.
 pub fn joint_friction<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
     for (index, friction) in at.m.joint_friction.iter().enumerate() {
-        let (FrictionSource::Joint { joint: carrier, .. }, Some((origin, size))) =
-            (friction.of, friction_load(at, index))
+        let (FrictionSource::Joint { joint: of, .. }, Some((origin, size))) = (friction.of, friction_load(at, index))
         else {
             continue;
         };
-        let joint = &at.m.joints[carrier];
-        let parts = loaded(at, &joint_friction_row(at, index, None), joint_place(at, carrier));
+        let joint = &at.m.joints[of];
+        let parts = loaded(at, &joint_friction_row(at, index, None), joint_place(at, of));
         let bearing = joint.kind.card().coordinates.first().is_some_and(|c| c.turn);
         let card = LoadCard::force("friction", "friction", "F").along(bearing);
         let symbol = format!("{}.{}", spell(&joint.name), card.reading);

@@ -107,10 +107,10 @@ pub fn loads<S: Scalar>(at: StateView<'_, S>) -> Vec<Load<S>> {
     reactions::drives(at, &mut loads);
     contacts::contacts(at, &mut loads);
     contacts::joint_friction(at, &mut loads);
-    for [carrier, body] in at.joints().filter_map(|(joint, _)| at.m.carried(joint)) {
+    for [parent, body] in at.joints().filter_map(|(joint, _)| at.m.carried(joint)) {
         for load in &mut loads {
             let bodies = load.of.iter_mut().chain(load.parts.iter_mut().map(|part| &mut part.body));
-            bodies.filter(|on| **on == carrier).for_each(|on| *on = body);
+            bodies.filter(|on| **on == parent).for_each(|on| *on = body);
         }
     }
     loads

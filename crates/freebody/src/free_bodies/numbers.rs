@@ -30,15 +30,15 @@ pub fn free_bodies(workspace: &mut Workspace<'_>) -> Result<Value, DynamicsError
     let entries: Vec<Value> = all.iter().zip(found).map(|(load, size)| load_data(workspace, load, size)).collect();
     let at_rest = vec![0.0; m.freedom()];
     let wrenches = |of_coordinates: &[f64]| at.k.propagate_user_motion(m, at.n, of_coordinates);
-    let drift = wrenches(&at_rest);
+    let bias = wrenches(&at_rest);
     let unit = |j: usize| -> Vec<Twist> {
         let mut one = at_rest.clone();
         one[j] = 1.0;
-        wrenches(&one).iter().zip(&drift).map(|(a, d)| *a + *d * -1.0).collect()
+        wrenches(&one).iter().zip(&bias).map(|(a, d)| *a + *d * -1.0).collect()
     };
     let units: Vec<Vec<Twist>> = (0..m.freedom()).map(unit).collect();
-    let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(workspace, i, &drift, &units)).collect();
-    let rows: Vec<Value> = closing_rows(at, Some(&drift))
+    let bodies: Vec<Value> = m.listed_bodies().into_iter().map(|i| body(workspace, i, &bias, &units)).collect();
+    let rows: Vec<Value> = closing_rows(at, Some(&bias))
         .iter()
         .map(|row| {
             let power = |motion: &[Twist]| -> f64 { row.motion.iter().map(|(b, w)| w.power(motion[*b])).sum() };
@@ -64,7 +64,7 @@ fn at_centre(arm: Vec2, origin: Twist, w: f64) -> [f64; 3] {
     [a.x, a.y, origin.w]
 }
 
-fn body(workspace: &Workspace<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist>]) -> Value {
+fn body(workspace: &Workspace<'_>, i: usize, bias: &[Twist], units: &[Vec<Twist>]) -> Value {
     let (at, m) = (workspace.at(), workspace.m);
     let (body, pose, twist) = (&m.bodies[i], at.k.pose[i], at.k.twist[i]);
     let centre = at.mass_centre(i);
@@ -82,7 +82,7 @@ fn body(workspace: &Workspace<'_>, i: usize, drift: &[Twist], units: &[Vec<Twist
         "at": xy(pose.place(at.n.arms[origin])), "angle": pose.turn.angle,
         "G": xy(centre), "v": xy(twist.at(arm)), "omega": twist.w,
         "a": [found[0], found[1]], "alpha": if body.particle { 0.0 } else { found[2] },
-        "by_accelerations": by, "drift": at_centre(arm, drift[i], twist.w),
+        "by_accelerations": by, "bias": at_centre(arm, bias[i], twist.w),
     })
 }
 

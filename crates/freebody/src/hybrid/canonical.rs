@@ -93,11 +93,11 @@ impl Canonical for HybridSystem<'_> {
         let along: Vec<Dual<1>> = q.iter().zip(&u).map(|(&q, &u)| Dual { re: q, du: [u] }).collect();
         let held: Vec<Dual<1>> = u.iter().map(|&u| Dual::constant(u)).collect();
         let p: Vec<Dual<1>> = self.workspace.at().n.p.iter().map(|&p| Dual::constant(p)).collect();
-        let drift = momenta(self.workspace.m, &self.workspace.m.bind(&p), &along, &held);
+        let bias = momenta(self.workspace.m, &self.workspace.m.bind(&p), &along, &held);
         let mass = self.mass_times(q, &u_dot);
         dz[..n].copy_from_slice(&u);
         for i in 0..n {
-            dz[n + i] = mass[i] + drift[i].du[0];
+            dz[n + i] = mass[i] + bias[i].du[0];
         }
         Ok(())
     }

@@ -92,7 +92,7 @@ pub struct Start<'a> {
 
 /// Carries a mechanism from a state to the time `until`, or to an event that ends the run.
 ///
-/// `progress` is told the time now and then; the run ends when it answers false.
+/// `progress` gets the time now and then; the run ends when it answers false.
 ///
 /// # Errors
 /// What keeps the run from starting; what ends it later is its outcome.

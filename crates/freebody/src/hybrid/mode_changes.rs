@@ -115,7 +115,7 @@ impl HybridSystem<'_> {
         of
     }
 
-    /// Whether an impact of this instant has told of a unilateral constraint already.
+    /// Whether an impact of this instant has recorded a unilateral constraint already.
     pub(super) fn had_impact(&self, t: f64, name: &String) -> bool {
         self.mode_changes.iter().rev().take_while(|c| c.t >= t).any(|c| c.impulses.is_some() && c.of.contains(name))
     }

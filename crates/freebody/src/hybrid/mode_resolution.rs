@@ -155,7 +155,7 @@ impl HybridSystem<'_> {
                     if tolerances.relaxed {
                         return Err(error);
                     }
-                    // Where nothing jumps there are forces, and what contradicts them is not told exactly enough.
+                    // Where nothing jumps there are forces, and what contradicts them is not known exactly enough.
                     tolerances.relaxed = !self.impact_without_collision(&mode, t, y, &staying, tolerances)?;
                     continue;
                 }
@@ -268,9 +268,9 @@ impl HybridSystem<'_> {
         self.workspace.move_to(t, q, &rest[..n]);
         let approaching = |l: &usize| is_open(*l) && self.workspace.gap_rate(*l) < 0.0;
         let approaching: Vec<usize> = contacts.iter().copied().filter(approaching).collect();
-        let still =
+        let unmoved =
             mode.with_contacts(&turned, ContactMode::Stick).with_contacts(&approaching, ContactMode::Frictionless);
-        let work = self.project_velocities(&still, t, y)?;
+        let work = self.project_velocities(&unmoved, t, y)?;
         self.place_in(&mode, t, y);
         self.workspace.solve()?;
         mode.resting = self.workspace.is_locked();

@@ -297,7 +297,7 @@ impl System for HybridSystem<'_> {
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
         let m = self.workspace.m;
-        // A gap is told to the round-off of places and angles, which grows with them.
+        // A gap is known to the round-off of places and angles, which grows with them.
         let largest = y.iter().zip(&self.units).map(|(q, unit)| q.abs() / unit).fold(1.0, f64::max);
         self.roundoff_scale = self.roundoff_scale.max(ROUNDOFF * largest);
         let laws: Vec<&ModelExpr> = m.events.iter().map(|e| &e.when).collect();

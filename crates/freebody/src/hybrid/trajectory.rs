@@ -67,7 +67,7 @@ impl Trajectory {
     pub(super) fn new(system: HybridSystem, run: Run, opening: [f64; 2], settings: Settings) -> Self {
         let segments = &run.trajectory.segments;
         let mut changes = system.mode_changes;
-        // The end of a series of bounces is told after what it brought about.
+        // The end of a series of bounces is recorded after what it brought about.
         changes.sort_by(|a, b| a.t.total_cmp(&b.t));
         let mut steps: Vec<f64> = segments.iter().map(|s| s.t0).collect();
         steps.push(run.t);

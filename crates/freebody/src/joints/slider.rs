@@ -1,4 +1,4 @@
-//! Slider: a line of one body moves along a line of the other; told with a normal force and a
+//! Slider: a line of one body moves along a line of the other; written with a normal force and a
 //! couple, or as two rollers with a normal force each.
 
 use super::*;

@@ -76,34 +76,34 @@ impl<S: Scalar> Kinematics<S> {
         u: &[S],
     ) {
         let hinge = &n.hinges[body];
-        let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
+        let (base, parent_twist) = (self.pose[b.parent], self.twist[b.parent]);
         let arm = base.turn.apply(hinge.arm);
         self.arm[body] = arm;
         let mut pose = Pose { at: base.at + arm, turn: Turn::none() };
-        let mut twist = Twist { v: carrier.at(arm), w: S::zero() };
+        let mut twist = Twist { v: parent_twist.at(arm), w: S::zero() };
         if !particle {
             let base_angle = base.turn.angle + hinge.near;
-            let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], base_angle, carrier.w);
+            let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], base_angle, parent_twist.w);
             let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
             pose.turn = Turn::by(base_angle + angle - hinge.far);
-            twist.w = carrier.w + rate;
+            twist.w = parent_twist.w + rate;
             self.nu[b.start] = if b.reversed { -rate } else { rate };
         }
         self.pose[body] = pose;
         self.twist[body] = twist;
-        self.bias_acceleration[body] = Twist { v: -(arm * (carrier.w * carrier.w)), w: S::zero() };
+        self.bias_acceleration[body] = Twist { v: -(arm * (parent_twist.w * parent_twist.w)), w: S::zero() };
     }
 
     /// A body on any joint, from the joint's pose.
     fn place_child(&mut self, m: &Mechanism, n: &BoundValues<S>, body: usize, b: TreeJoint, q: &[S], u: &[S]) {
         let joint = &m.joints[b.joint];
         let (near, far) = joint.sides(b.reversed);
-        let (base, carrier) = (self.pose[b.parent], self.twist[b.parent]);
+        let (base, parent_twist) = (self.pose[b.parent], self.twist[b.parent]);
         let axes = Turn::by(base.turn.angle + n.values[near.angle]);
         let (mut at, mut rate) = ([S::zero(); 3], [S::zero(); 3]);
         for (k, c) in joint.coordinates.iter().enumerate() {
             let i = b.start + k;
-            (at[c.card], rate[c.card]) = c.reading(&n.values).to_joint(q[i], u[i], axes.angle, carrier.w);
+            (at[c.card], rate[c.card]) = c.reading(&n.values).to_joint(q[i], u[i], axes.angle, parent_twist.w);
             self.nu[i] = rate[c.card];
         }
         let motion = JointMotion::of(m, n, joint, b.reversed, &at[..joint.size], &rate[..joint.size]);
@@ -112,14 +112,14 @@ impl<S: Scalar> Kinematics<S> {
         let arm = base.turn.apply(n.arms[near.site]) + moved;
         let slide = axes.apply(vec2(motion.rate[0], motion.rate[1]));
         let curl = axes.apply(vec2(motion.bias_acceleration[0], motion.bias_acceleration[1]));
-        let w = carrier.w;
+        let w = parent_twist.w;
         let particle = m.bodies[body].particle;
         let turning = |x: S| if particle { S::zero() } else { x };
         let angle = turning(axes.angle + motion.at.angle - n.values[far.angle]);
 
         self.arm[body] = arm;
         self.pose[body] = Pose { at: base.at + arm, turn: Turn::by(angle) };
-        self.twist[body] = Twist { v: carrier.at(arm) + slide, w: turning(w + motion.rate[2]) };
+        self.twist[body] = Twist { v: parent_twist.at(arm) + slide, w: turning(w + motion.rate[2]) };
         self.bias_acceleration[body] =
             Twist { v: curl + slide.perp() * w.scale(2.0) - arm * (w * w), w: turning(motion.bias_acceleration[2]) };
         for (k, coordinate) in joint.coordinates.iter().enumerate() {
@@ -143,10 +143,10 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// Accelerations of all joint origins and angles for joint accelerations `nu_dot`; with `drift`, those that
+    /// Accelerations of all joint origins and angles for joint accelerations `nu_dot`; with `bias`, those that
     /// the velocities cause are added (without, the result is a virtual displacement or a velocity).
-    pub fn propagate_motion(&self, m: &Mechanism, nu_dot: &[S], drift: bool, out: &mut [Twist<S>]) {
-        self.propagate(m, drift, |b, k, _| nu_dot[b.start + k], out);
+    pub fn propagate_motion(&self, m: &Mechanism, nu_dot: &[S], bias: bool, out: &mut [Twist<S>]) {
+        self.propagate(m, bias, |b, k, _| nu_dot[b.start + k], out);
     }
 
     /// Accelerations of all joint origins and angles for accelerations of the user's coordinates.
@@ -162,13 +162,13 @@ impl<S: Scalar> Kinematics<S> {
 
     /// Goes through the tree; `own` tells the joint acceleration of a coordinate of a branch, given the angular one of
     /// the body that carries it.
-    fn propagate(&self, m: &Mechanism, drift: bool, own: impl Fn(TreeJoint, usize, S) -> S, out: &mut [Twist<S>]) {
+    fn propagate(&self, m: &Mechanism, bias: bool, own: impl Fn(TreeJoint, usize, S) -> S, out: &mut [Twist<S>]) {
         out[0] = Twist::zero();
         for (i, body) in m.bodies.iter().enumerate() {
             let Some(b) = body.tree_joint else { continue };
             let base = out[b.parent];
             let mut motion = Twist { v: base.at(self.arm[i]), w: if body.particle { S::zero() } else { base.w } };
-            if drift {
+            if bias {
                 motion = motion + self.bias_acceleration[i];
             }
             for k in 0..b.freedom {
@@ -198,8 +198,8 @@ struct JointMotion<S> {
 
 impl<S: Scalar> JointMotion<S> {
     fn of(m: &Mechanism, n: &BoundValues<S>, joint: &Joint, reversed: bool, at: &[S], rate: &[S]) -> Self {
-        let still: [Dual<3, S>; 3] = std::array::from_fn(|i| Dual::variable(*at.get(i).unwrap_or(&S::zero()), i));
-        let seeded = JointView::new(m, n, joint, Dual::constant).pose(&still[..at.len()], reversed);
+        let seeds: [Dual<3, S>; 3] = std::array::from_fn(|i| Dual::variable(*at.get(i).unwrap_or(&S::zero()), i));
+        let seeded = JointView::new(m, n, joint, Dual::constant).pose(&seeds[..at.len()], reversed);
         let zero = S::zero();
         let going: [Jet<S>; 3] = std::array::from_fn(|i| match at.get(i) {
             Some(&x) => Jet::new(x, rate[i], zero),

@@ -149,17 +149,17 @@ impl<'a, S: Scalar> StateView<'a, S> {
             1.0
         }
     }
-    /// The way from the joint origin of `carrier` to a site on `body`: its first part, on the carrier itself, and the
+    /// The way from the joint origin of `ancestor` to a site on `body`: its first part, on the ancestor itself, and the
     /// rest.
-    fn reach(&self, site: usize, body: usize, carrier: usize) -> (Vec2<S>, Vec2<S>) {
+    fn reach(&self, site: usize, body: usize, ancestor: usize) -> (Vec2<S>, Vec2<S>) {
         let own = self.k.pose[body].turn.apply(self.n.arms[site]);
-        if body == carrier {
+        if body == ancestor {
             return (own, Vec2::zero());
         }
         let (mut body, mut rest) = (body, own);
         loop {
-            let parent = self.m.bodies[body].tree_joint.expect("a body that hangs on the carrier").parent;
-            if parent == carrier {
+            let parent = self.m.bodies[body].tree_joint.expect("a body that hangs on the ancestor").parent;
+            if parent == ancestor {
                 return (self.k.arm[body], rest);
             }
             rest += self.k.arm[body];
@@ -231,7 +231,7 @@ impl<S: Scalar> MotionView<'_, S> {
         Jet { d0: self.at.coordinate(joint, k), ..measured }
     }
 
-    /// A coordinate of a joint on a curve r(s): the turn is read off the bodies; of the place r̈ = r′s̈ + r″ṡ² is told
+    /// A coordinate of a joint on a curve r(s): the turn is read off the bodies; of the place r̈ = r′s̈ + r″ṡ² is taken
     /// along r′.
     fn along_curve(&self, index: usize, k: usize) -> Jet<S> {
         let (m, n) = (self.at.m, self.at.n);

@@ -4,6 +4,7 @@
 //! [`Mechanism::bind`]. Bodies are numbered in the order of the tree, parents first; body 0 is ground.
 
 mod cables;
+mod drives;
 mod events;
 mod forces;
 mod joints;
@@ -11,6 +12,7 @@ mod surfaces;
 mod unilateral;
 
 pub use cables::{Cable, End, Guide};
+pub use drives::{Drive, DriveKind, Level};
 pub use events::{Discontinuity, Event, EventAction};
 pub use forces::{Force, GaugeForce, PointForce};
 pub use joints::{Coordinate, CurveFollower, FrictionSource, Joint, JointFriction};
@@ -125,7 +127,7 @@ pub struct TreeJoint {
     pub start: usize,
     /// Number of coordinates.
     pub freedom: usize,
-    /// A plain hinge, told the short way.
+    /// A plain hinge, whose pose and motion are written out.
     pub hinge: bool,
 }
 
@@ -184,69 +186,6 @@ pub struct Curve {
     pub x: ModelExpr,
     /// y as a function of the curve's parameter.
     pub y: ModelExpr,
-}
-
-/// At which level a motion is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
-    /// The gauge's value is given.
-    Position,
-    /// Its rate is given.
-    Velocity,
-    /// Its acceleration is given.
-    Acceleration,
-}
-
-/// What a row on gauges is in the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DriveKind {
-    /// A prescribed motion.
-    Motion,
-    /// A coupling, one of the joints; also what holds a particle on its curve once its pin is released.
-    Coupling,
-    /// A gauge that an event locks.
-    Lock,
-}
-
-impl DriveKind {
-    /// Its word.
-    pub fn word(self) -> &'static str {
-        match self {
-            DriveKind::Motion => "motion",
-            DriveKind::Coupling => "coupling",
-            DriveKind::Lock => "lock",
-        }
-    }
-}
-
-/// A coupling, a prescribed motion or a lock: one row on gauges.
-#[derive(Clone, Debug)]
-pub struct Drive {
-    /// Name.
-    pub name: String,
-    /// What it is in the model.
-    pub kind: DriveKind,
-    /// The gauge whose motion is given.
-    pub of: ModelExpr,
-    /// What it is given to be.
-    pub law: ModelExpr,
-    /// At which level.
-    pub level: Level,
-    /// The gauge along which the force acts, when it is another one.
-    pub by: Option<ModelExpr>,
-    /// Whether the law reads the state.
-    pub feedback: bool,
-}
-
-impl Drive {
-    /// Whether it is a prescribed motion.
-    pub fn is_motion(&self) -> bool {
-        self.kind == DriveKind::Motion
-    }
-    /// The gauge along which its force acts.
-    pub fn along(&self) -> &ModelExpr {
-        self.by.as_ref().unwrap_or(&self.of)
-    }
 }
 
 /// Something that can be released and engaged during a motion.
@@ -311,8 +250,8 @@ impl Mechanism {
     /// The massless body that a joint along a curve carries to close a loop, and the body that is pinned to it: those of
     /// a pin; None for any other joint.
     pub fn carried(&self, pin: usize) -> Option<[usize; 2]> {
-        let [carrier, body] = self.ends(&self.joints[pin]);
-        (carrier > 0 && self.bodies[carrier].listed.is_none()).then_some([carrier, body])
+        let [parent, body] = self.ends(&self.joints[pin]);
+        (parent > 0 && self.bodies[parent].listed.is_none()).then_some([parent, body])
     }
     /// What is released where a joint is.
     pub fn part_of(&self, joint: usize) -> Part {

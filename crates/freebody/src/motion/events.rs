@@ -9,7 +9,7 @@ use super::system::{DynamicsError, Role, System};
 const NOISE: f64 = 4.0 * f64::EPSILON;
 /// An extremum touches zero when it is below this many times the size of its function,
 const TOUCH: f64 = 1e-12;
-/// or below this many tolerances of the way that its function has come since it was zero: the motion is told no nearer.
+/// or below this many tolerances of the way that its function has come since it was zero: the motion is known no nearer.
 const GRAZE: f64 = 30.0;
 /// The same of an event that acts: whether it does must not depend on more than the tolerance asked for.
 const GRAZE_OF_ACTION: f64 = 1.0;

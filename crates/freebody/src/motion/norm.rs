@@ -65,10 +65,10 @@ const FLOOR: f64 = 1e-6;
 const ROUND_OFF: f64 = 1e-15;
 /// How many times the size known at its start, or the physical one, the end of a step may count as.
 const GROWTH: f64 = 10.0;
-/// Parts of the system's own time for a first step where nothing tells its length, and where nothing moves.
-pub(super) const UNTOLD: f64 = 1e-6;
-/// Size or rate, over the physical sizes and time in units of the tolerance, below which it does not tell a first step.
-const TELLS_NOTHING: f64 = 1e-5;
+/// Parts of the system's own time for a first step where nothing gives its length, and where nothing moves.
+pub(super) const SMALL_STEP: f64 = 1e-6;
+/// Size or rate, over the physical sizes and time in units of the tolerance, below which it says nothing of a first step.
+const NEGLIGIBLE: f64 = 1e-5;
 /// Change in a first step, of the size and by the order: in the units of the tolerance, as in Hairer's code (HNW II.4).
 const FIRST_CHANGE: f64 = 0.01;
 /// The first step over the one that was tried, where nothing changes, and at most.
@@ -88,14 +88,14 @@ pub(super) fn first_step<E>(
 ) -> Result<f64, E> {
     let weights = norm.physical(from);
     let (d0, d1) = (measure(&from.y, &weights), measure(&from.dy, &weights) * norm.time);
-    let h0 = norm.time * if d0 < TELLS_NOTHING || d1 < TELLS_NOTHING { UNTOLD } else { FIRST_CHANGE * d0 / d1 };
+    let h0 = norm.time * if d0 < NEGLIGIBLE || d1 < NEGLIGIBLE { SMALL_STEP } else { FIRST_CHANGE * d0 / d1 };
     let y: Vec<f64> = from.y.iter().zip(&from.dy).map(|(y, dy)| y + sign * h0 * dy).collect();
     let mut dy = vec![0.0; y.len()];
     rate(from.t + sign * h0, &y, &mut dy)?;
     let bend: Vec<f64> = dy.iter().zip(&from.dy).map(|(b, a)| b - a).collect();
     let steepest = d1.max(measure(&bend, &weights) / h0 * norm.time * norm.time);
     let h1 = match steepest <= STEADY {
-        true => (h0 * SHORTER).max(UNTOLD * norm.time),
+        true => (h0 * SHORTER).max(SMALL_STEP * norm.time),
         false => norm.time * real::powf(FIRST_CHANGE / steepest, 1.0 / f64::from(estimate_order)),
     };
     Ok(sign * h1.min(LONGER * h0))

@@ -78,7 +78,7 @@ impl<'a> Probe<'a> {
         }
     }
 
-    /// Rate of switching function `i` at time `t`, whose values are told to a `noise`.
+    /// Rate of switching function `i` at time `t`, whose values are known to a `noise`.
     pub fn slope(&mut self, i: usize, t: f64, noise: f64) -> Result<f64, DynamicsError> {
         let (low, high) =
             if self.ahead() > 0.0 { (self.segment.t0, self.segment.t1) } else { (self.segment.t1, self.segment.t0) };

@@ -4,7 +4,7 @@ use super::chatter::Chatter;
 use super::dense::Segment;
 use super::events::{EventDetector, Kind};
 use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
-use super::norm::{first_step, Norm, UNTOLD};
+use super::norm::{first_step, Norm, SMALL_STEP};
 use super::outcome::{Outcome, Run};
 use super::step_control::StepController;
 use super::system::System;
@@ -153,7 +153,7 @@ impl<'a> Runner<'a> {
         let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
         // Where even the trial fails, the first steps are rejected until they fit.
         let most = self.system.system.horizon();
-        self.steps.restart(h.unwrap_or(sign * UNTOLD * self.norm.time).clamp(-most, most));
+        self.steps.restart(h.unwrap_or(sign * SMALL_STEP * self.norm.time).clamp(-most, most));
     }
 
     /// One accepted step, or the part of it up to an event.

@@ -147,7 +147,7 @@ impl SymbolicState<'_> {
             (Some(about), None) => self.turned_about(about, bodies),
             (None, Some(along)) => Ok(VirtualMotion::Force(self.along(along, bodies)?)),
             _ => Err(DynamicsError::WrongQuestion(
-                "an equation is told `about` a point or `along` a direction, one of them".into(),
+                "an equation is `about` a point or `along` a direction, one of them".into(),
             )),
         }
     }

@@ -50,7 +50,7 @@ impl SymbolicState<'_> {
         }))
     }
 
-    /// What loops, motions and closed limits ask, told of the coordinates.
+    /// What loops, motions and closed limits ask of the coordinates.
     pub(super) fn rows(&self) -> Value {
         Value::Array(self.closing().iter().map(|row| self.row(row)).collect())
     }

@@ -43,7 +43,7 @@ pub enum Along {
     Body(String),
 }
 
-/// What is told with an equation.
+/// What is said beside an equation.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(default)]
 pub struct Parts {
@@ -73,7 +73,7 @@ pub enum Query {
         about: Option<About>,
         /// The direction.
         along: Option<Along>,
-        /// What is told with it.
+        /// What is said beside it.
         #[serde(flatten)]
         parts: Parts,
     },
@@ -81,7 +81,7 @@ pub enum Query {
     Coordinate {
         /// Its name.
         name: String,
-        /// What is told with it.
+        /// What is said beside it.
         #[serde(flatten)]
         parts: Parts,
     },

@@ -302,7 +302,7 @@ fn the_start_tells_how_a_drum_is_wound() {
     assert!(way == WrapState::Wound && wound > 4.0 && gap.abs() < PI * 0.5, "{way:?} {wound} {gap}");
 }
 
-/// What is wrong with a string is told where it stands.
+/// What is wrong with a string is reported where it stands.
 #[test]
 fn a_string_that_cannot_be_is_refused() {
     let drum = |radius: f64, sense: i8, attached: Option<f64>, wound: Option<f64>| CableEnd::Drum {

@@ -233,9 +233,9 @@ fn a_bead_on_a_parabola() {
         let force = now.joints[0].force;
         near("normal force, x", force.x, m * a, 1e-13);
         near("normal force, y", force.y, m * (v * v + x * a + G), 1e-12);
-        let told = now.joints[0].in_joint_axes();
-        near("along the wire", told.x, 0.0, 1e-12);
-        near("to its left", told.y, m * (v * v + G) / (1.0 + x * x).sqrt(), 1e-12);
+        let force = now.joints[0].in_joint_axes();
+        near("along the wire", force.x, 0.0, 1e-12);
+        near("to its left", force.y, m * (v * v + G) / (1.0 + x * x).sqrt(), 1e-12);
     }
     let run = run(&compiled, &[1.5], &[0.0], 20.0, "dop853", Options { rtol: 1e-12, ..Options::default() });
     let ledger = run.ledger(&compiled.mechanism, &[5.0, 10.0, 20.0]).expect("inside the run");

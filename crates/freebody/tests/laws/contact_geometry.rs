@@ -1,5 +1,5 @@
 //! Touches: gaps and slides of a disk and a surface, held against velocities of material points, contact forces and
-//! distances that are told without pieces.
+//! distances found without pieces.
 
 use crate::model::*;
 use crate::scenes::*;
@@ -14,7 +14,7 @@ use freebody::scalar::{Dual, Jet};
 #[test]
 fn rates_are_of_the_material_points_and_gradients_are_contact_forces() {
     every_scene(|scene, there, _| {
-        let (m, touch, label) = (&scene.m, &scene.touch, &scene.told);
+        let (m, touch, label) = (&scene.m, &scene.touch, &scene.label);
         for feature in scene.pieces() {
             for _ in 0..2 {
                 let at = there.at(m);
@@ -133,14 +133,14 @@ fn jets_are_differences_along_the_motion() {
             let jets: [Jet; 2] = [touch.gap(m, &moving, feature), touch.slide(m, &moving, feature)];
             for (k, jet) in jets.iter().enumerate() {
                 let v = values.map(|v| v[k]);
-                assert!((jet.d0 - v[2]).abs() < 1e-13, "{}, {feature}", scene.told);
+                assert!((jet.d0 - v[2]).abs() < 1e-13, "{}, {feature}", scene.label);
                 if k == 1 && (v[4] - v[0]).abs() > 1.0 {
                     continue; // a direction that wraps
                 }
                 let rate = (8.0 * (v[3] - v[1]) - (v[4] - v[0])) / (12.0 * h);
                 let accel = (16.0 * (v[3] + v[1]) - (v[4] + v[0]) - 30.0 * v[2]) / (12.0 * h * h);
-                assert!((jet.d1 - rate).abs() < 1e-7, "{}, {feature}, {k}: {} {rate}", scene.told, jet.d1);
-                assert!((jet.d2 - accel).abs() < 1e-5, "{}, {feature}, {k}: {} {accel}", scene.told, jet.d2);
+                assert!((jet.d1 - rate).abs() < 1e-7, "{}, {feature}, {k}: {} {rate}", scene.label, jet.d1);
+                assert!((jet.d2 - accel).abs() < 1e-5, "{}, {feature}, {k}: {} {accel}", scene.label, jet.d2);
             }
         }
     });
@@ -207,7 +207,7 @@ fn gaps_are_distances() {
             let (far, over) = (distance(p, &corners, closed), heights(p, &corners, closed));
             let highest = over.iter().fold(f64::NEG_INFINITY, |m, x| m.max(*x));
             let (r, reach) = (scene.radius(there), scene.touch.separation_bound(&scene.m, &at));
-            assert!(reach < far - r + 1e-14 && (reach <= 0.0 || gap > 0.0 || highest < 0.0), "{}", scene.told);
+            assert!(reach < far - r + 1e-14 && (reach <= 0.0 || gap > 0.0 || highest < 0.0), "{}", scene.label);
             let label = match (r > 0.0, scene.word) {
                 (_, "bent") => continue,
                 (true, _) if highest >= 0.0 => far - r,
@@ -221,7 +221,7 @@ fn gaps_are_distances() {
                 }
                 _ => continue,
             };
-            assert!((gap - label).abs() < 1e-13, "{}: {gap} {label}", scene.told);
+            assert!((gap - label).abs() < 1e-13, "{}: {gap} {label}", scene.label);
         }
     });
 }
@@ -234,7 +234,7 @@ fn an_arc_is_its_points_and_ends_at_its_ends() {
     let mut changes = 0;
     every_scene(|scene, there, rng| {
         let Some((hub, radius, ends)) = scene.arc(there) else { return };
-        let (m, touch, label, r) = (&scene.m, &scene.touch, &scene.told, scene.radius(there));
+        let (m, touch, label, r) = (&scene.m, &scene.touch, &scene.label, scene.radius(there));
         let hollow = scene.word == "hollow arc";
         let out = if hollow { rng.within(0.3, 0.9) } else { rng.within(1.1, 2.0) };
         let mut last: Option<(usize, f64)> = None;
@@ -288,13 +288,13 @@ fn a_track_is_its_points() {
             let p = scene.place(there, touch.disk.centre);
             let far = way.iter().map(|w| (p - *w).norm()).fold(f64::INFINITY, f64::min);
             let (feature, gap) = (touch.feature(m, &at), touch.signed_gap(m, &at));
-            assert!((gap - (far - r)).abs() < 1e-5, "{}: {gap} {}", scene.told, far - r);
-            assert!(touch.can_close(feature) || i == 0 || i + 2 == way.len(), "{}", scene.told);
+            assert!((gap - (far - r)).abs() < 1e-5, "{}: {gap} {}", scene.label, far - r);
+            assert!(touch.can_close(feature) || i == 0 || i + 2 == way.len(), "{}", scene.label);
             let borders = touch.borders(m, &at, feature);
-            assert!(borders.iter().all(|b| b.value >= -1e-9), "{}, {feature}: {borders:?}", scene.told);
+            assert!(borders.iter().all(|b| b.value >= -1e-9), "{}, {feature}: {borders:?}", scene.label);
             for border in borders {
                 let back = touch.borders(m, &at, border.beyond).into_iter().find(|b| b.beyond == feature);
-                assert_eq!(back.map(|b| b.value), Some(-border.value), "{}: one border, two values", scene.told);
+                assert_eq!(back.map(|b| b.value), Some(-border.value), "{}: one border, two values", scene.label);
             }
             visits += 1;
         }
@@ -330,7 +330,7 @@ fn walked(scene: &Scene, there: &There, track: &Track) -> Vec<Vec2> {
 fn pieces_end_at_their_borders() {
     let mut changes = 0;
     every_scene(|scene, there, rng| {
-        let (m, touch, label) = (&scene.m, &scene.touch, &scene.told);
+        let (m, touch, label) = (&scene.m, &scene.touch, &scene.label);
         let Some((corners, closed)) = scene.corners(there) else { return };
         let mid = corners.iter().fold(vec2(0.0, 0.0), |sum, c| sum + *c) * (1.0 / corners.len() as f64);
         // Round the chain, at a distance at which it is seen from outside; an open one only where it can be met.
@@ -373,7 +373,7 @@ fn points_touch_chains_along_their_sides() {
                 let there = scene.with_disk_at(there, foot + free * height);
                 scene.touch.signed_gap(&scene.m, &there.at(&scene.m))
             };
-            assert!(gap(0.0).abs() < 1e-13 && (gap(1e-3) - 1e-3).abs() < 1e-13 && gap(-1e-3) < 0.0, "{}", scene.told);
+            assert!(gap(0.0).abs() < 1e-13 && (gap(1e-3) - 1e-3).abs() < 1e-13 && gap(-1e-3) < 0.0, "{}", scene.label);
         }
     });
 }

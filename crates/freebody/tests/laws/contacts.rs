@@ -372,7 +372,7 @@ fn polygons_that_meet_with_corners_touch_just_where_they_are() {
     assert!(met > 500, "{met}");
 }
 
-/// A block that slides between two walls may be pinched by any amount, and the pinch brakes it: that is told, of these
+/// A block that slides between two walls may be pinched by any amount, and the pinch brakes it: that is reported, of these
 /// walls and not of the floor on which another slides.
 #[test]
 fn how_hard_walls_pinch_what_slides_is_not_decided() {

@@ -99,7 +99,7 @@ fn derivatives_are_the_limits_of_differences() {
                     continue; // not determinate, here or nearby
                 }
                 let (off, asked) = ((limit - exact).abs(), AGREE * most + 10.0 * error + noise);
-                let label = format!("seed {seed}, {text}: {exact} for {limit} ± {error:e}; {}", bench.told());
+                let label = format!("seed {seed}, {text}: {exact} for {limit} ± {error:e}; {}", bench.label());
                 assert!(off <= asked, "{label}");
                 compared += usize::from(asked < 2.0 * AGREE * most);
             }

@@ -99,7 +99,7 @@ fn obstruct(thrown: &mut Thrown, now: &Workspace, rng: &mut Rng) -> Option<()> {
         let body = body_named(now.m, &a);
         let (angle, w) = (now.at().k.pose[body].turn.angle, now.at().k.twist[body].w);
         let gap = format!("{:?}*(angle({a}) - ({:?}))", -w.signum(), angle + w * soon);
-        let (name, stiffness, damping) = ("struck".into(), None, None);
+        let (name, stiffness, damping) = ("bumper".into(), None, None);
         thrown.model.0.stops.push(Stop { name, gap, restitution: e, stiffness, damping, engaged: true });
         return (w.abs() > 0.1).then_some(());
     }
@@ -114,7 +114,7 @@ fn obstruct(thrown: &mut Thrown, now: &Workspace, rng: &mut Rng) -> Option<()> {
         let going = span.dot(rate) / span.norm();
         let ends = [&p, &q].map(|point| CableEnd::Point(point.clone()));
         let length = Some(literal(span.norm() + going * soon));
-        let (name, over, stiffness, damping) = ("struck".into(), vec![], None, None);
+        let (name, over, stiffness, damping) = ("bumper".into(), vec![], None, None);
         let string = Cable { name, ends, over, length, restitution: e, stiffness, damping, engaged: true };
         thrown.model.0.strings.push(string);
         return (going > 0.1).then_some(());
@@ -126,7 +126,7 @@ fn obstruct(thrown: &mut Thrown, now: &Workspace, rng: &mut Rng) -> Option<()> {
     let (friction, nought) = (literal(*rng.of(&[0.0, 0.2, 0.6])), None);
     let of = [Surface::Point(p), Surface::Line(crate::model::place(&foot, angle))];
     thrown.model.0.contacts.push(Contact {
-        name: "struck".into(),
+        name: "bumper".into(),
         of,
         friction,
         static_friction: nought,
@@ -201,10 +201,10 @@ fn impulses(now: &Workspace, impact: &Impulses) -> Vec<Impulse> {
     for (drive, &impulse) in m.drives.iter().zip(&impact.drives) {
         along(&drive.of, impulse);
     }
-    for struck in &impact.contacts {
-        let group = m.groups.iter().find(|group| group.name == struck.name).expect("a group of the model");
+    for contact in &impact.contacts {
+        let group = m.groups.iter().find(|group| group.name == contact.name).expect("a group of the model");
         if let Gap::Gauge(gap) = &m.unilateral[group.constraints.start].gap {
-            along(gap, struck.normal);
+            along(gap, contact.normal);
         }
     }
     all
@@ -281,7 +281,7 @@ fn a_drive_that_strikes_has_an_impulse_and_does_work() {
         let mut striking = draw(seed);
         let run = run(&mut striking);
         let bench = &striking.bench;
-        let label = format!("seed {seed}, {}, {:?}", bench.told(), run.settings.impacts);
+        let label = format!("seed {seed}, {}, {:?}", bench.label(), run.settings.impacts);
         let mut now = bench.balance();
         for change in run.mode_changes.iter().filter(|change| change.impulses.is_some()) {
             impacts += 1;

@@ -34,7 +34,7 @@ fn every_diagram(mut visit: impl FnMut(&Value, &str)) {
         for _ in 0..5 {
             let state = bench.state(&mut workspace, &mut rng, 0.3).expect("a state");
             workspace.move_to(state.t, &state.q, &state.u);
-            visit(&free_bodies(&mut workspace).expect("a solution"), &bench.told());
+            visit(&free_bodies(&mut workspace).expect("a solution"), &bench.label());
         }
     }
 }
@@ -77,7 +77,7 @@ fn what_locks_hold_is_among_the_loads() {
         let mut workspace = bench.balance();
         let state = bench.state(&mut workspace, &mut Rng::new(seed), 0.3).expect("a state");
         workspace.move_to(state.t, &state.q, &state.u);
-        let label = format!("seed {seed}, {}", bench.told());
+        let label = format!("seed {seed}, {}", bench.label());
         let now = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
         for (word, route) in Route::ALL {
             let other = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));

@@ -268,7 +268,7 @@ fn a_distance_below_0_is_a_gauge_like_any_other() {
     let law = compiled.observable("r").expect("a coordinate");
     let m = &compiled.mechanism;
     let mut workspace = Workspace::new(m, &[]);
-    // The same state told from either side of the pole.
+    // The same state seen from either side of the pole.
     let mut solved = |r: f64, phi: f64, rate: f64| {
         workspace.move_to(0.0, &[r, phi, 0.7], &[rate, 0.5, -0.8]);
         let going = MotionView { at: workspace.at(), bodies: None, accelerations: None };

@@ -16,7 +16,7 @@ struct Drawn {
     numbers: Vec<f64>,
     wave: Wave,
     q: Vec<f64>,
-    told: String,
+    label: String,
 }
 
 impl Drawn {
@@ -57,7 +57,7 @@ fn every_joint(mut visit: impl FnMut(Drawn, &mut Rng)) {
             let mut rng = Rng::new(seed);
             let (numbers, wave) = (numbers_for(&card, &mut rng), Wave::thrown(&mut rng));
             let (q, label) = (coordinates_for(&card, &mut rng), format!("{} at seed {seed}", card.word));
-            visit(Drawn { kind, card: card.clone(), numbers, wave, q, told: label }, &mut rng);
+            visit(Drawn { kind, card: card.clone(), numbers, wave, q, label }, &mut rng);
         }
     }
 }
@@ -87,10 +87,10 @@ fn a_joint_closes_loops_or_counts_three() {
     every_joint(|joint, _| {
         let counts = joint.card.coordinates.len() + joint.card.rows.len();
         let (pose, rows) = (joint.kind.pose(&joint.of(), &joint.q), joint.residual([5.0, 1.0, 0.3]));
-        assert!(pose.is_some() || rows.is_some(), "{} does nothing", joint.told);
-        assert_eq!(pose.is_some(), counts == 3, "{}: {counts} coordinates and rows", joint.told);
+        assert!(pose.is_some() || rows.is_some(), "{} does nothing", joint.label);
+        assert_eq!(pose.is_some(), counts == 3, "{}: {counts} coordinates and rows", joint.label);
         if let Some(rows) = rows {
-            assert_eq!(rows.len(), joint.card.rows.len(), "{}", joint.told);
+            assert_eq!(rows.len(), joint.card.rows.len(), "{}", joint.label);
         }
     });
 }
@@ -101,7 +101,7 @@ fn residual_vanishes_on_the_pose() {
         let Some(rows) = joint.residual(parts(joint.pose(&joint.q))) else { return };
         for (i, &row) in rows.iter().enumerate() {
             let off = turns_off(row, joint.kind.period(&joint.of(), i));
-            assert!(off < ROUND_OFF, "{}: row {i} is {off:e}", joint.told);
+            assert!(off < ROUND_OFF, "{}: row {i} is {off:e}", joint.label);
         }
     });
 }
@@ -110,10 +110,10 @@ fn residual_vanishes_on_the_pose() {
 fn measure_undoes_the_pose() {
     every_tree_joint(|joint, _| {
         let Some(read) = joint.kind.measure(&joint.of(), &joint.pose(&joint.q)) else { return };
-        assert_eq!(read.len(), joint.q.len(), "{}", joint.told);
+        assert_eq!(read.len(), joint.q.len(), "{}", joint.label);
         for ((c, &read), &q) in joint.card.coordinates.iter().zip(read.iter()).zip(&joint.q) {
             let off = turns_off(read - q, if c.dimension == "rad" { TAU } else { 0.0 });
-            assert!(off < ROUND_OFF, "{}: {} reads {read}, is {q}", joint.told, c.name);
+            assert!(off < ROUND_OFF, "{}: {} reads {read}, is {q}", joint.label, c.name);
         }
     });
 }
@@ -124,8 +124,8 @@ fn a_pose_and_its_inverse_cancel() {
         let there = joint.pose(&joint.q);
         let (back, again) = (there.inverse(), there.inverse().inverse());
         let home = there.at() + freebody::plane::Turn::by(there.angle).apply(back.at());
-        assert!(home.norm() < ROUND_OFF && there.angle + back.angle == 0.0, "{}", joint.told);
-        assert!((again.at() - there.at()).norm() < ROUND_OFF && again.angle == there.angle, "{}", joint.told);
+        assert!(home.norm() < ROUND_OFF && there.angle + back.angle == 0.0, "{}", joint.label);
+        assert!((again.at() - there.at()).norm() < ROUND_OFF && again.angle == there.angle, "{}", joint.label);
     });
 }
 
@@ -143,7 +143,7 @@ fn duals_agree_with_central_differences() {
             let (later, back) = (moved(h), moved(-h));
             for i in 0..3 {
                 let difference = (later[i] - back[i]) / (2.0 * h);
-                assert!((difference - column[i]).abs() < close, "{}: column {k}", joint.told);
+                assert!((difference - column[i]).abs() < close, "{}: column {k}", joint.label);
             }
         }
     });
@@ -159,7 +159,7 @@ fn duals_agree_with_central_differences() {
             let (later, back) = (moved(h), moved(-h));
             for (i, gradient) in gradients.iter().enumerate() {
                 let difference = (later[i] - back[i]) / (2.0 * h);
-                assert!((difference - gradient[k]).abs() < close, "{}: row {i} by {k}", joint.told);
+                assert!((difference - gradient[k]).abs() < close, "{}: row {i} by {k}", joint.label);
             }
         }
     });
@@ -174,14 +174,14 @@ fn loads_are_reciprocal_to_the_freedom() {
         for row in &rows {
             for column in &columns {
                 let work: f64 = row.iter().zip(column).map(|(f, v)| f * v).sum();
-                assert!(work.abs() < ROUND_OFF, "{}: {work:e}", joint.told);
+                assert!(work.abs() < ROUND_OFF, "{}: {work:e}", joint.label);
             }
         }
         let all: Vec<[f64; 3]> = rows.iter().chain(&columns).copied().collect();
-        let [a, b, c] = all[..] else { panic!("{}: not three", joint.told) };
+        let [a, b, c] = all[..] else { panic!("{}: not three", joint.label) };
         let volume = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
             + a[2] * (b[0] * c[1] - b[1] * c[0]);
-        assert!(volume.abs() > 1e-3, "{}: rows and columns do not span the plane's motions", joint.told);
+        assert!(volume.abs() > 1e-3, "{}: rows and columns do not span the plane's motions", joint.label);
     });
 }
 
@@ -196,9 +196,9 @@ fn rows_turn_about_the_joints_point_as_their_cards_say() {
         let there = Relative { x: at[0], y: at[1], angle: at[2] };
         let arm = there.at() - joint.kind.contact(&joint.of(), &there);
         for (i, (row, [x, y, angle])) in joint.card.rows.iter().zip(gradients).enumerate() {
-            assert_eq!(row.load.couple, (x, y) == (0.0, 0.0), "{}: row {i}", joint.told);
+            assert_eq!(row.load.couple, (x, y) == (0.0, 0.0), "{}: row {i}", joint.label);
             let moment = (angle + arm.cross(freebody::plane::vec2(x, y))).abs();
-            assert!(row.turns() || moment < ROUND_OFF, "{}: row {i} turns by {moment:e}", joint.told);
+            assert!(row.turns() || moment < ROUND_OFF, "{}: row {i} turns by {moment:e}", joint.label);
             let most: &mut f64 = largest.entry((joint.card.word, i, row.turns())).or_default();
             *most = most.max(moment);
         }

@@ -28,4 +28,4 @@ mod rng;
 mod scenes;
 mod symbolic;
 mod tree_choice;
-mod two_tellings;
+mod two_definitions;

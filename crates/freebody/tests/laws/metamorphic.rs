@@ -85,7 +85,7 @@ fn a_moving_base_cannot_be_felt() {
         // Forces that read absolute rates, and joints to ground, would feel the motion; all here are between bodies.
         let home = solved(seed, HOME, &[], &s);
         let boosted = solved(seed, Base::Sliding(0.0), &[[0.7, 5.0]], &s);
-        let label = bench.told();
+        let label = bench.label();
         let joints = 3..3 * bench.compiled.mechanism.joints.len();
         let known = |now: &Instant| loads(now)[joints.clone()].to_vec();
         let (a, f) = (apart(&motion_of(&home), &motion_of(&boosted), 1.0), apart(&known(&home), &known(&boosted), 1.0));
@@ -127,9 +127,9 @@ fn a_power_of_two_in_the_masses_changes_no_bit_of_the_motion() {
         let one = solved(1.0);
         for factor in [2.0, 0.25] {
             let other = solved(factor);
-            assert_eq!(motion(&one), motion(&other), "seed {seed}, factor {factor}; {}", bench.told());
+            assert_eq!(motion(&one), motion(&other), "seed {seed}, factor {factor}; {}", bench.label());
             let label: Vec<f64> = loads(&one).iter().map(|x| x * factor).collect();
-            assert_eq!(label, loads(&other), "seed {seed}, factor {factor}; {}", bench.told());
+            assert_eq!(label, loads(&other), "seed {seed}, factor {factor}; {}", bench.label());
         }
     }
 }
@@ -189,7 +189,7 @@ fn the_world_in_a_mirror_is_as_good() {
         let thrown = ideal(seed).draw(seed, HOME);
         let bench = Bench::new(&thrown);
         let mut workspace = bench.balance();
-        let label = bench.told();
+        let label = bench.label();
         // The angle of a wheel is counted from the way of its line, which the mirror turns round.
         if bench.compiled.mechanism.joints.iter().any(|j| j.kind == Kind::Rolling && j.child.is_some()) {
             continue;

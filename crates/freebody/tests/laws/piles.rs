@@ -16,7 +16,7 @@ const RISE: f64 = 1e-9;
 const LEFT: f64 = 1e-6;
 
 /// What a run came to.
-struct Told {
+struct Outcome {
     seed: u64,
     bodies: usize,
     outcome: String,
@@ -33,9 +33,9 @@ struct Told {
     wall: f64,
 }
 
-impl Told {
+impl Outcome {
     fn line(&self) -> String {
-        let Told { seed, bodies, outcome, end, steps, changes, deepest, rise, left, wall, .. } = self;
+        let Outcome { seed, bodies, outcome, end, steps, changes, deepest, rise, left, wall, .. } = self;
         format!(
             "{seed:4} {bodies:3} {outcome:20} {end:6.3} {:6} {:5} {changes:6}  {:9.1e} {:14} {:9.1e} {left:9.1e} {wall:7.2}",
             steps[0], steps[1], deepest.0, deepest.2, rise.0
@@ -50,7 +50,7 @@ const HEAD: &str =
     "seed bodies outcome               end  steps  rej changes  clearance where               rise      left    wall";
 
 /// Throws a pile for some seconds.
-fn throw(seed: u64, until: f64, patience: f64) -> Told {
+fn throw(seed: u64, until: f64, patience: f64) -> Outcome {
     let pile = Pile::drawn(seed);
     let m = pile.mechanism();
     let [q, u] = pile.start();
@@ -69,7 +69,7 @@ fn throw(seed: u64, until: f64, patience: f64) -> Told {
     judge(seed, &pile, &run, wall)
 }
 
-fn judge(seed: u64, pile: &Pile, run: &Trajectory, wall: f64) -> Told {
+fn judge(seed: u64, pile: &Pile, run: &Trajectory, wall: f64) -> Outcome {
     let m = pile.mechanism();
     let ends = &run.steps;
     let mut times: Vec<f64> = ends.windows(2).flat_map(|s| [s[0], 0.5 * (s[0] + s[1])]).collect();
@@ -95,7 +95,7 @@ fn judge(seed: u64, pile: &Pile, run: &Trajectory, wall: f64) -> Told {
     let (outcome, sentence) = (run.outcome.name().to_string(), run.outcome.to_string());
     let steps = [run.counts[0], run.counts[1]];
     let (end, bodies, changes) = (ends[ends.len() - 1], pile.blocks.len(), run.mode_changes.len());
-    Told { seed, bodies, outcome, sentence, end, steps, changes, deepest, rise, left, wall }
+    Outcome { seed, bodies, outcome, sentence, end, steps, changes, deepest, rise, left, wall }
 }
 
 /// A few small piles, for half a second.
@@ -147,6 +147,6 @@ fn a_hundred_piles_come_to_rest() {
         walls[walls.len() / 2],
         walls[walls.len() - 1]
     );
-    assert!(all.iter().all(Told::is_sound), "penetration, or energy from nowhere");
+    assert!(all.iter().all(Outcome::is_sound), "penetration, or energy from nowhere");
     assert!(completed * 100 >= all.len() * 95, "{completed} of {} completed", all.len());
 }

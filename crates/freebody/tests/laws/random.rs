@@ -257,7 +257,7 @@ pub fn force_for(
     let mut fields = vec![];
     for field in &card.fields {
         let drawn = match (field.name, field.kind) {
-            // A spring is told between two points or along a gauge.
+            // A spring is given between two points or along a gauge.
             ("along", _) if has("between") => continue,
             ("between", _) if rng.chance(0.5) => {
                 fields.push(("along", text(gauge.clone())));
@@ -332,7 +332,7 @@ impl Bench {
     }
 
     /// The mechanism in a few words, for whoever reads a failure.
-    pub fn told(&self) -> String {
+    pub fn label(&self) -> String {
         let m = &self.compiled.mechanism;
         let n = m.bind(&self.p);
         let body = |b: usize| format!("{}({:.2} kg)", m.bodies[b].name, n.mass[b]);
@@ -359,8 +359,8 @@ impl Bench {
     /// None where no state was found.
     pub fn state(&self, workspace: &mut Workspace, rng: &mut Rng, reach: f64) -> Option<State> {
         let n = self.q.len();
-        let still = vec![0.0; n];
-        workspace.move_to(0.0, &self.q, &still);
+        let at_rest = vec![0.0; n];
+        workspace.move_to(0.0, &self.q, &at_rest);
         let mode = workspace.with_row_offsets();
         workspace.enter(&mode);
         for i in 0..200 {
@@ -368,7 +368,7 @@ impl Bench {
             let t = rng.within(0.0, 1.0);
             let mut q: Vec<f64> = self.q.iter().map(|q| q + rng.about(reach)).collect();
             let mut u = rng.vector(n, 2.0);
-            let closed = workspace.project_positions(&mode, t, &mut q, &still).is_ok()
+            let closed = workspace.project_positions(&mode, t, &mut q, &at_rest).is_ok()
                 && workspace.project_velocities(&mode, t, &q, &mut u).is_ok();
             // Loops may close far off, at a place where the mechanism is all but singular.
             let near = q.iter().zip(&self.q).all(|(a, b)| (a - b).abs() < 2.0) && u.iter().all(|u| u.abs() < 20.0);

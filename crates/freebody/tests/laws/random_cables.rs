@@ -184,7 +184,7 @@ pub fn every_string(mut visit: impl FnMut(&Scene, &[Three], Feature, &str, &mut 
         }
         feature.index = scene.see(&at, &[], |placed, cable| cable.feature(placed.m, &placed, feature));
         feature.phase[2] -= scene.gap(&at, feature);
-        // Where a pulley is about to be told with another turn, nothing is smooth.
+        // Where a pulley is about to be measured with another turn, nothing is smooth.
         let outline = scene.outline(&at, feature);
         let stretches = &outline.stretches;
         let mut arcs = stretches.iter().skip(1).take(stretches.len().saturating_sub(2)).filter_map(swept);

@@ -44,7 +44,7 @@ fn every_state(
         let mut workspace = bench.balance();
         let mut rng = Rng::new(seed);
         for i in 0..states {
-            let label = format!("seed {seed}, state {i}, {}", bench.told());
+            let label = format!("seed {seed}, state {i}, {}", bench.label());
             let state = bench.state(&mut workspace, &mut rng, REACH).unwrap_or_else(|| panic!("no state: {label}"));
             workspace.move_to(state.t, &state.q, &state.u);
             visit(&bench, &mut workspace, &state, &label, &mut rng);
@@ -81,8 +81,8 @@ fn a_solution_knows_nothing_of_those_before() {
             let mut fresh = bench.balance();
             fresh.place(&mode, state.t, &state.q, &state.u);
             let (now, first) = (workspace.instant(*route), fresh.instant(*route));
-            let told = |found: &Result<Instant, _>| format!("{found:?}");
-            assert_eq!(told(&now), told(&first), "{word}, {label}");
+            let text = |found: &Result<Instant, _>| format!("{found:?}");
+            assert_eq!(text(&now), text(&first), "{word}, {label}");
         }
     });
 }
@@ -114,7 +114,7 @@ fn every_joint_holds_at_the_pose_thrown() {
         for body in bench.compiled.mechanism.listed_bodies() {
             let name = &bench.compiled.mechanism.bodies[body].name;
             let off = apart(&workspace.frame(body), &thrown.pose[name], 1.0);
-            assert!(off < 1e-13, "seed {seed}: {name} is {off:e} off; {}", bench.told());
+            assert!(off < 1e-13, "seed {seed}: {name} is {off:e} off; {}", bench.label());
         }
     }
 }
@@ -213,7 +213,7 @@ fn what_is_not_in_place_does_nothing() {
         for workspace in [&mut with, &mut without] {
             workspace.move_to(state.t, &state.q, &state.u);
         }
-        let label = format!("seed {seed}, {}", whole.told());
+        let label = format!("seed {seed}, {}", whole.label());
         let [a, b] = [&mut with, &mut without]
             .map(|workspace| workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}")));
         assert!(apart(&motion(&a), &motion(&b), 1.0) < AGREE, "{label}");
@@ -299,7 +299,7 @@ fn accelerations_are_reciprocal() {
                     "seed {seed}, {} and {}: {a} {b}; {}",
                     names[i],
                     names[j],
-                    bench.told()
+                    bench.label()
                 );
             }
         }
@@ -331,7 +331,7 @@ fn inverse_dynamics_undoes_forward_dynamics() {
         let mut workspace = driven.balance();
         workspace.move_to(state.t, &state.q, &state.u);
         let inverse = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("seed {seed}: {e:?}"));
-        let label = format!("seed {seed}, {name}, {}", driven.told());
+        let label = format!("seed {seed}, {name}, {}", driven.label());
         let push = driven.compiled.mechanism.drives.iter().position(|d| d.name == "push").expect("the motion");
         let mut others = loads(&inverse);
         others.remove(3 * inverse.joints.len() + push);

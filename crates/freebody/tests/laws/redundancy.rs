@@ -56,7 +56,7 @@ fn a_planted_link_is_labelled_with_the_hinge_that_it_stresses() {
         let freedom = workspace.freedom();
         let mut workspace = bound.balance();
         workspace.move_to(s.t, &s.q, &s.u);
-        let label = format!("seed {seed}: planted on {} of {a} and {b}; {}", hinge.name, bound.told());
+        let label = format!("seed {seed}: planted on {} of {a} and {b}; {}", hinge.name, bound.label());
         for (word, route) in Route::ALL {
             let after = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));
             let off = apart(&motion(&before), &motion(&after), 1.0);

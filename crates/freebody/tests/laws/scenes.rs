@@ -18,7 +18,7 @@ pub struct Scene {
     pub m: Mechanism,
     pub touch: ContactPair,
     pub word: &'static str,
-    pub told: String,
+    pub label: String,
 }
 
 /// Bodies wherever they are, and their motion.
@@ -71,7 +71,7 @@ impl Scene {
                 Profile::Chain(Chain { corners: sites, closed: word == "polygon", beyond: [None; 2] })
             }
         };
-        Scene { m, touch: ContactPair { disk: Disk { centre, radius, beside: None }, against }, word, told: label }
+        Scene { m, touch: ContactPair { disk: Disk { centre, radius, beside: None }, against }, word, label }
     }
 
     /// Bodies somewhere, in any motion, the disk near the surface or anywhere; a particle does not turn.

@@ -145,9 +145,9 @@ fn equations_told_at_one_state_hold_at_another() {
             assert!((x - known).abs() <= ROUND_OFF * size.max(1.0), "seed {seed}: {what} energy {x} for {known}");
         }
         for (what, residual) in equations(&answers["answers"]) {
-            assert!(!residual.to_string().contains("null"), "seed {seed}, {what} is undefined: {}", bench.told());
+            assert!(!residual.to_string().contains("null"), "seed {seed}, {what} is undefined: {}", bench.label());
             let (x, size) = value(residual, &numbers);
-            assert!(x.abs() <= ROUND_OFF * size.max(1.0), "seed {seed}, {what}: {x} of {size}, {}", bench.told());
+            assert!(x.abs() <= ROUND_OFF * size.max(1.0), "seed {seed}, {what}: {x} of {size}, {}", bench.label());
             label += 1;
         }
     }

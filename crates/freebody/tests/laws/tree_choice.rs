@@ -66,7 +66,7 @@ fn the_tree_does_not_matter() {
         let (one, other) = (Bench::new(&thrown), Bench::new(&renamed));
         let [m, n] = [&one.compiled.mechanism, &other.compiled.mechanism];
         let cut = |m: &Mechanism| m.closures.iter().map(|&j| m.joints[j].name.clone()).collect::<Vec<_>>();
-        let label = format!("seed {seed}: cut at {:?} and {:?}; {}", cut(m), cut(n), one.told());
+        let label = format!("seed {seed}: cut at {:?} and {:?}; {}", cut(m), cut(n), one.label());
         let mut first = one.balance();
         first.move_to(0.0, &one.q, &vec![0.0; one.q.len()]);
         let mode = first.with_row_offsets();

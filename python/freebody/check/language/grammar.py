@@ -276,7 +276,7 @@ class Line:
         """A derivative by time, written out where it can be."""
         lasting = any(isinstance(n, Partial) for n in walk(of))
         for _ in range(count):
-            of = Rate(of) if lasting else rate_of(of, self.names.still)
+            of = Rate(of) if lasting else rate_of(of, self.names.constants)
         return replace(of, span=self.span(token))
 
     def partial(self) -> Node:

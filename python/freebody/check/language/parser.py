@@ -30,14 +30,14 @@ from .statements import Assignment, Equation, Partial, Program, Rate, written_ou
 from .tokens import Names, Token, tokens
 
 
-def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units: bool = False) -> Program:
-    """The lines of a statement. ``names`` are the symbols that are known, of which those in ``still`` do not change with time;
+def parse(text: str, names: Iterable[str] = (), constants: Iterable[str] = (), units: bool = False) -> Program:
+    """The lines of a statement. ``names`` are the symbols that are known, of which those in ``constants`` do not change with time;
     unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
     own = tuple(names)
-    known = Names(own, frozenset(still), units)
+    known = Names(own, frozenset(constants), units)
     try:
         known = replace(known, known=(*own, *_assigned(tokens(text, known), known)))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
@@ -52,9 +52,9 @@ def parse(text: str, names: Iterable[str] = (), still: Iterable[str] = (), units
     return program
 
 
-def parse_expression(text: str, names: Iterable[str] = (), still: Iterable[str] = ()) -> Node:
+def parse_expression(text: str, names: Iterable[str] = (), constants: Iterable[str] = ()) -> Node:
     """An expression without a sign of relation. Raises ``StatementError``."""
-    known = Names(tuple(names), frozenset(still))
+    known = Names(tuple(names), frozenset(constants))
     try:
         line = Line([t for t in tokens(text, known) if t.kind != "line"], known, text)
         found = line.sum()
@@ -116,7 +116,7 @@ def _written_out(lines: list[Assignment | Equation], names: Names) -> list[Assig
         new = partial(given[found.of], found.by)
         lines = [exchange(line, found, new) for line in lines]
     while (rates := [n for line in lines for n in walk(line) if isinstance(n, Rate)]) != []:
-        lines = [exchange(line, rates[-1], rate(substitute(rates[-1].of, given), names.still)) for line in lines]
+        lines = [exchange(line, rates[-1], rate(substitute(rates[-1].of, given), names.constants)) for line in lines]
     return lines
 
 
@@ -133,7 +133,7 @@ def _rates(lines: Sequence[Assignment | Equation], names: Names) -> list[Assignm
         if below not in given:
             asked += [symbol, below]
             continue
-        given[symbol] = Assignment(symbol, rate(given[below].expression, names.still), span=given[below].span)
+        given[symbol] = Assignment(symbol, rate(given[below].expression, names.constants), span=given[below].span)
         out.append(given[symbol])
         asked += [n for n in walk(given[symbol].expression) if isinstance(n, Sym)]
     return out

@@ -48,7 +48,7 @@ class Names:
     """The symbols that are known, by which rows of characters are read: ``mg`` is m·g where m and g are known."""
 
     known: tuple[str, ...] = ()
-    still: frozenset[str] = frozenset()
+    constants: frozenset[str] = frozenset()
     """Those that do not change with time."""
     units: bool = False
     """Whether what may be a unit behind a number is one, known symbol or not."""
@@ -76,7 +76,7 @@ class Names:
             return known[spelling[: ends[0]]], len(spelling) - ends[0]
         short = _SHORT.fullmatch(spelling) if "d" not in known else None
         name = known.get(short["name"]) if short else None
-        if short is None or name is None or name == "t" or name in self.still:
+        if short is None or name is None or name == "t" or name in self.constants:
             return None
         return name, len(short["before"] or short["after"])
 

@@ -26,7 +26,7 @@ def _block(made: Block, nomenclature: Nomenclature) -> dict[str, Any]:
     """The kind of the block and its fields; every expression is ``{"tree": …, "text": …, "latex": …}``, a picture what it shows."""
     return (
         {"kind": type(made).__name__.lower()}
-        | {field.name: _value(getattr(made, field.name), nomenclature) for field in fields(made) if field.name != "picture"}
+        | {field.name: _value(getattr(made, field.name), nomenclature) for field in fields(made) if field.name != "drawing"}
         | ({"shows": made.picture.description} if isinstance(made, Figure) else {})
     )
 

@@ -1,4 +1,4 @@
-"""Every balance equation that could be of use, each told by the unknowns that stay in it; and the fewest unknowns that as many of
+"""Every balance equation that could be of use, each named by the unknowns that stay in it; and the fewest unknowns that as many of
 them hold among themselves: exact, by deepening the number of equations."""
 
 from __future__ import annotations

@@ -148,8 +148,8 @@ def _system(free: FreeBodies, unknowns: Sequence[Unknown], origin: Array, length
             loads[load.follows[0]] += load.follows[1] * loads[i]
     open_to = [u.coordinate for u in unknowns if u.coordinate]
     found = [(*body.a, body.alpha) for body in free.bodies.values()]
-    by_free, drift = ([], found) if known_motion else _motions(free, open_to)
-    right = np.array([free.bodies[name].effective(about, drift[i]) for i, name in enumerate(names)])
+    by_free, bias = ([], found) if known_motion else _motions(free, open_to)
+    right = np.array([free.bodies[name].effective(about, bias[i]) for i, name in enumerate(names)])
     right -= sum((loads[i] for i, load in enumerate(free.loads) if not load.unknown), np.zeros_like(right))
     columns = [loads[u.load] for u in unknowns if u.load is not None]
     columns += [-np.array([free.bodies[name].effective(about, row[i]) for i, name in enumerate(names)]) for row in by_free]
@@ -163,15 +163,15 @@ def _motions(free: FreeBodies, open_to: Sequence[str]) -> tuple[Array, Array]:
     by = np.array([[body.by_accelerations[name] for body in free.bodies.values()] for name in names])
     by = by.reshape(len(names), len(free.bodies), 3)
     index = {name: i for i, name in enumerate(names)}
-    drift = np.array([body.drift for body in free.bodies.values()])
+    bias = np.array([body.bias_acceleration for body in free.bodies.values()])
     own = by[[index[name] for name in open_to]]
     if not rest:
-        return own, drift
+        return own, bias
     table = np.array([[row.coefficients[name] for name in (*rest, *open_to)] for row in free.rows])
     solve = np.linalg.pinv(table[:, : len(rest)], rcond=DEPENDENT)
     carried = by[[index[name] for name in rest]]
-    drift = drift + np.einsum("r,rbk->bk", solve @ np.array([row.right for row in free.rows]), carried)
-    return own - np.einsum("rz,rbk->zbk", solve @ table[:, len(rest) :], carried), drift
+    bias = bias + np.einsum("r,rbk->bk", solve @ np.array([row.right for row in free.rows]), carried)
+    return own - np.einsum("rz,rbk->zbk", solve @ table[:, len(rest) :], carried), bias
 
 
 def groups(problem: Problem, known: bool = False) -> tuple[list[Group], bool]:

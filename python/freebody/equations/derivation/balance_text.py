@@ -21,7 +21,7 @@ from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Add, Sym, Tree, is_negative, is_zero, negative, symbols
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
-"""Points that bodies have without being told; the names of others are better known to a person."""
+"""Points that every body has; the names of others are better known to a person."""
 _SAME = 1e-9
 """Distance over the size of the mechanism below which two points are one."""
 

@@ -132,7 +132,7 @@ def _holds(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -
 
 
 def _written(subject: SymbolicState, found: ConservedMomentum, balance: Balance) -> Momentum:
-    """The momentum; of a direction that is told by a load of another size than 1, over that size."""
+    """The momentum; of a direction that is given by a load of another size than 1, over that size."""
     if balance.turns:
         return Momentum(found, balance.momentum, balance.place.xy)
     x, y = balance.place.xy

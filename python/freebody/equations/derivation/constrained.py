@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from freebody.document.blocks import Block, Equation, Figure, Heading, Matrices, Matrix, Paragraph, Written, listed
+from freebody.document.drawings import ConfigurationDrawing
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.form import Form, Printed, System
 from freebody.solve.symbolic_state import Row, SymbolicState
@@ -37,8 +38,6 @@ _STARTS = {"place_x": "x", "place_y": "y", "angle": "phi", "x": "x", "y": "y", "
 
 def constrained(subject: SymbolicState) -> tuple[Form, Nomenclature]:
     """The form of a subject, and its symbols: the places of the bodies are the coordinates here."""
-    from freebody.views.diagram.configuration import Configuration
-
     [stated] = subject.ask([{"ask": "constraints"}])
     names, rows = stated["coordinates"], list(map(Row.read, stated["rows"]))
     equations = []
@@ -51,7 +50,7 @@ def constrained(subject: SymbolicState) -> tuple[Form, Nomenclature]:
         Heading("Coordinates"),
         Paragraph(_INTRODUCTION.format(len(names), _ALONG_CURVES if {*names} & {*subject.nomenclature} else "")),
     ]
-    made.append(Figure(Configuration(subject.source, subject.state, each_body=True), _CAPTION, "sketch"))
+    made.append(Figure(ConfigurationDrawing(subject.source, subject.state, each_body=True), _CAPTION, "sketch"))
     made += loop_closure.section(rows, names, everywhere=True) if rows else []
     made.append(Heading("Balance equations"))
     made += [Equation(e.left, e.right, e.title, str(i)) for i, e in enumerate(equations, 1)]

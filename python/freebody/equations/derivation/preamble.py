@@ -8,6 +8,7 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
+from freebody.document.drawings import ConfigurationDrawing
 from freebody.equations.derivation.directions import Directions, Link
 from freebody.equations.derivation.loop_closure import holding
 from freebody.equations.derivation.sentences import clause, joined
@@ -23,8 +24,6 @@ _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a l
 
 def configuration(subject: SymbolicState) -> list[Block]:
     """The coordinates, what each measures, and what holds for a while only and does not show in the equations."""
-    from freebody.views.diagram.configuration import Configuration
-
     made: list[Block] = [Heading("Configuration")]
     if not subject.coordinates:
         return [*made, Paragraph("The mechanism cannot move: there are no coordinates.")]
@@ -39,7 +38,7 @@ def configuration(subject: SymbolicState) -> list[Block]:
         for c in subject.coordinates
     ]
     made += [Paragraph(said), Table(("coordinate", "meaning", "unit"), rows)]
-    made.append(Figure(Configuration(subject.source, subject.state), _CAPTION, "sketch"))
+    made.append(Figure(ConfigurationDrawing(subject.source, subject.state), _CAPTION, "sketch"))
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
     if cases := [force["name"] for force in subject.source.metadata["forces"] if force["cases"] and force["name"] in acting]:
         made.append(Paragraph(f"The law of {joined(cases)} has cases: the equations hold for the case at this state."))
@@ -93,7 +92,7 @@ def kinematics(subject: SymbolicState) -> list[Block]:
 
 
 def directions(subject: SymbolicState, arrows: Sequence[Arrow] = ()) -> Directions:
-    """The unit directions in which some vectors are told, or the motions of all bodies."""
+    """The unit directions in which some vectors are written, or the motions of all bodies."""
     links = []  # every link of the tree, from its first end to its second
     for joint in subject.source.metadata["joints"]:
         load = next((load for load in subject.free.loads if load.kind == "joint" and load.name == joint["name"]), None)

@@ -21,6 +21,7 @@ from freebody.document.blocks import (
     listed,
 )
 from freebody.document.document import Document
+from freebody.document.drawings import ImpulseDrawing
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, dropped
 from freebody.equations.derivation.sentences import joined
@@ -28,7 +29,7 @@ from freebody.equations.solve import Singular, TooLarge, Unconfirmed
 from freebody.equations.topics.common import Asked, NotHere, document
 from freebody.equations.topics.impact_equations import Impact, Rows, after
 from freebody.equations.topics.impulse_momentum import jumps
-from freebody.impact.applied_impulse import strike as struck
+from freebody.impact.applied_impulse import strike
 from freebody.impact.impacts import NoImpact
 from freebody.solve.symbols import load_words
 from freebody.symbolic.presentation import presented
@@ -58,40 +59,38 @@ def impact(
     applied, its ``direction``, an angle from the x axis of the ``frame``, ``fixed`` or ``body``, and the ``impulse`` in N·s, for
     the numbers. Raises ``NotHere`` where there is no impact."""
     how = {"direction": direction, "impulse": impulse, "frame": frame}
-    strike = {name: value for name, value in how.items() if value is not None}
-    if strike and point is None:
-        raise ValueError(f"{', '.join(strike)}: of what strikes, so say the point that is struck, point=rod.end")
+    chosen = {name: value for name, value in how.items() if value is not None}
+    if chosen and point is None:
+        raise ValueError(f"{', '.join(chosen)}: of an applied impulse, so say its point, point=rod.end")
     mechanism, state = asked.mechanism, asked.state
     try:
-        blow = mechanism.blow(int(number), of=of, at=at) if point is None else struck(mechanism, state, point, **strike)
+        acted = mechanism.blow(int(number), of=of, at=at) if point is None else strike(mechanism, state, point, **chosen)
     except NoImpact as error:
         raise NotHere(str(error)) from None
-    found, title = Impact.of(blow), f"struck at {point}"
+    found, title = Impact.of(acted), f"impulse at {point}"
     if point is None:
-        title = f"impact at {joined(list(blow.change.of))}" if blow.change.of else "impact of the parts that engage"
+        title = f"impact at {joined(list(acted.change.of))}" if acted.change.of else "impact of the parts that engage"
     made = [*_what(found), *_equations(found), *_restitution(found), *_answers(found), *_numbers(found)]
     return document(found.subject, title, made, list(found.nomenclature.values()))
 
 
 def _what(found: Impact) -> list[Block]:
-    from freebody.views.diagram.impulses import impulse_diagram
-
     said = "During the short impact the configuration does not change, and the velocities jump. Impulses are the integrals of forces over it."
-    if found.subject.blow.given:
+    if found.subject.impact.given:
         said += " Before it everything is at rest."
         said += "" if found.subject.source.metadata["limits"] else " If the mechanism moved, the jumps would add to its rates."
     made: list[Block] = [Heading("Impulses on each body"), Paragraph(said)]
     for body in found.subject.free.bodies:
-        loads = [load for load in found.subject.blow.acting if any(part.body == body for part in load.on)]
+        loads = [load for load in found.subject.impact.acting if any(part.body == body for part in load.on)]
         # A pair of equal pushes or pulls is described as that on the body, what has a sign as it is counted.
         words = {x: load_words(x, [body] if x.kind in ("contact", "string") else ()).removeprefix("the ") for x in loads}
-        words |= {x: "applied impulse" for x in loads if x.name in found.subject.blow.given}
+        words |= {x: "applied impulse" for x in loads if x.name in found.subject.impact.given}
         items: list[Words] = [
-            [found.symbol(x), f", {'' if x.name in found.subject.blow.given else 'of '}the {of}"] for x, of in words.items()
+            [found.symbol(x), f", {'' if x.name in found.subject.impact.given else 'of '}the {of}"] for x, of in words.items()
         ]
         made += [Paragraph(f"On {body}:"), Bullets(items or ["no impulse"])]
-    made.append(Figure(impulse_diagram(found.subject.blow), "Impulses, and the jumps of momentum.", "impulses"))
-    missing = found.subject.blow.absent()
+    made.append(Figure(ImpulseDrawing(found.subject.impact), "Impulses, and the jumps of momentum.", "impulses"))
+    missing = found.subject.impact.absent()
     return [*made, Paragraph("No impulse comes from:"), Bullets(missing)] if missing else made
 
 
@@ -104,7 +103,7 @@ def _equations(found: Impact) -> list[Block]:
         )
         made.append(Paragraph(constant))
         made += [Equation(found.after(b.momentum), b.momentum, _title(title)) for title, b in free]
-    before = ", everything was at rest before" if found.subject.blow.given else " − momentum before"
+    before = ", everything was at rest before" if found.subject.impact.given else " − momentum before"
     made.append(Paragraph(f"With impulses, one equation for each coordinate, impulse = momentum after{before}:"))
     stated = found.of_coordinates()
     made += [_with_impulses(found, each) for each in stated]
@@ -147,7 +146,7 @@ def _restitution(found: Impact) -> list[Block]:
         back = f"{each.name} does not rebound" if each.name in found.restitution else f"Constraint {each.name}"
         made.append(Equation(left, right, back if is_zero(right) else f"{each.name} rebounds"))
     made += _friction(found)
-    return [Heading("Constraints" if found.subject.blow.given else "Restitution and constraints"), *made] if made else []
+    return [Heading("Constraints" if found.subject.impact.given else "Restitution and constraints"), *made] if made else []
 
 
 def _friction(found: Impact) -> list[Block]:
@@ -174,7 +173,7 @@ def _answers(found: Impact) -> list[Block]:
         return [*made, Paragraph(f"No more is given symbolically: {error}."), *_matrix(found)]
     except Unconfirmed as error:
         return [*made, Paragraph(f"No more is given symbolically: {error}.")]
-    rest = bool(found.subject.blow.given)  # then no rate before it stands anywhere
+    rest = bool(found.subject.impact.given)  # then no rate before it stands anywhere
     there = [x for x, tree in found.zeros.items() if is_zero(tree) and not (rest and x.dots)]
     said: list[str | Side] = [piece for x in there for piece in (x, " = ")] + ["0"] * bool(there)
     for x, tree in found.zeros.items():
@@ -182,9 +181,9 @@ def _answers(found: Impact) -> list[Block]:
     made += [Paragraph(["At this impact ", *said, "."])] if said else []
     made += equations(solved.known.items(), "From the constraints before the impact, the rates then")
     made += equations(solved.names.items(), "With")
-    own = {x: tree for x, tree in solved.told.items() if x not in solved.joints}
+    own = {x: tree for x, tree in solved.solution.items() if x not in solved.joints}
     made += equations(own.items(), "So" if made[1:] else "") + equations(solved.joints.items(), "and for the joints")
-    return made + [Paragraph(f"The impulses of joints are not given: {solved.untold}.")] * bool(solved.untold)
+    return made + [Paragraph(f"The impulses of joints are not given: {solved.joints_missing}.")] * bool(solved.joints_missing)
 
 
 def _matrix(found: Impact) -> list[Block]:
@@ -199,7 +198,7 @@ def _matrix(found: Impact) -> list[Block]:
 
 def _numbers(found: Impact) -> list[Block]:
     change = found.change
-    given = [Sym(symbol) for symbol in found.subject.blow.given.values()]
+    given = [Sym(symbol) for symbol in found.subject.impact.given.values()]
     small = _ROUND_OFF * max(map(abs, (*change.before.u.values(), *change.after.u.values())), default=0.0)
     before, now = ({name: u if abs(u) > small else 0.0 for name, u in each.u.items()} for each in (change.before, change.after))
     rows: list[Words] = [[Sym(name, 1), f": {before[name]:.6g} before, {u:.6g} after"] for name, u in now.items()]

@@ -80,8 +80,8 @@ class Impact:
 
     @property
     def change(self) -> Change:
-        """What the run tells of it."""
-        return self.subject.blow.change
+        """What the run says of it."""
+        return self.subject.impact.change
 
     @property
     def restitution(self) -> Mapping[str, float]:
@@ -99,7 +99,7 @@ class Impact:
 
     def symbol(self, load: Load) -> Sym:
         """The symbol of an impulse."""
-        return Sym(self.subject.blow.given.get(load.name) or impulse(load))
+        return Sym(self.subject.impact.given.get(load.name) or impulse(load))
 
     @cached_property
     def impulses(self) -> dict[Sym, Sym]:
@@ -109,12 +109,12 @@ class Impact:
     @property
     def forces(self) -> list[Load]:
         """Unknown loads, which may grow beyond all bounds."""
-        return [load for load in self.subject.blow.acting if load.unknown and not load.follows]
+        return [load for load in self.subject.impact.acting if load.unknown and not load.follows]
 
     @property
     def slides(self) -> list[Load]:
         """Friction of what slides throughout the impact."""
-        return [load for load in self.subject.blow.acting if load.follows]
+        return [load for load in self.subject.impact.acting if load.follows]
 
     def law(self, load: Load) -> Tree:
         """The impulse of friction that slides, by that of the normal force: what it gives along its own direction."""
@@ -149,13 +149,13 @@ class Impact:
 
     def jump(self, balance: Balance) -> Tree:
         """Momentum after less momentum before; what is struck from outside stood still."""
-        if self.subject.blow.given:
+        if self.subject.impact.given:
             return self.after(balance.momentum)
         return add(self.after(balance.momentum), negative(balance.momentum))
 
     def acting(self, balance: Balance) -> Tree:
         """What all impulses give to a balance."""
-        happened = self.subject.blow
+        happened = self.subject.impact
         parts = [c.tree for c in balance.contributions if not c.absent and happened.grows(happened.free.loads[c.load])]
         return put(add(*parts), self.impulses)
 
@@ -176,7 +176,7 @@ class Impact:
             return []
         balances = self.subject.balances([question for question in asked if question])
         values = self.values | dict.fromkeys(self.impulses, 1.0)  # in numbers: symbols may not see what touches
-        grow = [self.subject.blow.grows(load) for load in self.subject.free.loads]
+        grow = [self.subject.impact.grows(load) for load in self.subject.free.loads]
         parts = [c.tree for balance in balances for c in balance.contributions if not c.internal and grow[c.load]]
         if any(abs(float(evaluate(part, values, self.subject.tables))) >= _NOTHING * self.subject.free.extent for part in parts):
             return []
@@ -212,8 +212,8 @@ class Impact:
         """The symbols of the model, of impulses and of rates after the impact."""
         known, written = self.subject.nomenclature, self.subject.impulses
         made = [SymbolEntry(after(n), "coordinate", known[n].unit, f"{n}, rate after the impact") for n in self.subject.names]
-        for load in self.subject.blow.acting:
-            if load.name in self.subject.blow.given:
+        for load in self.subject.impact.acting:
+            if load.name in self.subject.impact.given:
                 made.append(SymbolEntry(self.symbol(load).name, "parameter", "N*s", "the applied impulse"))
             else:
                 words = f"impulse of the {load_words(load).removeprefix('the ')}"
@@ -252,7 +252,7 @@ class Impact:
     def agrees(self, solution: Mapping[Sym, Tree]) -> bool:
         """Whether rates after the impact are those that happened, and impulses those that the jumps of momenta take."""
         sizes = {x: size for x, size in self.sizes().items() if x in solution and not np.isnan(size)}
-        usual = np.nanmax([abs(load.value) for load in self.subject.blow.impulses.loads], initial=0.0)
+        usual = np.nanmax([abs(load.value) for load in self.subject.impact.impulses.loads], initial=0.0)
         pairs = [(x, u, self._usual_rate) for x, u in self.rates_after.items()] + [(x, size, usual) for x, size in sizes.items()]
         found = {x: float(evaluate(solution[x], self.values, self.subject.tables)) for x, *_ in pairs}
         return all(abs(found[x] - true) <= 10 * AGREES * most for x, true, most in pairs)
@@ -277,7 +277,7 @@ class Impact:
 
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""
-        happened = self.subject.blow
+        happened = self.subject.impact
         return {self.symbol(load): load.value for load in happened.impulses.loads if load.name not in happened.given}
 
 

@@ -43,7 +43,7 @@ _DEPENDS = 1e-9
 _READABLE = 90
 """Signs that an answer may have for the sake of holding no impulse."""
 _BRIEF = 40
-"""Signs of a rate after an impact above which it may be told by another."""
+"""Signs of a rate after an impact above which it may be written by another."""
 _HELPS = 12
 """Operations of a rate by others, above which it is no help."""
 _MOST_TOGETHER = 6
@@ -59,33 +59,33 @@ _Sides = tuple[Tree, Tree]
 class Jumps:
     """``known``: rates before an impact that follow from others by what held then; ``names``: what is long, by symbols; then the
     ``impulses`` of what acts, the ``rates`` after the impact, and the impulses of ``joints`` that the balances of the coordinates
-    do not have. Each may hold the symbols of others, see ``told``."""
+    do not have. Each may hold the symbols of others, see ``solution``."""
 
     known: Solution
     names: Solution
     impulses: Solution
     rates: Solution
     joints: Solution
-    untold: str = ""
-    """Why the impulses of joints are not told, where they are not."""
+    joints_missing: str = ""
+    """Why the impulses of joints are not given, where they are not."""
 
     def spelt(self) -> Solution:
         """Rates after and impulses by what is given alone."""
         made: dict[Sym, Tree] = {}
-        for x, tree in (*self.names.items(), *self.told.items()):
+        for x, tree in (*self.names.items(), *self.solution.items()):
             made[x] = replace(tree, made)
-        return {x: made[x] for x in self.told}
+        return {x: made[x] for x in self.solution}
 
     @property
-    def told(self) -> Solution:
-        """All that is told, each by those before it: rates first where they hold no impulse."""
+    def solution(self) -> Solution:
+        """All that is found, each by those before it: rates first where they hold no impulse."""
         alone = not any(symbols(tree) & self.impulses.keys() for tree in self.rates.values())
         first, then = (self.rates, self.impulses) if alone else (self.impulses, self.rates)
         return {**first, **then, **self.joints}
 
 
 def jumps(found: Impact) -> Jumps:
-    """What an impact leaves. Raises ``TooLarge``, ``Singular``; ``Unconfirmed`` where it is not what the run tells."""
+    """What an impact leaves. Raises ``TooLarge``, ``Singular``; ``Unconfirmed`` where it is not what the run says."""
     if not all(found.holds(each) for each in found.conditions()):
         raise Unconfirmed(found.otherwise())
     rows = Rows.of(found)
@@ -120,13 +120,13 @@ class _System:
         """Without impulses where that is short: of what is free after the impact. Else impulses first, then the rates by them; last
         the impulses of joints."""
         rates, impulses, full = self._without_impulses() or self._by_impulses()
-        joints, untold = {}, ""
+        joints, joints_missing = {}, ""
         try:
             joints = self._joints(full)
         except (TooLarge, Singular) as error:
-            untold = str(error)
+            joints_missing = str(error)
         used = self.names.used((*impulses.values(), *rates.values(), *joints.values(), *self.known.values()))
-        return Jumps(self.known, used, impulses, rates, joints, untold)
+        return Jumps(self.known, used, impulses, rates, joints, joints_missing)
 
     def _without_impulses(self) -> tuple[Solution, Solution, Solution] | None:
         """Where what holds after the impact leaves rates free, and the others follow from these by short expressions: impulses give
@@ -146,10 +146,10 @@ class _System:
         if any(self._signs(tree) > _READABLE for tree in rates.values()):
             return None
         full = {**rates, **{x: replace(tree, rates) for x, tree in self.follow.items()}}
-        still = {x: tree for x, tree in full.items() if is_zero(tree)}
+        stopped = {x: tree for x, tree in full.items() if is_zero(tree)}
         found = self._by_balances(self.found.of_coordinates(), self.acting, self.known)
         by_rates = {x: self._stated(tree, tree) for x, tree in found.items()}
-        impulses = {x: self._finished(replace(tree, still)) for x, tree in by_rates.items()}
+        impulses = {x: self._finished(replace(tree, stopped)) for x, tree in by_rates.items()}
         rest = {x: self._stated(full[x], full[x]) for x in self.follow}  # by rates before where that is brief
         for x, tree in rest.items():
             if self._signs(tree) > max(_BRIEF, self._signs(self.follow[x])):

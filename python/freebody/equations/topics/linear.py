@@ -17,7 +17,7 @@ from freebody.equations.linearization import Held, Linearised, Matrix, held, ind
 from freebody.equations.modes import Root
 from freebody.equations.solve import TooLarge
 from freebody.equations.stability import Stability
-from freebody.equations.substitutions import Substitutions, given
+from freebody.equations.substitutions import Substitutions, substitutions_of
 from freebody.equations.topics.common import Asked, NotHere, document
 from freebody.equations.topics.stability_text import character
 from freebody.solve.equilibrium import rest_near
@@ -41,7 +41,7 @@ _STANDS = 1e-9
 @dataclass(frozen=True)
 class LinearEquations(Document):
     """The document, with the ``equations`` of the perturbations that are left free at ``rest``, of which the others ``follow``; their
-    ``eigenvalues`` in numbers, 1/s; and the ``stability`` of what is not free to stay, where it is told symbolically."""
+    ``eigenvalues`` in numbers, 1/s; and the ``stability`` of what is not free to stay, where it is known symbolically."""
 
     rest: State = field(kw_only=True)
     equations: Linearised = field(kw_only=True)
@@ -57,11 +57,13 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     coordinates and parameters, ``theta=180 deg``; where these are no equilibrium, Newton's method looks for one from there.
     Raises ``NotHere`` where none is found."""
     mechanism, state = asked.mechanism, asked.state
-    chosen = given(mechanism, at)
+    chosen = substitutions_of(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
     names = [c["name"] for c in mechanism.source().metadata["coordinates"]]
     others = {name: value for name, value in at.items() if name not in names}
-    touching = given(mechanism, others).start(mechanism, True, None) if others else replace(state, u=np.zeros_like(state.u))
+    touching = (
+        substitutions_of(mechanism, others).start(mechanism, True, None) if others else replace(state, u=np.zeros_like(state.u))
+    )
     rest = _rest(mechanism.source(), first, touching)
     if rest is not first:
         places = place_of(Asked(mechanism, first).subject)

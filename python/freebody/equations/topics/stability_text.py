@@ -30,7 +30,7 @@ def character(
     subject: SymbolicState, found: Linearised, shifts: Mapping[str, SymbolEntry]
 ) -> tuple[list[Block], Stability | None, tuple[Root, ...]]:
     """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short; with the
-    stability, where it is told, and the eigenvalues in numbers."""
+    stability, where it is known, and the eigenvalues in numbers."""
     made: list[Block] = []
     stable: Stability | None = None
     positive = _positive(subject)

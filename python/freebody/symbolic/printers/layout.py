@@ -105,8 +105,8 @@ def _class(factor: Tree, nomenclature: Nomenclature) -> int:
         return _RATES
     if any(isinstance(node, Fn) for node in walk(factor)):
         return _FUNCTIONS
-    still = all(nomenclature.kind(symbol.name) in ("parameter", "constant") for symbol in found)
-    return _PARAMETERS if still else _COORDINATES
+    fixed = all(nomenclature.kind(symbol.name) in ("parameter", "constant") for symbol in found)
+    return _PARAMETERS if fixed else _COORDINATES
 
 
 def _term_rank(term: Tree, nomenclature: Nomenclature) -> tuple:

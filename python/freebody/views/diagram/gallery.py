@@ -15,7 +15,7 @@ from freebody.model.errors import ModelFileError
 from freebody.views.diagram.impulses import impulse_diagram
 
 if TYPE_CHECKING:
-    from freebody.model import Mechanism
+    from freebody.mechanism import Mechanism
 
 
 def write_gallery(models: Iterable[tuple[str, Mechanism]], path: Path) -> Path:

@@ -170,10 +170,10 @@ fn vertex(block: &LcpBlock, modes: &[Mode], tolerance: f64) -> Option<Found> {
 /// The modes with the contacts stuck that were to slip and do not, if there are such.
 fn held(block: &LcpBlock, modes: &[Mode], found: &Found) -> Option<Vec<Mode>> {
     let resting = |i: usize| matches!(block.friction[i], BlockFriction::Law(FrictionLaw::Resting { .. }));
-    let still =
+    let stays =
         |i: usize| matches!(modes[i].tangent, Tangent::Slip(_)) && found.status[i] == Status::Stick && resting(i);
-    let stick = |i: usize| if still(i) { Mode { tangent: Tangent::Stick, ..modes[i] } } else { modes[i] };
-    (0..modes.len()).any(still).then(|| (0..modes.len()).map(stick).collect())
+    let stick = |i: usize| if stays(i) { Mode { tangent: Tangent::Stick, ..modes[i] } } else { modes[i] };
+    (0..modes.len()).any(stays).then(|| (0..modes.len()).map(stick).collect())
 }
 
 /// Adds a finding whose accelerations are new.

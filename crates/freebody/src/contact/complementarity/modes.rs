@@ -297,11 +297,11 @@ impl<'a> Check<'a> {
     fn sliding(&self, i: usize) -> Option<Status> {
         let t = self.modes.len() + i;
         let (a, noise) = (self.acceleration[t], self.noise[t]);
-        let (law, still) = (self.task.friction[i], a.abs() <= noise);
+        let (law, sticks) = (self.task.friction[i], a.abs() <= noise);
         match self.modes[i].tangent {
             Tangent::Free => Some(Status::Closed),
             Tangent::Slip(s) => match law {
-                BlockFriction::Law(FrictionLaw::Resting { .. }) | BlockFriction::Starting(..) if still => {
+                BlockFriction::Law(FrictionLaw::Resting { .. }) | BlockFriction::Starting(..) if sticks => {
                     Some(Status::Stick)
                 }
                 BlockFriction::Law(FrictionLaw::Resting { .. }) | BlockFriction::Starting(..) if s * a < -noise => None,
@@ -312,7 +312,7 @@ impl<'a> Check<'a> {
                     BlockFriction::Law(FrictionLaw::Resting { fixed, .. }) => fixed * self.force[i],
                     _ => f64::INFINITY,
                 };
-                (still && self.force[t].abs() <= bound + self.nothing).then_some(Status::Stick)
+                (sticks && self.force[t].abs() <= bound + self.nothing).then_some(Status::Stick)
             }
         }
     }

@@ -77,7 +77,7 @@ impl Arc {
     }
 }
 
-/// The end that is nearer to a direction, told from the middle.
+/// The end that is nearer to a direction, seen from the middle.
 fn nearer(off: f64) -> usize {
     if off < 0.0 {
         1

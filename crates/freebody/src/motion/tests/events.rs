@@ -80,11 +80,11 @@ fn a_graze_is_one_touch_at_every_tolerance() {
             let mut system = Plain::new(&[1.0, 1.0], |_, y, dy| dy.copy_from_slice(&[y[1], -y[0]]))
                 .watching(&[0], |_, y, g| g[0] = y[0] - 1.0);
             let run = system.run(name, (0.0, &[-phase.sin(), phase.cos()]), 6.0, &rtol(tolerance));
-            let told = format!("{name}, {tolerance:e}, {phase}: {:?}", run.events);
-            assert!(run.outcome == Outcome::Completed && run.events.len() == 1, "{told}");
-            assert_eq!(run.events[0].kind, Kind::Touch, "{told}");
+            let label = format!("{name}, {tolerance:e}, {phase}: {:?}", run.events);
+            assert!(run.outcome == Outcome::Completed && run.events.len() == 1, "{label}");
+            assert_eq!(run.events[0].kind, Kind::Touch, "{label}");
             let truth = std::f64::consts::FRAC_PI_2 + phase;
-            assert!((run.events[0].t - truth).abs() < 30.0 * tolerance + 1e-7, "{told}");
+            assert!((run.events[0].t - truth).abs() < 30.0 * tolerance + 1e-7, "{label}");
         }
     }
 }

@@ -7,13 +7,13 @@ from collections.abc import Callable
 from itertools import count
 from typing import Any
 
+import freebody.views.figures  # noqa: F401, registers how the figures of derivations are drawn
 from freebody.analysis import Moving
 from freebody.core import cards
-
-from . import elements, schema
-from .builder import Builder
-from .handles import Body, Element
-from .scope import coordinate_names
+from freebody.model import elements, schema
+from freebody.model.builder import Builder
+from freebody.model.handles import Body, Element
+from freebody.model.scope import coordinate_names
 
 
 class Mechanism(Moving, Builder):

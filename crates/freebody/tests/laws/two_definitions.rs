@@ -1,4 +1,4 @@
-//! Every joint is told twice, by how it moves and by what it forbids; and a mechanism does not know where its tree was
+//! Every joint is defined twice, by how it moves and by what it forbids; and a mechanism does not know where its tree was
 //! cut. Either telling must give the same accelerations and the same reactions.
 
 use crate::model::*;
@@ -70,7 +70,7 @@ fn rates(to: &Bench, from: &Bench, at: &Workspace, u: &[f64]) -> Vec<f64> {
     (0..to.q.len()).map(rate).collect()
 }
 
-fn told(load: &JointLoad) -> [f64; 5] {
+fn components(load: &JointLoad) -> [f64; 5] {
     let local = load.in_joint_axes();
     [load.force.x, load.force.y, load.couple, local.x, local.y]
 }
@@ -87,7 +87,7 @@ fn a_joint_of_the_tree_is_the_same_joint_closing_a_loop() {
             let tree = Bench::new(&pair(kind, seed, reversed, false));
             let cut = Bench::new(&pair(kind, seed, reversed, true));
             assert!(!tree.balance().is_closed(), "{what}: not a tree");
-            assert!(cut.balance().is_closed(), "{what}: {}", cut.told());
+            assert!(cut.balance().is_closed(), "{what}: {}", cut.label());
             let u = Rng::new(seed + 3000).vector(tree.q.len(), 2.0);
             let mut one = tree.balance();
             one.move_to(0.0, &tree.q, &u);
@@ -96,10 +96,10 @@ fn a_joint_of_the_tree_is_the_same_joint_closing_a_loop() {
             other.move_to(0.0, &cut.q, &v);
             let first = one.instant(Route::Minimal).unwrap_or_else(|e| panic!("{what}: {e:?}"));
             let [m, n] = [&tree.compiled.mechanism, &cut.compiled.mechanism];
-            let (a, f) = (accelerations(m, &first.bodies), told(&first.joints[joint_named(m, "test")]));
+            let (a, f) = (accelerations(m, &first.bodies), components(&first.joints[joint_named(m, "test")]));
             for (word, route) in Route::ALL {
                 let now = other.instant(*route).unwrap_or_else(|e| panic!("{what}: {word}: {e:?}"));
-                let (b, g) = (accelerations(n, &now.bodies), told(&now.joints[joint_named(n, "test")]));
+                let (b, g) = (accelerations(n, &now.bodies), components(&now.joints[joint_named(n, "test")]));
                 let (da, df) = (apart(&a, &b, 1.0), apart(&f, &g, 1.0));
                 assert!(
                     da < AGREE && df < AGREE,
@@ -133,7 +133,7 @@ fn a_cam_is_a_slot_along_the_parallel_curve() {
                 let mut workspace = Workspace::new(&c.mechanism, &[]);
                 workspace.move_to(0.0, &q, &u);
                 let now = workspace.instant(Route::Minimal).expect("a tree with inertia");
-                (now.accelerations.clone(), told(&now.joints[1]).to_vec())
+                (now.accelerations.clone(), components(&now.joints[1]).to_vec())
             })
             .collect();
         assert!(apart(&solved[0].0, &solved[1].0, 1.0) < AGREE, "accelerations at {q:?}");

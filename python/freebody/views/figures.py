@@ -1,0 +1,21 @@
+"""How the figures of derivations are drawn."""
+
+from __future__ import annotations
+
+from freebody.document.drawings import ConfigurationDrawing, ImpulseDrawing, Picture, drawn
+
+
+@drawn.register
+def configuration(drawing: ConfigurationDrawing) -> Picture:
+    """The sketch of a mechanism with its coordinates."""
+    from freebody.views.diagram.configuration import Configuration
+
+    return Configuration(drawing.source, drawing.state, drawing.each_body)
+
+
+@drawn.register
+def impulses(drawing: ImpulseDrawing) -> Picture:
+    """Impulse diagrams, one for each body."""
+    from freebody.views.diagram.impulses import impulse_diagram
+
+    return impulse_diagram(drawing.impact)
