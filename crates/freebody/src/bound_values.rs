@@ -93,17 +93,18 @@ impl Mechanism {
 
     /// How all parameters of `p` change with one of them, which is overruled: those that follow from it, by its expression.
     pub fn parameter_direction(&self, p: &[f64], along: usize) -> Vec<f64> {
-        let held = self.overruled(p).into_iter().filter(|&(i, _)| i != along);
+        let states = (self.first_state()..p.len()).map(|i| (i, p[i]));
+        let held = self.overruled(p).into_iter().chain(states).filter(|&(i, _)| i != along);
         let mut given: Vec<(usize, Dual<1>)> = held.map(|(i, x)| (i, Dual::constant(x))).collect();
         given.push((along, Dual::variable(p[along], 0)));
         self.parameters_with(&given).into_iter().map(|x| x.du[0]).collect()
     }
 
-    /// The parameters of `p` that do not follow from their expressions: those that were overruled.
+    /// The parameters of `p` that do not follow from their expressions: those that were overruled. States are none of them.
     pub fn overruled(&self, p: &[f64]) -> Vec<(usize, f64)> {
         let env = OfParameters { p, tables: &self.tables };
         let follows = |i: usize| self.parameters[i].value.eval(&env) == p[i];
-        (0..p.len()).filter(|&i| !follows(i)).map(|i| (i, p[i])).collect()
+        (0..self.first_state()).filter(|&i| !follows(i)).map(|i| (i, p[i])).collect()
     }
 
     /// The numbers of the mechanism at parameters `p`.

@@ -44,6 +44,7 @@ pub fn metadata(m: &Mechanism) -> Value {
         "name": m.name,
         "bodies": bodies(m, &numbers),
         "parameters": parameters(m, &numbers),
+        "states": m.parameters[m.first_state()..].iter().map(|p| &p.name).collect::<Vec<_>>(),
         "coordinates": coordinates(m, &numbers, true),
         "closure_coordinates": coordinates(m, &numbers, false),
         "joints": (0..m.joints.len()).map(|j| joint(m, &start, j)).collect::<Vec<_>>(),

@@ -77,11 +77,12 @@ class MotionSampler:
         self.coordinates: list[Mapping[str, Any]] = list(self.metadata["coordinates"])
         self.names: list[str] = [c["name"] for c in self.coordinates]
         text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
-        numbers = {p["name"]: p["value"] for p in self.spec["parameters"] if isinstance(p["value"], int | float)}
+        own = [*self.spec["parameters"], *({"name": z["name"], "value": z["start"]} for z in self.spec["states"])]
+        numbers = {p["name"]: p["value"] for p in own if isinstance(p["value"], int | float)}
         counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
         changed = {name: evaluate(value, {}) for name, value in self.changes.items() if name in self.start.parameters}
         self.free_parameters = {name: float(value) for name, value in (numbers | changed).items() if name not in counts}
-        """Parameters that are plain numbers in the model, with those; the others follow from them, or count items."""
+        """Parameters and states that are plain numbers in the model, with those; the others follow from them, or count items."""
         self.seed = seed
         self._families: dict[tuple[Family, int], Samples] = {}
 
@@ -165,7 +166,11 @@ class MotionSampler:
     def _drawn(self, rng: np.random.Generator, name: str, value: float, family: Family) -> float:
         dimension = self.start.parameters.get(name)
         size, sign = rng.random(), rng.choice([-1.0, 1.0])
-        if family.numbers or (value == 0 and not family.zeros):
+        if name in self.metadata["states"]:
+            fixed = family.at_start or family.since
+        else:
+            fixed = family.numbers or (value == 0 and not family.zeros)
+        if fixed:
             return value
         low, high = _ANGLE_FACTOR if dimension == ANGLE else _LOOP_FACTOR if self.shapes_loop(name) else _FACTOR
         factor = low * (high / low) ** size

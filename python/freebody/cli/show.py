@@ -249,9 +249,12 @@ def mechanism(start: Instant, as_json: bool) -> None:
     limits = [(x["name"], x["type"], "" if x["type"] == "stop" else _ends(x), _later(x)) for x in metadata["limits"]]
     forces = [(f["name"], f["type"], _later(f)) for f in metadata["forces"]]
     motions = [(m["name"], m["level"], "" if m["ideal"] else "does work of its own", _later(m)) for m in metadata["motions"]]
+    values = {p["name"]: (p["unit"], p["value"]) for p in metadata["parameters"]}
+    states = [(z["name"], *values[z["name"]], z["rate"]) for z in start.core.spec["states"]]
     put(
         table("bodies", ["body", "mass [kg]", "inertia about G [kg·m²]", ""], bodies),
         table("coordinates", ["coordinate", "unit", "meaning", ""], coordinates),
+        table("states", ["state", "unit", "at the start", "rate"], states),
         table("joints", ["joint", "type", "between", "", ""], joints),
         table("contacts, strings and stops", ["", "type", "between", ""], limits),
         table("forces", ["force", "type", ""], forces),

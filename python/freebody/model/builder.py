@@ -163,6 +163,11 @@ class Builder:
         self.put("tables", name, {"x": x, "y": y, "interpolation": interpolation})
         return name
 
+    def state(self, name: str, rate: Any, start: Any = 0) -> str:
+        """A quantity with a ``rate`` of its own, an expression of time and of the state; ``start`` is its value at the start."""
+        self.put("states", name, _given({"rate": rate, "start": start if start != 0 else None}))
+        return name
+
     def part(self, name: str, file: str, **parameters: Any) -> str:
         """Puts another model file here under ``name``, with its parameters overruled."""
         self.put("parts", name, {"file": file} | ({"parameters": parameters} if parameters else {}))

@@ -17,6 +17,7 @@ from .writer import Writer
 
 _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 _DONE = {"release": "released", "engage": "engaged", "cut": "cut"}
+_SET = ("parameter", "state")
 _PARTS = ("joints", "forces", "motions", "contacts", "strings", "stops")
 
 
@@ -173,8 +174,8 @@ def _set(write: Writer, path: Path, name: str, value: Any) -> tuple[str, str]:
     known: Mapping[str, tuple[str, Any]] = write.meanings.values
     full = write.full(name)
     kind, dimension = known.get(full, ("", None))
-    if kind != "parameter":
-        parameters = write.meanings.seen_from(write.scope, [k for k, (kind, _) in known.items() if kind == "parameter"])
+    if kind not in _SET:
+        parameters = write.meanings.seen_from(write.scope, [k for k, (kind, _) in known.items() if kind in _SET])
         write.scope.complain(path, f"there is no parameter `{name}` to set", suggestion(name, parameters, "parameters"), True)
     return full, write.expression(path, value, dimension)
 

@@ -17,7 +17,7 @@ from freebody.symbolic.dimensions import TIME
 from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, units
 from .errors import ModelFileError, ModelProblem, Path, Problem, Where
 from .outlines import Outlines
-from .schema import Model
+from .schema import Model, StateVariable
 from .scope import ITEMS, Folder, Places, Scope
 from .start import Start
 from .writer import Writer
@@ -186,6 +186,19 @@ def _values(write: Writer) -> None:
     for name, text in model.gauges.items():
         spec["gauges"].append({"name": write.prefix + name, "value": write.expression(("gauges", name), text)})
         write.meanings.values[write.prefix + name] = ("gauge", write.dimension(text))
+    for name, state in model.states.items():
+        spec["states"].append(_state(write, name, state))
+
+
+def _state(write: Writer, name: str, state: StateVariable) -> Spec:
+    """A state with a rate of its own; its unit is that of its start, or of its rate times a second."""
+    path: Path = ("states", name)
+    start, dimension = write.number((*path, "start"), state.start), write.dimension(state.start)
+    rate = write.expression((*path, "rate"), state.rate, dimension and dimension.times(TIME, -1))
+    if dimension is None and (of_rate := write.dimension(state.rate)):
+        dimension = of_rate.times(TIME, 1)
+    write.meanings.values[write.prefix + name] = ("state", dimension)
+    return {"name": write.prefix + name, "start": start, "rate": rate, "unit": dimension.unit() if dimension else ""}
 
 
 def _numbers(write: Writer, path: Path, values: list[Any]) -> list[float]:

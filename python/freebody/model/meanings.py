@@ -23,7 +23,7 @@ EVERY_BODY = ("origin", "G")
 
 @dataclass
 class Meanings:
-    """All names. ``values`` holds parameters, coordinates and gauges with their kind and dimension (None: not known).
+    """All names. ``values`` holds parameters, coordinates, gauges and states with their kind and dimension (None: not known).
 
     ``owners`` are joints, forces, motions, locks, contacts, strings and stops, whose ``readings`` are read as ``name.Fx``; ``several``
     holds those that are more than one item for the core. ``alias`` leads from points that only rename another to that one.
@@ -128,6 +128,8 @@ class _Declarations:
             self.ends(name, joint)
         for name in m.gauges:
             self.value(name, ("gauges", name), "gauge", None)
+        for name in m.states:
+            self.value(name, ("states", name), "state", None)
         for name, force in m.forces.items():
             self.owner(name, "force", ("forces", name), cards.forces()[force.type].readings)
         for section, kind in _LIMITED.items():

@@ -173,6 +173,13 @@ class Table(Section):
     interpolation: Literal["linear", "pchip"] = "linear"
 
 
+class StateVariable(Section):
+    """A quantity that changes at a rate of its own: the integral of a controller, the output of a filter."""
+
+    rate: Number = Field(description="Its rate: an expression of time and of the state.")
+    start: Number = Field(0, description="Its value at the start.")
+
+
 class Part(Section):
     """Another model file whose items come in under the name of the part."""
 
@@ -272,6 +279,7 @@ class Model(Section):
     parts: dict[str, Part] = Field({}, description="Other model files, used as parts.")
     bodies: dict[str, Body] = Field({}, description="The bodies.")
     gauges: dict[str, Text] = Field({}, description="Named expressions of the configuration.")
+    states: dict[str, StateVariable] = Field({}, description="Quantities with a rate of their own: integrals, filters.")
     joints: dict[str, Joint] = Field({}, description="The joints.")
     forces: dict[str, Force] = Field({}, description="The forces, gravity apart.")
     motions: dict[str, Motion] = Field({}, description="Prescribed motions.")

@@ -25,7 +25,9 @@ from .source import Source
 
 MAX_DEPTH = 16
 MAX_PARTS = 1000  # of a whole model, parts of parts included
-ITEMS = ("parameters", "tables", "bodies", "gauges", "joints", "forces", "motions", "contacts", "strings", "stops", "events")
+ITEMS = (
+    "parameters", "tables", "bodies", "gauges", "states", "joints", "forces", "motions", "contacts", "strings", "stops", "events",
+)  # fmt: skip
 """Sections of named items."""
 
 

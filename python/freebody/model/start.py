@@ -53,7 +53,7 @@ def write(writer: Writer, start: Start) -> None:
     """Adds to the start the coordinates and parameters of the model, and the section ``initial`` of one scope."""
     known, scope, initial = writer.meanings.values, writer.scope, writer.scope.model.initial
     start.coordinates = {name: d for name, (kind, d) in known.items() if kind == "coordinate"}
-    start.parameters = {name: d for name, (kind, d) in known.items() if kind == "parameter"}
+    start.parameters = {name: d for name, (kind, d) in known.items() if kind in ("parameter", "state")}
     if initial is None:
         return
     path: Path = ("initial",)
@@ -84,8 +84,8 @@ def _values(writer: Writer, start: Start, path: Path, given: Mapping[str, Any], 
             kind = writer.meanings.values.get(full, ("",))[0]
             words = (*WORDS, "equilibrium") if len(here) == 2 else ()
             known = [*writer.meanings.seen_from(writer.scope, start.coordinates), *words]
-            hint = "`initial` sets coordinates; give parameters their value under `parameters`"
-            hint = hint if kind == "parameter" else suggestion(name, known, "coordinates")
+            hint = f"`initial` sets coordinates; a {kind} has its value under `{kind}s`"
+            hint = hint if kind in ("parameter", "state") else suggestion(name, known, "coordinates")
             what = f"`{name}` is a {kind}, not a coordinate" if kind else f"there is no coordinate `{name}`"
             writer.scope.complain(here, what, hint, True)
     return found

@@ -14,6 +14,8 @@ use std::collections::HashMap;
 pub struct Names {
     /// Parameters.
     pub parameters: HashMap<String, usize>,
+    /// Quantities with a rate of their own.
+    pub states: HashMap<String, usize>,
     /// Tables.
     pub tables: HashMap<String, usize>,
     /// Bodies, ground among them.
@@ -109,7 +111,12 @@ impl Scope<'_> {
 
     fn known(&self) -> impl Iterator<Item = &str> {
         let n = self.names;
-        n.parameters.keys().chain(n.coordinates.keys()).chain(n.gauges.keys()).map(String::as_str)
+        n.parameters
+            .keys()
+            .chain(n.states.keys())
+            .chain(n.coordinates.keys())
+            .chain(n.gauges.keys())
+            .map(String::as_str)
     }
 
     /// The site of a name, or what to write instead.

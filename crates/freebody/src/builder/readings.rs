@@ -200,6 +200,9 @@ impl expr::Scope<ModelVariable> for Scope<'_> {
                 return Ok(gauge.clone());
             }
         }
+        if let Some(&i) = n.states.get(name).filter(|_| self.reach >= Reach::Motion) {
+            return Ok(ModelExpr::variable(ModelVariable::State(i)));
+        }
         if name == "t" && self.reach >= Reach::Motion {
             return Ok(ModelExpr::variable(ModelVariable::Time));
         }
@@ -210,6 +213,12 @@ impl expr::Scope<ModelVariable> for Scope<'_> {
             return Err(Message::new(
                 format!("`{name}` changes with the motion; here stands a number of the model"),
                 "use parameters only",
+            ));
+        }
+        if n.states.contains_key(name) {
+            return Err(Message::new(
+                format!("`{name}` is a state with a rate of its own; it cannot be read here"),
+                "laws of forces, motions by velocity or acceleration, rates of states, events and reports may read it",
             ));
         }
         Err(self.nothing(name))

@@ -57,6 +57,10 @@ impl Builder<'_> {
                 let what = "a law of rates gives an acceleration, not a position or a velocity";
                 return Err(CompileError::new(format!("{path}.is"), what, "write `level: acceleration`"));
             }
+            if level == Level::Position && law.variables().any(|leaf| matches!(leaf, ModelVariable::State(_))) {
+                let what = "a state with a rate of its own gives a velocity or an acceleration, not a position";
+                return Err(CompileError::new(format!("{path}.is"), what, "give the rate, with `level: velocity`"));
+            }
             let feedback = law.variables().any(|l| !matches!(l, ModelVariable::Time | ModelVariable::Parameter(_)));
             let name = motion.name.clone();
             self.drive(&path, Drive { name, kind: DriveKind::Motion, of, law, level, by, feedback })?;

@@ -85,9 +85,10 @@ impl Builder<'_> {
                 Action::Stop => actions.push(EventAction::Stop),
                 Action::Set(values) => {
                     for (name, text) in values {
-                        let known = self.names.parameters.keys();
+                        let known = self.names.parameters.keys().chain(self.names.states.keys());
                         let missing = || CompileError::from(path, unknown("parameter", name, known));
-                        let p = *self.names.parameters.get(name).ok_or_else(missing)?;
+                        let state = self.names.states.get(name).map(|i| self.m.first_state() + i);
+                        let p = self.names.parameters.get(name).copied().or(state).ok_or_else(missing)?;
                         actions.push(EventAction::Set(p, self.law(path, text, Reach::Instant)?));
                     }
                 }

@@ -33,6 +33,7 @@ impl Compiled {
     pub fn new(spec: &Spec) -> Result<Compiled> {
         let mut c = Builder { spec, names: Names::default(), m: Mechanism::empty(&spec.name) };
         c.parameters()?;
+        c.states()?;
         c.tables()?;
         let elements = tree::joints_of(spec)?;
         let branches = c.bodies(&elements)?;
@@ -42,6 +43,7 @@ impl Compiled {
         c.gravity()?;
         c.joints(&elements, &branches)?;
         c.gauges()?;
+        c.state_rates()?;
         c.drives()?;
         c.locks()?;
         c.curve_followers()?;
@@ -73,7 +75,29 @@ impl Builder<'_> {
             let value = self.number(&format!("parameters.{}", p.name), &p.value)?;
             self.m.parameters.push(Parameter { name: p.name.clone(), unit: p.unit.clone(), value });
         }
+        Ok(())
+    }
+
+    /// The values of the states at the start, as parameters behind the others.
+    fn states(&mut self) -> Result<()> {
+        for (i, state) in self.spec.states.iter().enumerate() {
+            let path = format!("states.{}", state.name);
+            let taken = self.names.parameters.contains_key(&state.name);
+            if taken || self.names.states.insert(state.name.clone(), i).is_some() {
+                return Err(twice(path, &state.name));
+            }
+            let value = self.number(&format!("{path}.start"), &state.start)?;
+            self.m.parameters.push(Parameter { name: state.name.clone(), unit: state.unit.clone(), value });
+            self.m.state_rates.push(ModelExpr::constant(0.0));
+        }
         self.order_parameters()
+    }
+
+    fn state_rates(&mut self) -> Result<()> {
+        for (i, state) in self.spec.states.iter().enumerate() {
+            self.m.state_rates[i] = self.law(&format!("states.{}.rate", state.name), &state.rate, Reach::Motion)?;
+        }
+        Ok(())
     }
 
     /// An order in which every parameter comes after those it uses.
@@ -127,7 +151,7 @@ impl Builder<'_> {
             Gap::ContactPair(_) | Gap::Cable(_) => None,
         });
         let mut discontinuities: Vec<Discontinuity> = vec![];
-        for law in forces.chain(drives).chain(stops) {
+        for law in forces.chain(drives).chain(stops).chain(&m.state_rates) {
             for switch in sorted(law.discontinuities()) {
                 if !discontinuities.iter().any(|k| matches!(k, Discontinuity::Switch(known, _) if *known == switch)) {
                     discontinuities.push(Discontinuity::Switch(switch, law.clone()));

@@ -150,7 +150,9 @@ impl Workspace<'_> {
         let mut powers: Vec<f64> = (0..self.m.forces.len()).map(|f| loads::unaccounted_power(self.at(), f)).collect();
         powers.extend(self.solved_view().drive_powers());
         powers.push(self.friction_power());
-        let along = Direction { t: 1.0, q: self.at().u.to_vec(), u: accelerations, p: vec![], works: powers };
+        let mut p = vec![0.0; self.m.first_state()];
+        p.extend(self.state_rates());
+        let along = Direction { t: 1.0, q: self.at().u.to_vec(), u: accelerations, p, works: powers };
         Ok(self.derivatives(of, works, &[along])?.remove(0))
     }
 

@@ -54,7 +54,7 @@ pub use term_scales::TermScales;
 
 use crate::bound_values::BoundValues;
 pub use crate::error::DynamicsError;
-use crate::kinematics::{gradient, Kinematics, StateView};
+use crate::kinematics::{gradient, Kinematics, State, StateView};
 use crate::mechanism::{self, Mechanism};
 use crate::mode::Mode;
 use crate::plane::{Twist, Vec2, Wrench};
@@ -224,6 +224,16 @@ impl<'m> Workspace<'m> {
             // Where all is in one place no lever has a length: any unit will do.
             self.length = self.extent().unwrap_or(1.0);
         }
+    }
+
+    /// Gives the states with a rate of their own their values.
+    pub fn set_states(&mut self, states: &[f64]) {
+        self.n.p[self.m.first_state()..].copy_from_slice(states);
+    }
+
+    /// The rates of the states with a rate of their own.
+    pub fn state_rates(&self) -> Vec<f64> {
+        self.m.state_rates.iter().map(|rate| rate.eval(&State(self.at()))).collect()
     }
 
     /// The mode of the present state.

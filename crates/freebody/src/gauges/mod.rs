@@ -28,6 +28,8 @@ pub enum ModelVariable {
     Angle(usize),
     /// A coordinate of a joint, as its user reads it.
     Coordinate(usize, usize),
+    /// A quantity with a rate of its own.
+    State(usize),
     /// Something that is known only when the instant is solved.
     Reading(Reading),
 }
@@ -37,5 +39,6 @@ pub type ModelExpr = Expr<ModelVariable>;
 
 /// Whether an expression is measured from the configuration and time alone, so that jets give its derivatives.
 pub fn is_measured(of: &ModelExpr) -> bool {
-    !of.depends_on_rates() && !of.variables().any(|variable| matches!(variable, ModelVariable::Reading(_)))
+    let measured = |variable: &ModelVariable| !matches!(variable, ModelVariable::Reading(_) | ModelVariable::State(_));
+    !of.depends_on_rates() && of.variables().all(measured)
 }

@@ -33,7 +33,12 @@ impl HybridSystem<'_> {
             }
         }
         if !values.is_empty() {
-            self.change(t, y, &values);
+            let first = self.workspace.m.first_state();
+            let (parameters, states): (Vec<_>, Vec<_>) = values.iter().partition(|(p, _)| *p < first);
+            for (p, x) in states {
+                y[self.first_state() + p - first] = x;
+            }
+            self.change(t, y, &parameters);
             if !(self.workspace.m.unilateral.is_empty() && self.workspace.m.joint_friction.is_empty()) {
                 self.resolve_mode(t, y, None)?;
             }

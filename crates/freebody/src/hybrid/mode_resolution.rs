@@ -50,7 +50,8 @@ impl HybridSystem<'_> {
             }
         }
         // The ledger begins after the events of the start.
-        y[2 * m.freedom()..].fill(0.0);
+        let states = self.first_state();
+        y[2 * m.freedom()..states].fill(0.0);
         self.open();
         Ok(())
     }

@@ -27,7 +27,11 @@ impl HybridSystem<'_> {
         let turning = (1..m.bodies.len()).filter(|&i| !m.bodies[i].particle).map(|i| numbers.inertia[i]).sum::<f64>();
         let inertia = numbers.mass.iter().sum::<f64>() * length * length + turning;
         let energy = (inertia * rate * rate).max(self.workspace.kinetic_energy()).max(f64::MIN_POSITIVE);
-        scales.resize(self.scales.len(), energy);
+        scales.resize(self.first_state(), energy);
+        let states = y[self.first_state()..].iter().zip(self.workspace.state_rates());
+        // A state that neither has a value nor changes yet is judged by its unit.
+        scales
+            .extend(states.map(|(z, change)| z.abs().max(change.abs() / rate)).map(|z| if z > 0.0 { z } else { 1.0 }));
         self.scales = scales;
         self.units = units;
         self.roundoff_scale = ROUNDOFF;

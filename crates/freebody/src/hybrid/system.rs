@@ -83,7 +83,7 @@ impl<'m> HybridSystem<'m> {
     pub fn new(workspace: Workspace<'m>, mode: Mode, p: &[f64]) -> Self {
         let m = workspace.m;
         let works = Works::of(m);
-        let size = 2 * m.freedom() + works.count();
+        let size = 2 * m.freedom() + works.count() + m.state_rates.len();
         HybridSystem {
             workspace,
             switching_functions: SwitchingFunction::all(m).collect(),
@@ -112,7 +112,8 @@ impl<'m> HybridSystem<'m> {
     /// The state vector at the start.
     pub fn pack(&self, q: &[f64], u: &[f64]) -> Vec<f64> {
         let mut y = [q, u].concat();
-        y.resize(self.scales.len(), 0.0);
+        y.resize(self.first_state(), 0.0);
+        y.extend(&self.workspace.at().n.p[self.workspace.m.first_state()..]);
         y
     }
 
@@ -121,15 +122,22 @@ impl<'m> HybridSystem<'m> {
         (&y[..n], &y[n..2 * n])
     }
 
+    /// Where the states with a rate of their own begin in the state vector.
+    pub(super) fn first_state(&self) -> usize {
+        2 * self.workspace.m.freedom() + self.works.count()
+    }
+
     /// Goes to a state in the mode of the motion.
     pub(super) fn place(&mut self, t: f64, y: &[f64]) {
         let n = self.workspace.m.freedom();
+        self.workspace.set_states(&y[self.first_state()..]);
         self.workspace.place(&self.mode, t, &y[..n], &y[n..2 * n]);
     }
 
     /// Goes to a state in a mode that may become that of the motion.
     pub(super) fn place_in(&mut self, mode: &Mode, t: f64, y: &[f64]) {
         let n = self.workspace.m.freedom();
+        self.workspace.set_states(&y[self.first_state()..]);
         self.workspace.place(mode, t, &y[..n], &y[n..2 * n]);
     }
 
@@ -223,16 +231,21 @@ impl System for HybridSystem<'_> {
     }
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
-        let n = self.workspace.m.freedom();
+        let (n, states) = (self.workspace.m.freedom(), self.first_state());
         if self.mode.resting {
-            dy.fill(0.0);
+            dy[..states].fill(0.0);
+            if states < dy.len() {
+                self.place(t, y);
+                dy[states..].copy_from_slice(&self.workspace.state_rates());
+            }
             return Ok(());
         }
         self.place(t, y);
         self.solve_stage(t, y)?;
         dy[..n].copy_from_slice(self.workspace.at().u);
         self.workspace.accelerations(&mut dy[n..2 * n]);
-        dy[2 * n..].copy_from_slice(&self.works.powers(&self.workspace));
+        dy[2 * n..states].copy_from_slice(&self.works.powers(&self.workspace));
+        dy[states..].copy_from_slice(&self.workspace.state_rates());
         Ok(())
     }
 
@@ -241,6 +254,7 @@ impl System for HybridSystem<'_> {
             return Ok(0.0);
         }
         let n = self.workspace.m.freedom();
+        self.workspace.set_states(&y[self.first_state()..]);
         let (q, rest) = y.split_at_mut(n);
         let moved = self.workspace.project_positions(&self.mode, t, q, &rest[..n])?;
         self.worst_gap = self.worst_gap.max(self.workspace.worst_gap());
@@ -382,7 +396,7 @@ impl System for HybridSystem<'_> {
     }
 
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {
-        if self.workspace.is_closed() || !self.works.forces.is_empty() {
+        if self.workspace.is_closed() || !(self.works.forces.is_empty() && self.workspace.m.state_rates.is_empty()) {
             return None;
         }
         Some(self)

@@ -109,8 +109,14 @@ impl Trajectory {
 
     fn state_of(&self, m: &Mechanism, t: f64, y: &[f64]) -> MotionState {
         let (n, phase) = (m.freedom(), self.phase(t));
-        let (q, u, p) = (y[..n].to_vec(), y[n..2 * n].to_vec(), phase.p.clone());
+        let (q, u, mut p) = (y[..n].to_vec(), y[n..2 * n].to_vec(), phase.p.clone());
+        p[m.first_state()..].copy_from_slice(self.states(m, y));
         MotionState { p, t, q, u, mode: phase.mode.clone(), works: self.works.spread(m, y) }
+    }
+
+    /// The states with a rate of their own in a state vector.
+    fn states<'y>(&self, m: &Mechanism, y: &'y [f64]) -> &'y [f64] {
+        &y[2 * m.freedom() + self.works.count()..]
     }
 
     /// The state during an impact, by its place among `mode_changes`: with the rates before it, and held what took part in
@@ -151,6 +157,7 @@ impl Trajectory {
             // Made anew only where parameters may have changed.
             let known = last.take().filter(|(from, _)| *from == phase.from);
             let (_, workspace) = last.insert(known.unwrap_or_else(|| (phase.from, Workspace::new(m, &phase.p))));
+            workspace.set_states(self.states(m, &y));
             if workspace.is_closed() && !phase.mode.resting {
                 let (q, rest) = y.split_at_mut(n);
                 workspace.project_positions(&phase.mode, t, q, &rest[..n])?;
@@ -257,7 +264,7 @@ impl Trajectory {
         let mut rows = vec![];
         self.each(m, times, |workspace, t, y| {
             let (kinetic, potential) = (workspace.kinetic_energy(), workspace.potential_energy());
-            let works = &y[2 * m.freedom()..];
+            let works = &y[2 * m.freedom()..][..self.works.count()];
             let jumps: f64 = self.phases.iter().filter(|s| s.from <= t).map(|s| s.jump).sum();
             let impacts: f64 = self.phases.iter().filter(|s| s.from <= t).map(|s| s.impact).sum();
             let left = kinetic + potential - start - works.iter().sum::<f64>() - jumps - impacts;

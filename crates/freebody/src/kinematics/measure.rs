@@ -23,6 +23,7 @@ impl<T: Scalar, P: Poses<T>> Env<T, ModelVariable> for Config<'_, P> {
         let p = self.poses;
         match variable {
             ModelVariable::Parameter(i) => p.parameter(*i),
+            ModelVariable::State(i) => p.state(*i),
             ModelVariable::Time => p.time(),
             ModelVariable::X(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).x,
             ModelVariable::Y(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).y,
@@ -105,6 +106,7 @@ impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
         let place = |site: usize| -> Vec2<S> { self.at.pose(self.at.m.body_of(site)).place(self.at.arm(site)) };
         match variable {
             ModelVariable::Parameter(i) => self.at.parameter(*i),
+            ModelVariable::State(i) => self.at.state(*i),
             ModelVariable::Time => self.at.t,
             ModelVariable::X(site) => place(*site).x,
             ModelVariable::Y(site) => place(*site).y,

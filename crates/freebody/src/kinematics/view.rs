@@ -18,6 +18,8 @@ pub trait Poses<T: Scalar> {
     fn value(&self, id: usize) -> T;
     /// A parameter.
     fn parameter(&self, i: usize) -> T;
+    /// A quantity with a rate of its own.
+    fn state(&self, i: usize) -> T;
     /// Time.
     fn time(&self) -> T;
     /// A coordinate of a joint, as its user reads it.
@@ -61,6 +63,9 @@ impl<S: Scalar> Poses<S> for StateView<'_, S> {
     fn parameter(&self, i: usize) -> S {
         self.n.p[i]
     }
+    fn state(&self, i: usize) -> S {
+        self.n.p[self.m.first_state() + i]
+    }
     fn time(&self) -> S {
         self.t
     }
@@ -97,6 +102,9 @@ impl<S: Scalar> Poses<f64> for ValuesView<'_, S> {
     }
     fn parameter(&self, i: usize) -> f64 {
         self.0.parameter(i).value()
+    }
+    fn state(&self, i: usize) -> f64 {
+        self.0.state(i).value()
     }
     fn time(&self) -> f64 {
         self.0.t.value()
@@ -203,6 +211,10 @@ impl<S: Scalar> Poses<Jet<S>> for MotionView<'_, S> {
     fn parameter(&self, i: usize) -> Jet<S> {
         Jet::constant(self.at.n.p[i])
     }
+    fn state(&self, i: usize) -> Jet<S> {
+        // Nothing asks for its second derivative.
+        Jet::new(self.at.state(i), self.at.m.state_rates[i].eval(&super::State(self.at)), S::zero())
+    }
     fn time(&self) -> Jet<S> {
         Jet::new(self.at.t, S::one(), S::zero())
     }
@@ -287,6 +299,9 @@ impl<S: Scalar> Poses<Dual<3, S>> for SeededView<'_, S> {
     }
     fn parameter(&self, i: usize) -> Dual<3, S> {
         Dual::constant(self.at.n.p[i])
+    }
+    fn state(&self, i: usize) -> Dual<3, S> {
+        Dual::constant(self.at.state(i))
     }
     fn time(&self) -> Dual<3, S> {
         Dual::constant(self.at.t)

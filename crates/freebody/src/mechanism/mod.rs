@@ -30,10 +30,12 @@ pub type ValueId = usize;
 pub struct Mechanism {
     /// Title.
     pub name: String,
-    /// The parameters, in the order of the model.
+    /// The parameters, in the order of the model; behind them the states, whose values are those at the start.
     pub parameters: Vec<Parameter>,
     /// An order in which every parameter comes after those it uses.
     pub parameter_order: Vec<usize>,
+    /// The rates of the states.
+    pub state_rates: Vec<ModelExpr>,
     /// Every number of the model.
     pub values: Vec<ModelExpr>,
     /// Those that are sizes of bodies, lengths of links and strings, radii: m.
@@ -208,6 +210,7 @@ impl Mechanism {
             name: name.to_string(),
             parameters: vec![],
             parameter_order: vec![],
+            state_rates: vec![],
             values: vec![],
             lengths: vec![],
             tables: vec![],
@@ -264,6 +267,10 @@ impl Mechanism {
             .iter()
             .position(|friction| matches!(friction.of, FrictionSource::Unilateral(l) if l == constraint))
     }
+    /// Where the states begin among the parameters.
+    pub fn first_state(&self) -> usize {
+        self.parameters.len() - self.state_rates.len()
+    }
     /// Degrees of freedom of the tree: the length of `q`.
     pub fn freedom(&self) -> usize {
         self.coordinates.len()
@@ -317,6 +324,7 @@ impl Mechanism {
             ModelVariable::Angle(_) => "rad",
             ModelVariable::Coordinate(joint, k) => self.joints[*joint].coordinates[*k].dimension,
             ModelVariable::Parameter(i) => self.parameters[*i].unit.as_str(),
+            ModelVariable::State(i) => self.parameters[self.first_state() + i].unit.as_str(),
             _ => "",
         };
         let mut units: Vec<&str> = law.variables().map(unit).filter(|unit| !unit.is_empty()).collect();

@@ -42,6 +42,8 @@ pub struct Spec {
     pub curves: Vec<Curve>,
     /// Named expressions of the configuration.
     pub gauges: Vec<Gauge>,
+    /// Quantities with a rate of their own.
+    pub states: Vec<StateVariable>,
     /// The joints.
     pub joints: Vec<Element>,
     /// The forces, gravity apart.
@@ -189,6 +191,21 @@ pub struct Gauge {
     pub name: String,
     /// Expression of coordinates, points and angles.
     pub value: String,
+}
+
+/// A quantity that changes at a rate of its own: the integral of a controller, the output of a filter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StateVariable {
+    /// Name.
+    pub name: String,
+    /// Its value at the start, in SI.
+    pub start: Number,
+    /// Its rate: an expression of time and of the state, in SI.
+    pub rate: String,
+    /// Unit in SI base words for display; empty when not stated.
+    #[serde(default)]
+    pub unit: String,
 }
 
 /// A joint or a force: a word of the list with its fields (see `joints::cards`, `forces::cards`).

@@ -5,7 +5,7 @@ use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
 use crate::dynamics::{closing_rows, DynamicsError, Row, Source};
 use crate::joints::Joint as _;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, State};
 use crate::plane::{Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
@@ -50,7 +50,12 @@ impl SymbolicState<'_> {
         }))
     }
 
-    /// What loops, motions and closed limits ask of the coordinates.
+    /// The rates of the states that have one of their own.
+    pub(super) fn state_rates(&self) -> Value {
+        Value::Array(self.m.state_rates.iter().map(|rate| json!(tree(rate.eval(&State(self.at()))))).collect())
+    }
+
+    /// What loops, motions and closed limits ask, of the coordinates.
     pub(super) fn rows(&self) -> Value {
         Value::Array(self.closing().iter().map(|row| self.row(row)).collect())
     }

@@ -96,6 +96,8 @@ pub enum Query {
         /// The body.
         body: String,
     },
+    /// The rates of the states that have one of their own, in the order of the model.
+    StateRates,
     /// Kinetic and potential energy.
     Energy,
     /// Lagrange's equations.
@@ -170,6 +172,7 @@ impl SymbolicState<'_> {
             Query::Rows => Ok(self.rows()),
             Query::Constraints => Ok(self.constraints()),
             Query::Frame { point, body } => self.frame(point, body),
+            Query::StateRates => Ok(self.state_rates()),
             Query::Energy => Ok(self.energy()),
             Query::Lagrange => Ok(self.lagrange()),
             Query::VirtualPower { bound, rows } => self.virtual_power(bound, rows),

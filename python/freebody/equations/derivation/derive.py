@@ -117,10 +117,13 @@ def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block
     if system.unknowns and not system.is_square:
         made.append(Paragraph(_uneven(len(system.matrix), len(system.unknowns), len(subject.laws))))
     if moving:
-        places, rates = (listed([Sym(x.name, x.dots - fewer) for x in moving]) for fewer in (2, 1))
-        said: Words = ["For integration the state is z = (", *places, ", ", *rates, "). Its rate is ("]
-        said += [*rates, ", ", *listed(moving)]
+        places, rates = ([Sym(x.name, x.dots - fewer) for x in moving] for fewer in (2, 1))
+        own, change = ([Sym(name, dots) for name in subject.source.metadata["states"]] for dots in (0, 1))
+        said: Words = ["For integration the state is z = (", *listed([*places, *rates, *own]), "). Its rate is ("]
+        said += listed([*rates, *moving, *change])
         rest = "), of which the first half is in the state and the second solves the equations above at each instant."
+        if own:
+            rest = "), of which the equations above give at each instant what is not in the state."
         made += [Heading("First-order form"), Paragraph([*said, rest])]
         if len(system.unknowns) == len(system.matrix) == 1:
             made.append(Equation(moving[0], quotient(system.right[0], system.matrix[0][0]), "Here this is"))

@@ -16,7 +16,7 @@ from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import SUPERSCRIPTS
-from freebody.symbolic.tree import Sym, is_zero
+from freebody.symbolic.tree import Sym, is_zero, read
 
 _GUIDED = re.compile(r"^(s|x|y) of (.+) from (.+) at (.+)$")
 _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
@@ -42,6 +42,10 @@ def configuration(subject: SymbolicState) -> list[Block]:
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
     if cases := [force["name"] for force in subject.source.metadata["forces"] if force["cases"] and force["name"] in acting]:
         made.append(Paragraph(f"The law of {joined(cases)} has cases: the equations hold for the case at this state."))
+    if names := subject.source.metadata["states"]:
+        made.append(Paragraph("Beside the coordinates there are states with rates of their own:"))
+        rates = [read(rate) for rate in subject.ask([{"ask": "state_rates"}])[0]]
+        made += [Equation(Sym(name, 1), rate) for name, rate in zip(names, rates, strict=True)]
     made += unloaded(subject)
     return made
 

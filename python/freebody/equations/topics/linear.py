@@ -57,6 +57,11 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     coordinates and parameters, ``theta=180 deg``; where these are no equilibrium, Newton's method looks for one from there.
     Raises ``NotHere`` where none is found."""
     mechanism, state = asked.mechanism, asked.state
+    if states := mechanism.source().metadata["states"]:
+        raise NotHere(
+            f"the rate of {joined(states)} is not among the linear equations of the coordinates; "
+            "`solve().derivatives(…)` gives exact derivatives by coordinates, rates and states in numbers"
+        )
     chosen = substitutions_of(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
     names = [c["name"] for c in mechanism.source().metadata["coordinates"]]
