@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from freebody.equations.balances.minimal import MinimalForm
     from freebody.equations.balances.smallest import SmallestSet
     from freebody.equations.derivation.derive import Equations
+    from freebody.find import Extremes, Found, Limit
     from freebody.impact.applied_impulse import AppliedImpulse
     from freebody.impact.impacts import Impact
     from freebody.model.builder import Builder
@@ -197,6 +198,27 @@ class Moving:
         stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
         with self.core_errors():
             return follow(stage, stage.run(state, notes))
+
+    def find(
+        self: Builder, of: str, target: Any, *, vary: str, within: tuple[Any, Any], points: int = 33, **changes: Any
+    ) -> Found:
+        """All values of a parameter or of the start within bounds for which a quantity of the motion is the target:
+        ``m.find("x(ball.G) @ lands", "12 m", vary="angle", within=("10 deg", "80 deg"))``; see ``freebody.find.find``."""
+        from freebody.find import find
+
+        return find(self, of, target, vary=vary, within=within, points=points, changes=changes)
+
+    def extremes(self: Builder, of: str, *, vary: str, within: tuple[Any, Any], points: int = 33, **changes: Any) -> Extremes:
+        """The extremes of a quantity of the motion over a parameter or a value of the start, with where; see ``find``."""
+        from freebody.find import extremes
+
+        return extremes(self, of, vary=vary, within=within, points=points, changes=changes)
+
+    def limit(self: Builder, of: str, *, until: Any = None, **changes: Any) -> Limit:
+        """What an expression, or ``integral of`` one, tends to as t → ∞, with its error; see ``freebody.find.limit``."""
+        from freebody.find import limit
+
+        return limit(self, of, until=until, changes=changes)
 
     def check_equilibrium(self: Builder, state: State) -> None:
         """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""

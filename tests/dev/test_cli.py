@@ -26,7 +26,7 @@ AT_RUN_TIME = {
     "no_equilibrium": "initial:",
     "spin_without_inertia": "crank:",
 }
-COMMANDS = ["run", "solve", "validate", "animate", "compare", "certify", "systems", "code", "schema", "version"]
+COMMANDS = ["run", "solve", "validate", "animate", "compare", "certify", "systems", "code", "find", "schema", "version"]
 
 
 def test_help_names_every_command(command):
@@ -222,3 +222,16 @@ def test_a_model_that_hands_over_is_shown_with_its_successor(command, handing, t
     assert {"run.csv", "run-2.csv", "first.html", "first-2.html"} <= {path.name for path in tmp_path.iterdir()}
     both = json.loads(command("run", handing, "--no-report", "--json").stdout)
     assert [run["outcome"]["name"] for run in both] == ["StoppedByEvent", "Completed"]
+
+
+def test_find_says_all_values_none_and_extremes(command):
+    asked = ("find", GUN, "--of", "t @ leaves")
+    found = command(*asked, "--is", "1 s", "--vary", "T=0.5..3", "--points", "9", "--json")
+    (root,) = json.loads(found.stdout)["roots"]
+    assert root["found"] == pytest.approx(1, abs=1e-9) and root["where_error"] < 1e-8 and found.exit_code == 0
+    none = command(*asked, "--is", "9 s", "--vary", "T=0.5..3", "--points", "9")
+    assert none.exit_code == 3 and "t @ leaves is 9 s for no T between 0.5 and 3 N*m" in none.output
+    best = command(*asked, "--vary", "T=0.5..3", "--points", "9")
+    assert best.exit_code == 0 and "least" in best.output and "(an edge)" in best.output
+    assert command(*asked, "--vary", "T").exit_code == 2
+    assert command("find", GUN, "--of", "R", "--limit").exit_code == 2

@@ -10,6 +10,7 @@ import typer
 from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
+from freebody.cli.find import find
 from freebody.cli.models import moment, obtained, opened, simulated, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.systems import systems
@@ -202,6 +203,7 @@ def compare(
 app.command()(systems)
 app.command(cls=Command)(equations)
 app.command(cls=Command)(code)
+app.command()(find)
 app.command()(check)
 
 

@@ -128,6 +128,11 @@ def unit_size(unit: str) -> float:
     return convert(unit)[0]
 
 
+def over_time(unit: str) -> str:
+    """The SI unit of the time integral of what has a unit; empty where that is not known."""
+    return unit.removesuffix("/s") if unit.endswith("/s") else f"{unit}*s" if unit else ""
+
+
 @dataclass(frozen=True)
 class Window:
     """A stretch of a run: the times where the motion may have kinks (edges of steps), first and last included."""

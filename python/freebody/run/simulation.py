@@ -25,6 +25,7 @@ from freebody.run.records import (
     Signal,
     Window,
     columns_of,
+    over_time,
     quote,
     reduce,
     unit_of,
@@ -215,7 +216,7 @@ class Run:
         """One such quantity, by its label; all local extremes as ``label[1]``, ``label[2]`` …. Raises as ``evaluate`` does."""
         si = self.unit_of(item.value)
         if item.how != "at":
-            window, own = Window.within(self.edges, item.over), f"{si}*s" if si and item.how == "integral" else si
+            window, own = Window.within(self.edges, item.over), over_time(si) if item.how == "integral" else si
             with np.errstate(over="ignore", invalid="ignore"):
                 found = reduce(item.how, lambda t: self.evaluate(item.value, t), window, self._rate(item.value))
             if not all(math.isfinite(value) for _, value in found):

@@ -1,0 +1,55 @@
+"""The command ``find``: with which values is it so, where is it greatest, where does it tend to?"""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Any
+
+import typer
+
+from freebody.cli.models import opened
+from freebody.cli.options import AsJson, Changes, Model, Until
+from freebody.cli.terminal import print_json
+from freebody.cli.user_errors import NOT_TRUE, UserError
+
+_RANGE = re.compile(r"(.+?)=(.+?)\.\.(.+)")
+
+
+def find(
+    model: Model,
+    of: Annotated[
+        str, typer.Option(metavar="QUANTITY", help="As in a report: 'theta @ 1 s', 'max of A.Fx', or a label of the report.")
+    ],
+    target: Annotated[str | None, typer.Option("--is", metavar="VALUE", help="All values for which it is this.")] = None,
+    vary: Annotated[
+        str | None, typer.Option(metavar="NAME=A..B", help="A parameter, or coordinate or rate(…) of the start.")
+    ] = None,
+    to_infinity: Annotated[bool, typer.Option("--limit", help="What an expression tends to as t → ∞.")] = False,
+    points: Annotated[int, typer.Option(min=4, help="Of the first grid; intervals are halved where that is too coarse.")] = 33,
+    changes: Changes = None,
+    until: Until = None,
+    rtol: Annotated[float | None, typer.Option(help="Relative tolerance of the runs.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """All values of a parameter or of the start for which a quantity is what it is asked to be; without --is, its extremes."""
+    mechanism = opened(model, changes)
+    asked: dict[str, Any] = {name: value for name, value in (("until", until), ("rtol", rtol)) if value is not None}
+    if to_infinity:
+        if vary or target:
+            raise UserError(
+                "--limit is of one motion: --vary and --is are not for it", "change the start with --set, or in the model"
+            )
+        found, is_answered = mechanism.limit(of, **asked), True
+    else:
+        if not (stated := _RANGE.fullmatch(vary or "")):
+            raise UserError(f"--vary {vary or ''}: between which values?", "write it like --vary 'angle=10 deg..80 deg'")
+        name, *within = (part.strip() for part in stated.groups())
+        asked |= {"vary": name, "within": tuple(within), "points": points}
+        found = mechanism.extremes(of, **asked) if target is None else mechanism.find(of, target, **asked)
+        is_answered = target is None or bool(found.roots or found.throughout)
+    if as_json:
+        print_json(found.to_json())
+    else:
+        print(found)
+    if not is_answered:
+        raise typer.Exit(NOT_TRUE)

@@ -1,0 +1,165 @@
+"""Where a quantity tends to as time goes on, and integrals to infinity: a tail that is seen to be exponential or a power law is
+extrapolated, and the extrapolation held against what comes later."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import Array
+from freebody.model.start import quantity
+from freebody.run.records import Window, integral, over_time, unit_of
+from freebody.solve.figures import Known, figure
+from freebody.solve.rich_tables import PlainText, captured
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+    from freebody.run.simulation import Run
+
+_FIRST, _SPANS = 1.0, 14
+"""The first time that is looked at, s, and how often it is doubled."""
+_TERMS = 9
+"""Values of which a limit is extrapolated."""
+_SAFETY = 3.0
+_AIMED, _WANTED = 1e-10, 1e-6
+"""Parts of the size of a quantity to which its limit is looked for, and must be seen."""
+_SETTLED = 1e-14
+"""Part of the size of a quantity that is round-off."""
+_LESS = 0.9
+"""What is left of a swing when the time has doubled, at most, where there is a limit."""
+_LOOKS = 64
+"""Times in the quarter before the last half; twice as many in that."""
+
+
+class NoLimit(ValueError):
+    """A quantity that was not seen to tend to anything."""
+
+
+@dataclass(frozen=True)
+class Limit(PlainText):
+    """What a quantity ``of`` a motion tends to (SI): ``value`` with its error. ``tail`` says how it gets there; up to ``until`` (s) the
+    motion was followed, where the quantity was ``last``."""
+
+    of: str
+    value: Known
+    unit: str
+    tail: str
+    until: float
+    last: float
+
+    @property
+    def sentence(self) -> str:
+        """The answer, with its unit."""
+        unit = f" {self.unit}" if self.unit else ""
+        told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to {self.value.error:.0e}"
+        return f"{told}: {self.tail}; it was {figure(self.last, 8)} at {figure(self.until)} s."
+
+    def to_json(self) -> dict[str, Any]:
+        """As plain data, in SI."""
+        figures = {
+            "value": float(self.value),
+            "error": self.value.error,
+            "unit": self.unit,
+            "until": self.until,
+            "last": self.last,
+        }
+        return {"of": self.of, "sentence": self.sentence, "tail": self.tail} | figures
+
+    def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
+        yield self.sentence
+
+    def __str__(self) -> str:
+        return captured(self, 130).strip()
+
+
+def limit(mechanism: Builder, of: str, *, until: Any = None, changes: Mapping[str, Any] | None = None) -> Limit:
+    """What an expression, or ``integral of`` one, tends to as t → ∞. It is followed to times that double, at most to ``until`` (s, or a
+    quantity) or 16 000 s, as far as it takes; what is extrapolated of a part of the motion must hold for all that follows.
+
+    ``changes`` are those of ``simulate``, settings among them. Raises ``NoLimit`` where no limit is seen.
+    """
+    most = _FIRST * 2**_SPANS if until is None else quantity("until", until, "s")
+    summed = of.startswith("integral of ")
+    text = of.removeprefix("integral of ").strip()
+    end = min(most, 8 * _FIRST)
+    while True:
+        run = mechanism.simulate(end, **{"rtol": 1e-12, **(changes or {})})
+        if run.edges[-1] < end:
+            raise NoLimit(f"{of} has no limit t → ∞: the motion ends at {run.edges[-1]:g} s: {run.outcome.sentence}")
+        read = _integrated(run, text) if summed else partial(run.evaluate, text)
+        found = _seen(read, float(run.edges[0]), end)
+        if end >= most or (found and found[0].error <= _AIMED * found[0].size):
+            break
+        end = min(2 * end, most)
+    last = float(read(np.array([end]))[0])
+    if not found or found[0].error > _WANTED * found[0].size:
+        half = float(read(np.array([end / 2]))[0])
+        raise NoLimit(f"no limit of {of} is seen until {end:g} s: it was {half:.8g} at {end / 2:g} s and is {last:.8g} then")
+    unit = unit_of(text, run.columns, run.metadata)
+    return Limit(of, found[0], over_time(unit) if summed else unit, found[1], end, last)
+
+
+def _integrated(run: Run, text: str) -> Any:
+    """The integral of an expression from the start to times."""
+
+    def read(times: Array) -> Array:
+        spans = pairwise([run.edges[0], *times])
+        return np.cumsum([integral(lambda t: run.evaluate(text, t), Window.within(run.edges, span)) for span in spans])
+
+    return read
+
+
+def _seen(read: Any, start: float, end: float) -> tuple[Known, str] | None:
+    """The limit with its error, and how it is reached, by the extrapolation that serves best; None where it does not settle: where it
+    swings about as much in the last half of the time as in the quarter before."""
+    grid = start + (end - start) * np.linspace(0.25, 1, 3 * _LOOKS + 1)
+    doubled = start + (end - start) * 2.0 ** np.arange(-_TERMS + 1, 1)
+    even = start + (end - start) * np.linspace(0.5, 1, _TERMS)
+    times = np.unique(np.concatenate([grid, doubled, even]))
+    known = read(times)
+    at = lambda asked: known[np.searchsorted(times, asked)]
+    size = float(np.abs(known).max())
+    before, after = (float(np.ptp(at(part))) for part in (grid[: _LOOKS + 1], grid[_LOOKS:]))
+    if after > max(_LESS * before, _SETTLED * size):
+        return None
+    left = after / (1 - min(after / before, _LESS)) if before else 0.0
+    found = []
+    for law, of in (("power", doubled), ("exponential", even)):
+        values = at(of)
+        whole, *parts = (extrapolated(each) for each in (values, values[:-1], values[1:]))
+        if math.isfinite(whole) and abs(whole - values[-1]) <= left + _SETTLED * size:
+            error = _SAFETY * max(*(abs(whole - part) for part in parts), _SETTLED * size)
+            found.append((Known(whole, error, max(size, abs(whole))), _tail(law, values, whole, of)))
+    return min(found, key=lambda each: each[0].error) if found else None
+
+
+def _tail(name: str, values: Array, to: float, times: Array) -> str:
+    """How the last values approach their limit, in words."""
+    left = np.abs(values[-2:] - to)
+    if left[1] <= _SETTLED * np.abs(values).max():
+        return "it is there to round-off"
+    if name == "power":
+        power = math.log2(left[0] / left[1])
+        return f"what is left falls as t^-{power:.2f}, {left[1]:.1e} at the end"
+    rate = math.log(left[0] / left[1]) / (times[-1] - times[-2])
+    return f"what is left falls as exp(-{rate:.3g} t), {left[1]:.1e} at the end"
+
+
+def extrapolated(values: Sequence[float] | Array) -> float:
+    """The limit of a sequence that is a sum of geometric ones, by Wynn's epsilon algorithm (1956, MTAC 10, 91)."""
+    before, now = [0.0] * (len(values) + 1), [float(value) for value in values]
+    best = now[-1]
+    for column in range(1, len(values)):
+        gaps = np.diff(now)
+        if (np.abs(gaps) <= _SETTLED * max(map(abs, values))).any():
+            break
+        before, now = now, [old + 1 / gap for old, gap in zip(before[1:], gaps.tolist(), strict=False)]
+        if column % 2 == 0:
+            best = now[-1]
+    return best

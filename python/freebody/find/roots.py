@@ -1,0 +1,227 @@
+"""All places where a quantity is what it is asked to be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from freebody.find.curve import Break, Curve
+from freebody.find.response import Response, Sample
+from freebody.solve.figures import Known, figure
+from freebody.solve.rich_tables import PlainText, captured, table
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+_TOUCHES = 3.0
+"""Errors of the quantity within which its extreme is the target."""
+_APART = 1e-3
+"""Part of an interval over which a slope is a difference."""
+
+
+@dataclass(frozen=True)
+class Root:
+    """A value of what is varied with which the quantity is the target: ``where`` in SI, with its error; ``found`` is the quantity there,
+    by a run of its own. ``touching``: the quantity only touches the target there."""
+
+    where: Known
+    found: Known
+    touching: bool = False
+
+
+@dataclass(frozen=True)
+class Found(PlainText):
+    """All values of what is ``varied`` between two places for which the quantity ``of`` is the ``target``, in SI.
+
+    ``breaks`` are the places where it jumps over the target, or begins or ceases to have a value. ``throughout`` are intervals on
+    which it is the target everywhere."""
+
+    of: str
+    target: float
+    varied: str
+    units: tuple[str, str]
+    curve: Curve = field(repr=False)
+    roots: list[Root]
+    throughout: list[tuple[float, float]]
+
+    @property
+    def values(self) -> list[float]:
+        """Where the roots are."""
+        return [float(root.where) for root in self.roots]
+
+    @property
+    def breaks(self) -> list[Break]:
+        """Where the quantity jumps over the target, or begins or ceases to have a value."""
+        return [
+            each
+            for each in self.curve.breaks
+            if not each.below.is_known or not each.above.is_known
+            or min(each.below.y, each.above.y) < self.target < max(each.below.y, each.above.y)
+        ]  # fmt: skip
+
+    @property
+    def sentence(self) -> str:
+        """The answer, with its unit."""
+        unit, of_value = (f" {each}" if each else "" for each in self.units)
+        asked = f"{self.of} is {figure(self.target, 10)}{of_value}"
+        between = f"between {figure(self.curve.start)} and {figure(self.curve.end)}{unit}"
+        told = [f"{figure(root.where, 12)}{unit}" + " (touches)" * root.touching for root in self.roots]
+        told += [f"from {figure(a, 8)} to {figure(b, 8)}{unit}" for a, b in self.throughout]
+        if not told:
+            seen = [sample.y for sample in self.curve.samples if sample.is_known]
+            least_most = f"it is from {figure(min(seen))} to {figure(max(seen))}{of_value}"
+            return f"{asked} for no {self.varied} {between}: {least_most}."
+        return f"{asked} for {self.varied} = {', '.join(told)}, and for no other {between}."
+
+    def to_json(self) -> dict[str, Any]:
+        """As plain data, in SI."""
+        roots = [
+            {"where": float(r.where), "where_error": r.where.error, "found": float(r.found), "found_error": r.found.error,
+             "touching": r.touching}
+            for r in self.roots
+        ]  # fmt: skip
+        breaks = [{"where": each.x, "below": each.below.y, "above": each.above.y, "reason": each.reason} for each in self.breaks]
+        asked = {"of": self.of, "is": self.target, "vary": self.varied, "within": [self.curve.start, self.curve.end]}
+        told = {"sentence": self.sentence, "looked_at": self.curve.sentence(self.units[0]), "resolution": self.curve.resolution}
+        return (
+            asked | told | {"roots": roots, "throughout": self.throughout, "breaks": breaks, "unresolved": self.curve.unresolved}
+        )
+
+    def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
+        yield self.sentence
+        unit, of_value = (f" [{each}]" if each else "" for each in self.units)
+        if self.roots:
+            heads = [f"{self.varied}{unit}", "error", f"found{of_value}", ""]
+            rows = [
+                (figure(r.where, 12), f"{r.where.error:.0e}", figure(r.found, 10), "touches" if r.touching else "")
+                for r in self.roots
+            ]
+            yield table("", heads, rows, heads[:3], edge=True)
+        yield from (f"At {self.varied} = {figure(each.x, 10)} it {_broken(each)}." for each in self.breaks)
+        yield f"Looked at {self.curve.sentence(self.units[0])}."
+
+    def __str__(self) -> str:
+        return captured(self, 130)
+
+
+def _broken(each: Break) -> str:
+    jumps = each.below.is_known and each.above.is_known
+    what = f"jumps from {figure(each.below.y)} to {figure(each.above.y)}" if jumps else "begins or ends"
+    return f"{what}: {each.reason}"
+
+
+def find(
+    mechanism: Builder,
+    of: str,
+    target: Any,
+    *,
+    vary: str,
+    within: tuple[Any, Any],
+    points: int = 33,
+    changes: Mapping[str, Any] | None = None,
+) -> Found:
+    """All values of ``vary`` (a parameter, a coordinate of the start, or its ``rate(…)``) ``within`` two for which a quantity is the
+    ``target``.
+
+    ``of`` is what a line of a report says: ``theta @ 1 s``, ``x(ball.G) @ lands``, ``max of A.Fx over 1 s .. 2 s``, ``A.Fx @ start``,
+    or the label of such a line of the model. Numbers are SI or quantities (``"30 deg"``). ``points`` is the first grid; ``changes``
+    are those of ``simulate``, settings among them. Raises ``ValueError`` where there is no motion at all to ask.
+    """
+    respond = Response(mechanism, of, vary, changes or {})
+    goal, curve = respond.target(target), followed(respond, within, points)
+    level = max(curve.level, 1e-9 * abs(goal))
+    throughout = [(run[0].x, run[-1].x) for run in _level_runs(curve, goal, level)]
+    inside = lambda x: any(a <= x <= b for a, b in throughout)
+    roots = [root for root in _roots(respond, curve, goal) if not inside(float(root.where))]
+    return Found(of, goal, vary, (respond.unit, respond.quantity_unit), curve, roots, throughout)
+
+
+def followed(respond: Response, within: tuple[Any, Any], points: int) -> Curve:
+    """The quantity between two places. Raises ``ValueError`` where they are none, or where nothing has a value for one reason."""
+    start, end = map(respond.place, within)
+    if not start < end or points < 4:
+        raise ValueError(
+            f"{respond.varied} is looked at from {start:g} to {end:g}, at {points} places: write within=(less, more)"
+        )
+    curve = Curve(respond, start, end, points)
+    reasons = {sample.why for sample in curve.samples}
+    if len(reasons) == 1 and "" not in reasons:
+        raise ValueError(f"{respond.of} has no value for any {respond.varied} from {start:g} to {end:g}: {reasons.pop()}")
+    return curve
+
+
+def _level_runs(curve: Curve, goal: float, level: float) -> Iterator[list[Sample]]:
+    """Samples one after the other, at least four, at which the quantity is the target to its error."""
+    for piece in curve.pieces:
+        run: list[Sample] = []
+        for sample in [*piece, None]:
+            if sample and abs(sample.y - goal) <= level:
+                run.append(sample)
+                continue
+            if len(run) > 3:
+                yield run
+            run = []
+
+
+def _roots(respond: Response, curve: Curve, goal: float) -> Iterator[Root]:
+    """In order: at changes of sign, and where the quantity touches the target."""
+    found = list[Root]()
+    for piece in curve.pieces:
+        for low, high in pairwise(piece):
+            if (low.y - goal) * (high.y - goal) <= 0:
+                found.append(_crossing(respond, low, high, goal))
+        for before, amid, after in zip(piece, piece[1:], piece[2:], strict=False):
+            signs = {each.y > goal for each in (before, amid, after)}
+            if len(signs) == 1 and _may_reach(before, amid, after, goal):
+                found += _at_extreme(respond, before, amid, after, goal)
+    last = None
+    for root in sorted(found, key=lambda root: root.where):
+        if last is None or float(root.where) - last > 2 * root.where.error + 1e-12 * (curve.end - curve.start):
+            yield root
+        last = float(root.where)
+
+
+def _crossing(respond: Response, low: Sample, high: Sample, goal: float) -> Root:
+    from scipy.optimize import brentq
+
+    x = low.x if low.y == goal else high.x if high.y == goal else None
+    x = brentq(lambda x: respond(x).y - goal, low.x, high.x, xtol=1e-300, rtol=1e-15) if x is None else x
+    found, h = respond.known(x), _APART * (high.x - low.x)
+    beside = [respond(place) for place in (max(x - h, low.x), min(x + h, high.x))]
+    slope = abs(beside[1].y - beside[0].y) / (beside[1].x - beside[0].x)
+    error = (found.error + abs(found - goal)) / slope if slope else high.x - low.x
+    return Root(Known(x, error, max(abs(low.x), abs(high.x))), found)
+
+
+def _may_reach(before: Sample, amid: Sample, after: Sample, goal: float) -> bool:
+    """Whether the quantity comes nearest to the target beside ``amid``, and may reach it there."""
+    gaps = [abs(each.y - goal) for each in (before, amid, after)]
+    return gaps[1] <= min(gaps[0], gaps[2]) and gaps[1] <= max(gaps) - gaps[1]
+
+
+def _at_extreme(respond: Response, before: Sample, amid: Sample, after: Sample, goal: float) -> Iterator[Root]:
+    """The roots beside an extreme that lies beyond the target, or on it."""
+    sign = 1.0 if amid.y > goal else -1.0
+    x, y, bend = lowest(lambda x: sign * (respond(x).y - goal), before.x, amid.x, after.x)
+    if y < 0:
+        yield from (_crossing(respond, *sorted((end, respond(x)), key=lambda each: each.x), goal) for end in (before, after))
+        return
+    found = respond.known(x)
+    if abs(found - goal) <= _TOUCHES * found.error:
+        error = ((found.error + abs(found - goal)) / bend) ** 0.5 if bend else after.x - before.x
+        yield Root(Known(x, error, max(abs(before.x), abs(after.x))), found, True)
+
+
+def lowest(value: Any, low: float, amid: float, high: float) -> tuple[float, float, float]:
+    """Place and value of a minimum between three places, and half the second derivative there (Brent)."""
+    from scipy.optimize import minimize_scalar
+
+    if value(amid) < min(value(low), value(high)):
+        best = minimize_scalar(value, bracket=(low, amid, high), method="brent", options={"xtol": 1e-9})
+    else:
+        best = minimize_scalar(value, bounds=(low, high), method="bounded", options={"xatol": 1e-9 * (high - low)})
+    x, h = float(best.x), 0.25 * min(amid - low, high - amid)
+    bend = (value(min(x + h, high)) + value(max(x - h, low)) - 2 * float(best.fun)) / (2 * h**2)
+    return x, float(best.fun), max(bend, 0.0)
