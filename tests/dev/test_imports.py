@@ -18,6 +18,7 @@ MAY_USE = {
     "impact": CORE | {"model", "solve"},
     "run": CORE | {"model", "solve", "impact"},
     "find": SOLVED,
+    "stability": SOLVED,
     "views": SOLVED | {"document"},
     "codegen": CORE | {"model", "solve", "document"},
     "equations": SOLVED | {"document", "codegen"},

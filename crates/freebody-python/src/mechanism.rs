@@ -7,7 +7,7 @@ use crate::trajectory::Trajectory;
 use freebody::assembly::assemble;
 use freebody::builder::chosen;
 use freebody::compile::Compiled;
-use freebody::dynamics::{DynamicsError, Route, Workspace};
+use freebody::dynamics::{DynamicsError, Route, Source, Workspace};
 use freebody::gauges::ModelExpr;
 use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
@@ -166,6 +166,17 @@ impl Mechanism {
         let along = workspace.unit_directions();
         let rows = workspace.derivatives(&laws, works, &along).map_err(errors::motion)?;
         array(py, rows.concat(), [along.len(), laws.len()])
+    }
+
+    /// Each closing row: its name, whether it keeps something from sliding, derivatives of its value and of its rate.
+    #[allow(clippy::type_complexity)]
+    fn row_derivatives(&self, state: State<'_>) -> PyResult<Vec<(String, bool, Option<Vec<f64>>, Option<Vec<f64>>)>> {
+        let m = self.0.mechanism();
+        let mut workspace = placed(&m, &state)?;
+        let along = workspace.unit_directions();
+        let rows = workspace.row_derivatives(&along).map_err(errors::motion)?;
+        let sticks = |source| matches!(source, Source::Friction(_) | Source::JointFriction(_));
+        Ok(rows.into_iter().map(|r| (r.source.name(&m).to_string(), sticks(r.source), r.value, r.rate)).collect())
     }
 
     fn points<'py>(&self, py: Python<'py>, p: Array<'py>) -> PyResult<Bound<'py, PyAny>> {

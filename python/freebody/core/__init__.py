@@ -11,7 +11,7 @@ from .compiled import BEFORE, EXTREMES, CompiledModel, ReportItem, Settings, Spe
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .motion import Change, Event, Impulses, Motion, Outcome, Snapshot, Trajectory, there
-from .solution import Limit, Rank, Solution, SymbolicAnswers
+from .solution import Limit, Rank, RowDerivatives, Solution, SymbolicAnswers
 from .state import Array, State
 
 __all__ = [
@@ -40,6 +40,7 @@ __all__ = [
     "Rank",
     "ReportItem",
     "Row",
+    "RowDerivatives",
     "Settings",
     "Snapshot",
     "Solution",

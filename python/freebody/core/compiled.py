@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from freebody import _core
 
 from .cards import methods
 from .free_bodies import FreeBodies
 from .motion import Trajectory
-from .solution import Solution, SymbolicAnswers
+from .solution import RowDerivatives, Solution, SymbolicAnswers
 from .state import Array, State
 
 Spec = dict[str, Any]
@@ -145,6 +147,12 @@ class CompiledModel:
     def derivatives(self, texts: Sequence[str], state: State) -> Array:
         """Derivatives (k, 1 + 2 n + np) of expressions by time, coordinates, rates and parameters, in the mode of the state."""
         return self.mechanism.derivatives(list(texts), state.arrays).T
+
+    def row_derivatives(self, state: State) -> list[RowDerivatives]:
+        """Of each row that closes a loop, prescribes a motion, or holds what touches, in the mode of the state."""
+        found = self.mechanism.row_derivatives(state.arrays)
+        made = [(name, sticks, *(None if x is None else np.array(x) for x in rows)) for name, sticks, *rows in found]
+        return [RowDerivatives(*row) for row in made]
 
     def points(self, p: Array) -> dict[str, tuple[str, float, float]]:
         """Named points: body, x and y in its frame (m)."""

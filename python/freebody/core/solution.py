@@ -15,6 +15,17 @@ _WORDS = {"string": {"open": "slack", "closed": "taut"}, "contact": {"closed": "
 
 
 @dataclass(frozen=True)
+class RowDerivatives:
+    """How what a loop, a motion or a contact holds at 0 changes by time, coordinates, rates and parameters, (1 + 2 n + np,): its
+    ``value`` where that is prescribed, and its ``rate``. What ``sticks`` prescribes a rate, and stays where it is."""
+
+    name: str
+    sticks: bool
+    value: Array | None
+    rate: Array | None
+
+
+@dataclass(frozen=True)
 class Limit:
     """What a contact, string or stop does at an instant.
 

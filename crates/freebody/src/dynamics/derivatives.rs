@@ -8,9 +8,10 @@
 use super::minimal::{joint_wrenches, Force};
 use super::rows::closing_rows;
 use super::{
-    contact_forces, generalized_force, joint_friction, loads, residual, DynamicsError, Route, Row, SolvedView,
+    contact_forces, generalized_force, joint_friction, loads, residual, DynamicsError, Route, Row, SolvedView, Source,
     Workspace,
 };
+use crate::bound_values::BoundValues;
 use crate::gauges::ModelExpr;
 use crate::kinematics::{Kinematics, Observed, StateView};
 use crate::plane::{Twist, Vec2, Wrench};
@@ -50,6 +51,46 @@ impl<'a> Lane<'a> {
             Lane::Friction(_) => 0.0,
         }
     }
+}
+
+/// How a row of [`closing_rows`] changes along directions: what must vanish, and its rate, where they are prescribed.
+pub struct RowDerivatives {
+    /// Where the row comes from.
+    pub source: Source,
+    /// Of its value, along each direction.
+    pub value: Option<Vec<f64>>,
+    /// Of its rate, along each direction.
+    pub rate: Option<Vec<f64>>,
+}
+
+/// A state whose numbers carry directions.
+struct Seeded {
+    n: BoundValues<Lanes>,
+    k: Kinematics<Lanes>,
+    q: Vec<Lanes>,
+    u: Vec<Lanes>,
+    t: Lanes,
+}
+
+impl Seeded {
+    fn of(now: StateView<'_, f64>, along: &[Lane]) -> Self {
+        let n = now.m.bind(&seeded(&now.n.p, along, |d| &d.p));
+        let (q, u) = (seeded(now.q, along, |d| &d.q), seeded(now.u, along, |d| &d.u));
+        let mut k = Kinematics::of(now.m);
+        k.forward_kinematics(now.m, &n, &q, &u);
+        Seeded { n, k, q, u, t: seeded(&[now.t], along, |d| std::slice::from_ref(&d.t))[0] }
+    }
+
+    fn view<'a>(&'a self, now: StateView<'a, f64>) -> StateView<'a, Lanes> {
+        StateView { m: now.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: now.mode }
+    }
+}
+
+/// Values with what directions make of them.
+fn seeded(values: &[f64], along: &[Lane], part: fn(&Direction) -> &[f64]) -> Vec<Lanes> {
+    let change = |i: usize, lane: usize| along.get(lane).map_or(0.0, |lane| lane.part(part, i));
+    let seed = |(i, &re): (usize, &f64)| Dual { re, du: std::array::from_fn(|lane| change(i, lane)) };
+    values.iter().enumerate().map(seed).collect()
 }
 
 /// The balances of one state with given accelerations and multipliers.
@@ -133,6 +174,30 @@ impl Workspace<'_> {
         Ok(responses.into_iter().map(|response| response.of_laws).collect())
     }
 
+    /// How the rows that hold in the present mode change along each direction.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn row_derivatives(&mut self, along: &[Direction]) -> Result<Vec<RowDerivatives>, DynamicsError> {
+        self.solve()?; // which decides on which flank teeth bear
+        let lanes: Vec<Lane> = along.iter().map(Lane::Along).collect();
+        let mut found: Vec<RowDerivatives> = vec![];
+        for lanes in lanes.chunks(LANES) {
+            let now = self.at();
+            for (i, row) in closing_rows(Seeded::of(now, lanes).view(now), None).into_iter().enumerate() {
+                let new = |of: Option<Lanes>| of.map(|_| vec![]);
+                if found.len() == i {
+                    found.push(RowDerivatives { source: row.source, value: new(row.value), rate: new(row.rate) });
+                }
+                let so_far = &mut found[i];
+                for (list, of) in [(&mut so_far.value, row.value), (&mut so_far.rate, row.rate)] {
+                    list.iter_mut().zip(of).for_each(|(list, of)| list.extend(&of.du[..lanes.len()]));
+                }
+            }
+        }
+        Ok(found)
+    }
+
     /// The time derivatives of expressions along the motion from the present state; `works` as those of
     /// [`Workspace::evaluate`].
     ///
@@ -164,19 +229,10 @@ impl Workspace<'_> {
         along: &[Lane],
         determinacy: &super::Determinacy,
     ) -> Vec<Response> {
-        let seeded = |values: &[f64], part: fn(&Direction) -> &[f64]| -> Vec<Lanes> {
-            let change = |i: usize, lane: usize| along.get(lane).map_or(0.0, |lane| lane.part(part, i));
-            let seed = |(i, &re): (usize, &f64)| Dual { re, du: std::array::from_fn(|lane| change(i, lane)) };
-            values.iter().enumerate().map(seed).collect()
-        };
         let (m, now) = (self.m, self.at());
-        let n = m.bind(&seeded(&now.n.p, |d| &d.p));
-        let (q, u) = (seeded(now.q, |d| &d.q), seeded(now.u, |d| &d.u));
-        let mut k = Kinematics::of(m);
-        k.forward_kinematics(m, &n, &q, &u);
-        let t = seeded(&[now.t], |d| std::slice::from_ref(&d.t))[0];
-        let at = StateView { m, n: &n, k: &k, q: &q, u: &u, t, mode: now.mode };
-        let mut friction = seeded(&self.joint_friction_forces, |_| &[]);
+        let state = Seeded::of(now, along);
+        let at = state.view(now);
+        let mut friction = seeded(&self.joint_friction_forces, along, |_| &[]);
         for (i, lane) in along.iter().enumerate() {
             if let Lane::Friction(of) = lane {
                 friction[*of].du[i] = 1.0;
@@ -185,7 +241,7 @@ impl Workspace<'_> {
         let (nu_dot, lambda) = self.follow(at, &friction, along.len());
         let found = Balances::of(at, &nu_dot, &lambda, &friction);
         let mut accelerations = vec![Lanes::zero(); m.freedom()];
-        k.user_rates(m, &n, &found.bodies, &nu_dot, &mut accelerations);
+        state.k.user_rates(m, &state.n, &found.bodies, &nu_dot, &mut accelerations);
         let wrenches = joint_wrenches(at, &found.left);
         let seen = SolvedView {
             at,
@@ -195,7 +251,7 @@ impl Workspace<'_> {
             sliding_friction: &friction,
             length: self.length,
         };
-        let works = seeded(works, |d| &d.works);
+        let works = seeded(works, along, |d| &d.works);
         let read = |reading| seen.read(reading, &works, Some(determinacy));
         let observed = Observed { at, bodies: &found.bodies, accelerations: &accelerations, read: &read, rates: &[] };
         let laws: Vec<Lanes> = laws.iter().map(|law| law.eval(&observed)).collect();

@@ -36,7 +36,7 @@ mod unloaded;
 
 pub use contact_forces::compliant_force;
 pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
-pub use derivatives::Direction;
+pub use derivatives::{Direction, RowDerivatives};
 pub use energy::{kinetic, potential};
 pub use impact::ImpactSolution;
 pub use instant::{ContactLoad, Instant};
