@@ -27,7 +27,7 @@ forces:
 """
 FIELDS = {
     "points": (["ground.P", "plate.A"], None, ["plate.A", "plate.B"]),
-    "point": (None, None, "plate.A"),
+    "point": (None, "ground.P", "plate.A"),
     "line": (None, "ground.rail", "plate.edge"),
     "circle": (None, "{centre: ground.P, radius: 0.5 m}", "{centre: plate.A, radius: 0.3 m}"),
     "curve": (None, "ground.bow", None),

@@ -137,7 +137,7 @@ fn joint(m: &Mechanism, start: &Mode, index: usize) -> Value {
     let card = j.kind.card();
     let [first, second] = m.ends(j).map(|b| m.bodies[b].name.clone());
     json!({
-        "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(),
+        "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(), "holonomic": j.is_holonomic(),
         "engaged": start.has(m.part_of(index)),
         "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
         "reaction": j.rows.iter().map(|&r| card.rows[r].load.name).collect::<Vec<_>>(), "couple": j.couple,
@@ -226,12 +226,15 @@ fn notes(m: &Mechanism, n: &BoundValues) -> Vec<String> {
         true => "Bodies that no joint joins pass through each other: there are no contacts.".to_string(),
         false => "Only what a contact, stop or string names can touch or hold; all else passes through.".to_string(),
     });
-    if !m.closures.is_empty() {
-        let names: Vec<_> = m.closures.iter().map(|&j| format!("`{}`", m.joints[j].name)).collect();
-        notes.push(format!(
-            "Loops are closed at {}; the motion is carried by the other joints' coordinates.",
-            names.join(", ")
-        ));
+    let named =
+        |joints: &[usize]| joints.iter().map(|&j| format!("`{}`", m.joints[j].name)).collect::<Vec<_>>().join(", ");
+    let (loops, rates): (Vec<_>, Vec<_>) = m.closures.iter().partition(|&&j| m.joints[j].is_holonomic());
+    if !loops.is_empty() {
+        let names = named(&loops);
+        notes.push(format!("Loops are closed at {names}; the motion is carried by the other joints' coordinates."));
+    }
+    if !rates.is_empty() {
+        notes.push(format!("Rates only are constrained at {}: every place can still be reached.", named(&rates)));
     }
     notes
 }

@@ -245,7 +245,7 @@ def mechanism(start: Instant, as_json: bool) -> None:
     bodies = [(b["name"], float(b["mass"]), float(b["inertia"]), "particle" if b["particle"] else "") for b in metadata["bodies"]]
     coordinates = [(c["name"], c["dimension"], c["doc"], "") for c in metadata["coordinates"]]
     coordinates += [(c["name"], c["dimension"], c["doc"], "follows from the others") for c in start.core.dependent_coordinates]
-    joints = [(j["name"], j["type"], _ends(j), "closes a loop" if j["cut"] else "", _later(j)) for j in metadata["joints"]]
+    joints = [(j["name"], j["type"], _ends(j), _closing(j), _later(j)) for j in metadata["joints"]]
     limits = [(x["name"], x["type"], "" if x["type"] == "stop" else _ends(x), _later(x)) for x in metadata["limits"]]
     forces = [(f["name"], f["type"], _later(f)) for f in metadata["forces"]]
     motions = [(m["name"], m["level"], "" if m["ideal"] else "does work of its own", _later(m)) for m in metadata["motions"]]
@@ -268,6 +268,10 @@ def mechanism(start: Instant, as_json: bool) -> None:
 
 def _ends(part: Mapping[str, Any]) -> str:
     return f"{part['first']} – {part['second']}"
+
+
+def _closing(joint: Mapping[str, Any]) -> str:
+    return "" if not joint["cut"] else "closes a loop" if joint["holonomic"] else "constrains rates only"
 
 
 def _later(part: Mapping[str, Any]) -> str:

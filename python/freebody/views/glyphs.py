@@ -152,6 +152,13 @@ def _rolling_circles(sketch: Sketch, name: str, fields: Fields) -> None:
     sketch.wheel(fields["on"], "mark")
 
 
+def _skate(sketch: Sketch, name: str, fields: Fields) -> None:
+    body, at, along = sketch.line(fields["line"])
+    across = 0.25 * np.array([-along[1], along[0]])
+    corners = [sketch.size * (s * along + t * across) for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    sketch.figures[body].add(at + np.array(corners), "weld")
+
+
 def _weld(sketch: Sketch, name: str, fields: Fields) -> None:
     s, (body, at) = sketch.size, sketch.at[fields["of"][0]]
     sketch.figures[body].add(at + shapes.box(0.9 * s, 0.9 * s), "weld")
@@ -195,6 +202,7 @@ GLYPHS: dict[str, Callable[[Sketch, str, Fields], None]] = {
     "curve": _curve,
     "follower": _curve,
     "link": _link,
+    "skate": _skate,
     "wheel": _rolling,
     "wheels": _rolling_circles,
     "pitch_circles": _gear,

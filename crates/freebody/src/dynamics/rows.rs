@@ -112,14 +112,19 @@ pub fn joint_friction_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: B
 }
 
 /// Unit vector along a joint's line, or along its curve where the second body is on it, as the parameter of the curve
-/// grows; in the first marker's axes.
+/// grows; of a constraint on rates that along which it leaves the motion free. In the first marker's axes.
 pub(super) fn joint_tangent<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec2<S> {
     let joint = &at.m.joints[index];
+    let (_, place) = relative(joint, at.m, &at);
+    let view = JointView::new(at.m, at.n, joint, |x| x);
+    if let Some([x, y, _]) = view.rate_row(&place) {
+        return vec2(y, -x);
+    }
     let s = joint.curve.map_or(S::zero(), |_| {
         let first = &joint.coordinates[0];
         at.n.values[first.zero] + at.coordinate(index, 0).scale(first.sense)
     });
-    JointView::new(at.m, at.n, joint, |x| x).tangent(s)
+    view.tangent(s)
 }
 
 /// The row of the first freedom of a joint in the sense of its coordinate: what the second body turns, or moves along
@@ -186,7 +191,22 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
     let joint = &at.m.joints[index];
     let going = MotionView { at, bodies: base, accelerations: None };
     let (_, place) = relative(joint, at.m, &going);
-    let jets = JointView::in_mode(at, index, Jet::constant).residual(&place);
+    let view = JointView::in_mode(at, index, Jet::constant);
+    if let Some(coefficients) = view.rate_row(&place) {
+        let rates = [place.x, place.y, place.angle];
+        let (mut rate, mut bias) = (S::zero(), S::zero());
+        for (c, r) in coefficients.iter().zip(rates) {
+            rate += c.d0 * r.d1;
+            bias += c.d0 * r.d2 + c.d1 * r.d1;
+        }
+        let (axes, place) = relative(joint, at.m, &at);
+        let [x, y, angle] = coefficients.map(|c| c.d0);
+        let motion = pair(at, joint, axes.place(place.at()), Wrench { f: axes.turn.apply(vec2(x, y)), m: angle });
+        let source = Source::Joint(index, 0);
+        out.push(Row { source, value: None, rate: Some(rate), bias, motion, force: None });
+        return;
+    }
+    let jets = view.residual(&place);
     let loads = joint_loads(at, index);
     for &row in &joint.rows {
         out.push(Row {

@@ -168,12 +168,15 @@ pub struct RowCard {
     /// It is a force that passes beside the joint's point, and so has a moment about it.
     #[serde(skip)]
     pub beside: bool,
+    /// It constrains rates only: a non-holonomic constraint.
+    #[serde(skip)]
+    pub of_rates: bool,
 }
 
 impl RowCard {
     /// A row whose multiplier is this load.
     pub fn of(load: LoadCard) -> Self {
-        RowCard { load, pin: None, is_relative: false, beside: false }
+        RowCard { load, pin: None, is_relative: false, beside: false, of_rates: false }
     }
     /// The sign of its load for a positive multiplier.
     pub fn sign(&self) -> f64 {

@@ -12,6 +12,7 @@ mod hinge;
 mod link;
 mod parallel;
 mod rolling;
+mod skate;
 mod slider;
 mod slot;
 mod weld;
@@ -66,7 +67,8 @@ pub trait Curve<S> {
 /// checked for every joint of the list:
 /// - `residual(pose(q))` = 0 for every q;
 /// - `measure(pose(q))` = q (angles modulo a turn);
-/// - freedom of `pose` + rows of `residual` = 3.
+/// - freedom of `pose` + rows of `residual` = 3;
+/// - a joint with a `rate_row` has neither, and this one row.
 pub trait Joint {
     /// Names, fields, coordinates, rows.
     fn card(&self) -> Card;
@@ -76,6 +78,11 @@ pub trait Joint {
     }
     /// The rows that vanish on the joint; None when it can only be a joint of the tree.
     fn residual<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Rows3<S>> {
+        None
+    }
+    /// The coefficients of (ẋ, ẏ, rate of the angle) whose sum vanishes, of a row that no residual has for its rate (a
+    /// non-holonomic constraint, in Pfaff's form).
+    fn rate_row<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<[S; 3]> {
         None
     }
     /// The coordinates, read off the relative place; None where that has no formula.
@@ -120,6 +127,9 @@ macro_rules! list {
             fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.residual(n, r)),* }
             }
+            fn rate_row<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<[S; 3]> {
+                match self { $(Kind::$Joint => $module::$Joint.rate_row(n, r)),* }
+            }
             #[inline]
             fn measure<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.measure(n, r)),* }
@@ -151,6 +161,7 @@ list! {
     rolling::RollingCircles,
     gear::Gear,
     gear::Belt,
+    skate::Skate,
     free::Free,
     free::Polar,
 }

@@ -66,6 +66,10 @@ impl<'a, T: Scalar> JointView<'a, T> {
     pub fn residual(&self, r: &Relative<T>) -> Rows3<T> {
         self.joint.kind.residual(&self.numbers(), r).expect("a joint that closes a loop has a residual")
     }
+    /// The coefficients of its row of rates, if it is one.
+    pub fn rate_row(&self, r: &Relative<T>) -> Option<[T; 3]> {
+        self.joint.kind.rate_row(&self.numbers(), r)
+    }
     /// Where the reaction acts, in the first marker's axes.
     pub fn contact(&self, r: &Relative<T>) -> Vec2<T> {
         self.joint.kind.contact(&self.numbers(), r)

@@ -1,7 +1,7 @@
 //! Joints as compiled, their coordinates and their friction.
 
 use super::{Marker, ValueId};
-use crate::joints::Kind;
+use crate::joints::{Joint as _, Kind};
 
 /// A joint.
 #[derive(Clone, Debug)]
@@ -33,6 +33,10 @@ pub struct Joint {
 }
 
 impl Joint {
+    /// Whether it constrains places, and not rates only.
+    pub fn is_holonomic(&self) -> bool {
+        !self.kind.card().rows.iter().any(|row| row.of_rates)
+    }
     /// The markers on the body nearer to ground and on the one that it carries.
     #[inline(always)]
     pub fn sides(&self, reversed: bool) -> (&Marker, &Marker) {

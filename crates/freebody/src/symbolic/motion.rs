@@ -95,6 +95,7 @@ impl SymbolicState<'_> {
     /// A row with its acceleration as coefficients of unknowns.
     pub(super) fn row_in(&self, row: &Row<Symbol>, unknowns: &[Variable]) -> Value {
         let kind = match row.source {
+            Source::Joint(joint, _) if !self.m.joints[joint].is_holonomic() => "non-holonomic",
             Source::Joint(..) => "joint",
             Source::Drive(drive) => self.m.drives[drive].kind.word(),
             Source::Gap(limit) | Source::Friction(limit) => self.m.groups[self.m.unilateral[limit].group].word,

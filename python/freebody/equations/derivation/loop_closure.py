@@ -15,12 +15,13 @@ from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zer
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
     "coupling": ("couples motions", "couple motions"), "lock": ("holds", "hold"), "contact": ("holds", "hold"), "string": ("is taut", "are taut"),
-    "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
+    "non-holonomic": ("constrains rates only", "constrain rates only"), "stop": ("is at its end", "are at their end"), "friction": ("sticks", "stick"),
 }  # fmt: skip
 _HELD = ("contact", "string", "stop", "friction")
 _STUCK = ("holds and does not slide", "hold and do not slide")
 _TITLES = {
-    "Loop closure": {"joint"}, "couplings": {"coupling"}, "locks": {"lock"}, "contacts": {*_HELD}, "prescribed motions": {"motion"},
+    "Loop closure": {"joint"}, "constraints on rates": {"non-holonomic"}, "couplings": {"coupling"}, "locks": {"lock"},
+    "contacts": {*_HELD}, "prescribed motions": {"motion"},
 }  # fmt: skip
 
 

@@ -106,6 +106,11 @@ def _require_regular(subject: SymbolicState) -> None:
             f"{joined(subject.idle)} {'are' if len(subject.idle) > 1 else 'is'} closed without a load in this equilibrium, so perturbations to one "
             "side meet resistance and others none, which no linear equations describe; open what is closed, or load it"
         )
+    if free := [row.name for row in subject.rows if row.kind == "non-holonomic"]:
+        raise NotHere(
+            f"{clause(free, 'constrains', 'constrain')} rates only, so that every place beside this equilibrium can be one, too, "
+            "and these equations would not show it"
+        )
     for row in subject.rows:
         if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
             raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; prescribe that it stands still")
