@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -74,3 +75,37 @@ def test_the_motion_up_to_the_release_is_that_of_a_track_that_stays():
 def test_what_is_not_there_yet_has_no_place_on_a_curve(word):
     with pytest.raises(Exception, match="has no place on it"):
         model(CHUTE.replace("coordinate: s}", f"coordinate: s, {word}}}")).simulate(until=1.0)
+
+
+GUN = """
+bodies:
+  cart: {mass: 100 kg, lines: {axle: {through: origin, angle: 0}}, points: {C: [0, 3.2]}, curves: {tube: {arc: {centre: C, radius: 1.2 m}}}}
+  ball: {shape: particle, mass: 5 kg}
+ground: {lines: {road: {through: O, angle: 0}}}
+joints:
+  wheels: {type: slider, along: ground.road, line: cart.axle, coordinate: X}
+  tube: {type: curved_slot, along: cart.tube, point: ball.centre, coordinate: {name: phi, zero: 180 deg}}
+initial: {X: 0, phi: 0.3, at_rest: true}
+events: {exit: {when: phi - 90 deg, direction: rising, then: {release: tube}}}
+"""
+LEAVING = {"chute": (CHUTE, "bead", "track"), "sled": (SLED, "sled", "runner"), "gun": (GUN, "ball", "tube")}
+"""Models with the body that leaves a curve, and the joint."""
+
+
+@pytest.mark.parametrize("moment", ["before", "after"])
+@pytest.mark.parametrize("name", LEAVING)
+def test_the_joints_of_the_model_bear_all_and_no_others_are_seen(name, moment):
+    """At the release: m (a − g) of the body is the force of its joint, which acts on it and on what carries the curve."""
+    text, body, joint = LEAVING[name]
+    mechanism = model(text + "run: {until: 1.5 s}\n")
+    run = mechanism.simulate()
+    instant = mechanism.solve(**{moment: run.events[0].name})
+    assert {joint} <= {*instant.reactions} <= {*mechanism.source().model["joints"], f"{body} free"}
+    assert not instant.couplings
+    mass = mechanism.free_bodies().bodies[body].mass
+    ax, ay, _ = instant.bodies[body]
+    assert instant.reactions[joint].on(body).values[:2] == pytest.approx([mass * ax, mass * (ay + G)], rel=1e-8, abs=1e-9)
+    for form in ("minimal", "brute", "constraints"):
+        stated = str(mechanism.equations(form, **{moment: run.events[0].name}))
+        assert not re.search(rf"{joint}\.(pin|hold)", stated)
+        assert moment == "before" or joint not in stated

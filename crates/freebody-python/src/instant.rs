@@ -12,10 +12,12 @@ pub fn solution<'py>(
     solved: &Instant,
     freedom: &Freedom,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (order, joints) = (m.listed_bodies(), solved.joints.len());
+    let (order, joints): (_, Vec<usize>) = (m.listed_bodies(), m.listed_joints().collect());
     let by_body = |rows: &[[f64; 3]]| array(py, order.iter().flat_map(|&b| rows[b - 1]).collect(), [order.len(), 3]);
-    let least: Vec<f64> = solved.joints.iter().flat_map(|l| [l.force.x, l.force.y, l.couple]).collect();
-    let determinate = solved.determinate.concat();
+    let loads = joints.iter().map(|&joint| &solved.joints[joint]);
+    let least: Vec<f64> = loads.flat_map(|l| [l.force.x, l.force.y, l.couple]).collect();
+    let determinate: Vec<bool> = joints.iter().flat_map(|&joint| solved.determinate[joint]).collect();
+    let joints = joints.len();
     let known = |(x, sure): (&f64, &bool)| if *sure { *x } else { f64::NAN };
     // Of locks only those in place.
     let is_in_place = |d: &usize| m.drives[*d].kind != DriveKind::Lock || solved.drives_in_place.contains(d);

@@ -78,7 +78,7 @@ impl Trajectory {
     ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<bool>>)> {
         let m = self.of.mechanism();
         let rows = self.run.reactions(&m, times.as_slice()?).map_err(errors::motion)?;
-        let shape = [rows.len(), m.joints.len(), 3];
+        let shape = [rows.len(), m.listed_joints().count(), 3];
         let known = |x: f64, sure: bool| if sure { x } else { f64::NAN };
         let values = rows.iter().flatten().flat_map(|(x, s)| (0..3).map(|i| known(x[i], s[i]))).collect();
         let sure: Vec<bool> = rows.iter().flatten().flat_map(|(_, s)| *s).collect();

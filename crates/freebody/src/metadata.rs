@@ -47,7 +47,7 @@ pub fn metadata(m: &Mechanism) -> Value {
         "states": m.parameters[m.first_state()..].iter().map(|p| &p.name).collect::<Vec<_>>(),
         "coordinates": coordinates(m, &numbers, true),
         "closure_coordinates": coordinates(m, &numbers, false),
-        "joints": (0..m.joints.len()).map(|j| joint(m, &start, j)).collect::<Vec<_>>(),
+        "joints": m.listed_joints().map(|j| joint(m, &start, j)).collect::<Vec<_>>(),
         "forces": (0..m.forces.len()).map(|f| force(m, &start, f)).collect::<Vec<_>>(),
         "motions": motions(m, &start),
         "locks": locks(m),
@@ -92,10 +92,7 @@ fn coordinates(m: &Mechanism, n: &BoundValues, tree: bool) -> Vec<Value> {
 /// What a coordinate measures, in words.
 fn meaning(m: &Mechanism, n: &BoundValues, index: usize, c: &crate::mechanism::Coordinate) -> String {
     let joint = &m.joints[index];
-    // A curve follower only stands for the body that it carries.
-    let follower = m.curve_followers.iter().find(|follower| follower.joint == index);
-    let carrying = follower.map_or(joint, |follower| &m.joints[follower.released_joint]);
-    let [first, second] = [m.ends(joint)[0], m.ends(carrying)[1]].map(|b| &m.bodies[b].name);
+    let [first, second] = m.listed_ends(index).map(|b| &m.bodies[b].name);
     let what = joint.kind.card().coordinates[c.card].name;
     // Markers lie along the lines of their joint, so its angles are measured from these and not from the axes of the bodies.
     let turned = n.values[joint.first.angle] - n.values[joint.second.angle];
@@ -135,9 +132,10 @@ fn direction_at(degrees: f64) -> String {
 fn joint(m: &Mechanism, start: &Mode, index: usize) -> Value {
     let j = &m.joints[index];
     let card = j.kind.card();
-    let [first, second] = m.ends(j).map(|b| m.bodies[b].name.clone());
+    let [first, second] = m.listed_ends(index).map(|b| &m.bodies[b].name);
     json!({
-        "name": j.name, "type": card.word, "first": first, "second": second, "cut": j.child.is_none(), "holonomic": j.is_holonomic(),
+        "name": j.name, "type": card.word, "first": first, "second": second,
+        "cut": j.child.is_none() || m.pin_of(index).is_some(), "holonomic": j.is_holonomic(),
         "engaged": start.has(m.part_of(index)),
         "coordinates": j.coordinates.iter().map(|c| &c.name).collect::<Vec<_>>(),
         "reaction": j.rows.iter().map(|&r| card.rows[r].load.name).collect::<Vec<_>>(), "couple": j.couple,

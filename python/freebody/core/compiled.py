@@ -89,6 +89,11 @@ class CompiledModel:
         return self.mechanism.describe()
 
     @cached_property
+    def coordinate_names(self) -> list[str]:
+        """The names of the coordinates of the tree, in the order of ``State.q``."""
+        return [c["name"] for c in self.metadata["coordinates"]]
+
+    @cached_property
     def dependent_coordinates(self) -> list[dict[str, Any]]:
         """The coordinates that the model names at joints that close loops or can be released: they follow from the others."""
         return [c for c in self.metadata["closure_coordinates"] if c["name"] != f"{c['joint']}.{c['word']}"]

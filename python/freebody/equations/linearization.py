@@ -137,7 +137,7 @@ def _slope(row: Row, symbol: Sym, put: Mapping[str, Tree]) -> Tree:
 
 def place_of(subject: SymbolicState) -> dict[str, Tree]:
     """Where the coordinates of a subject are, as a person writes it, parts of π among them."""
-    values = zip(subject.coordinates, subject.state.q.tolist(), strict=True)
+    values = zip(subject.coordinates, subject.q, strict=True)
     return {c["name"]: (exact_angle if c["dimension"] == "rad" else exact)(x) for c, x in values}
 
 

@@ -80,7 +80,8 @@ class Substitutions:
     def near(self, subject: SymbolicState, rng: np.random.Generator) -> State | None:
         """Another state, at rest if the subject is, in which the same symbols are set, and what moves does so in the same sense;
         None where it cannot be assembled."""
-        source, state, names = subject.source, subject.state, subject.names
+        source, state = subject.source, subject.state
+        names = source.coordinate_names
         p = self.parameters_near(subject, state, rng)
         q = dict(zip(names, (state.q + rng.uniform(-_NEAR, _NEAR, len(names))).tolist(), strict=True))
         fixed = {name: x for name, x in self._consistent(parameter_values(source, p)).items() if name in q}
@@ -108,7 +109,7 @@ class Substitutions:
         p = source.bind({name: set_to.get(name, value) for name, value in values.items()})
         try:
             place, _ = source.assemble(
-                p, state.t, guess=dict(zip(subject.names, state.q.tolist(), strict=True)), history=state.history
+                p, state.t, guess=dict(zip(source.coordinate_names, state.q.tolist(), strict=True)), history=state.history
             )
         except MotionError:
             return state
@@ -131,7 +132,7 @@ def substitutions_of(mechanism: Builder, set: Mapping[str, Any], free: Collectio
     quantity and no symbol."""
     source = mechanism.source()
     units = {p["name"]: p["unit"] for p in source.metadata["parameters"]}
-    parameters, known = [*units], [*units, *(c["name"] for c in source.metadata["coordinates"])]
+    parameters, known = [*units], [*units, *source.coordinate_names]
     for name in set:
         if name not in known:
             raise ValueError(f"{name!r} cannot be set; there are {', '.join(known)}")

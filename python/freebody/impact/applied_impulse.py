@@ -62,7 +62,7 @@ class AppliedImpulse(Impulsive):
     @cached_property
     def change(self) -> Change:
         """Rates jump from 0."""
-        names = [c["name"] for c in self.source.metadata["coordinates"]]
+        names = self.source.coordinate_names
         q = dict(zip(names, map(float, self.state.q), strict=True))
         small = _ROUND_OFF * abs(self.size) / (sum(body.mass for body in self.free.bodies.values()) or 1.0)
         jumps = {name: u if abs(u) > small else 0.0 for name, u in self.free.accelerations.items()}

@@ -28,7 +28,7 @@ _SMALL = 1e-9
 def rest_near(source: CompiledModel, state: State, touching: State | None = None) -> State | None:
     """The place of rest that Newton's method comes to on closed loops, from a state, and with closed what touches in it, or in
     another; None if to none."""
-    names = [c["name"] for c in source.metadata["coordinates"]]
+    names = source.coordinate_names
     free = source.free_bodies(touching or state)
     closing, units = Closing(source, touching or state, free), free.units(source.metadata["coordinates"])
     by_contacts = bool(closing.closed) and not any(motion["engaged"] for motion in source.metadata["motions"])

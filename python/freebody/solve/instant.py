@@ -167,8 +167,7 @@ class Instant:
     @property
     def accelerations(self) -> dict[str, float]:
         """Second time derivatives of the coordinates by name, m/s² or rad/s²."""
-        names = (c["name"] for c in self._metadata["coordinates"])
-        return dict(zip(names, self._solved.accelerations.tolist(), strict=True))
+        return dict(zip(self.core.coordinate_names, self._solved.accelerations.tolist(), strict=True))
 
     @property
     def dependent(self) -> dict[str, tuple[float, float]]:
@@ -242,7 +241,7 @@ class Instant:
         Where loops close, coordinates and rates do not change alone: only sums of derivatives that belong to a motion of the
         mechanism say how the value changes in it. Where the expression has no value it raises, as that does.
         """
-        names = [c["name"] for c in self._metadata["coordinates"]]
+        names = self.core.coordinate_names
         by = ["t", *names, *(f"rate({name})" for name in names), *(p["name"] for p in self._metadata["parameters"])]
         found = self.core.derivatives([text], self.state)[0]
         if not np.isfinite(found).all():

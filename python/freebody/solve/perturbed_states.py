@@ -113,7 +113,7 @@ class Closing:
         self.loose = (
             CompiledModel.of({**source.spec, "motions": motions}) if motions else source
         )  # motions do not say where it is
-        self.names = [c["name"] for c in source.metadata["coordinates"]]
+        self.names = source.coordinate_names
         limits, held = [limit["name"] for limit in source.metadata["limits"]], []
         for name in dict.fromkeys(row.name for row in first.rows if row.name in limits):
             loads = [load for load in first.loads if load.name == name and load.unknown and not load.follows]

@@ -171,7 +171,7 @@ class SymbolicState:
     def with_numbers(self, names: Sequence[str]) -> SymbolicState:
         """The same with some coordinates and parameters as the numbers that they are at the state."""
         parameters = [p["name"] for p in self.source.metadata["parameters"]]
-        known = zip(self.names + parameters, [*self.state.q.tolist(), *self.state.p.tolist()], strict=True)
+        known = zip(self.names + parameters, [*self.q, *self.state.p.tolist()], strict=True)
         return replace(self, numbers={name: x for name, x in known if name in names})
 
     def titled(self, title: str) -> str:
@@ -200,8 +200,22 @@ class SymbolicState:
 
     @property
     def coordinates(self) -> list[dict[str, Any]]:
-        """The coordinates of the tree, as the core describes them."""
-        return self.source.metadata["coordinates"]
+        """The coordinates in place, as the core describes them: all but those along curves that bodies have left."""
+        return [self.source.metadata["coordinates"][i] for i in self._places]
+
+    @property
+    def q(self) -> list[float]:
+        """The values of the coordinates."""
+        return self.state.q[self._places].tolist()
+
+    @property
+    def u(self) -> list[float]:
+        """Their rates."""
+        return self.state.u[self._places].tolist()
+
+    @cached_property
+    def _places(self) -> list[int]:
+        return [i for i, c in enumerate(self.source.metadata["coordinates"]) if c["name"] in self.table]
 
     @cached_property
     def free(self) -> FreeBodies:
@@ -222,8 +236,11 @@ class SymbolicState:
     def regular(self) -> State:
         """The state; or one near by, in which the same is closed, where the core decides symbols beside it: where a spring has no length,
         or a string no free length, more vanishes than does elsewhere."""
-        names, q = self.table.keys() - (self.numbers or {}).keys(), self.state.q.tolist()
-        beside = np.array([self.table[n]["value"] if n in names else x for n, x in zip(self.names, q, strict=True)])
+        names = self.table.keys() - (self.numbers or {}).keys()
+        beside = self.state.q.copy()
+        for i, name in zip(self._places, self.names, strict=True):
+            if name in names:
+                beside[i] = self.table[name]["value"]
         if np.array_equal(beside, self.state.q):
             return self.state
         place = Closing(self.source, self.state, self.free).place(beside)
@@ -280,8 +297,8 @@ class SymbolicState:
         """The numbers of all symbols at the state."""
         found = {Sym(name): entry["value"] for name, entry in self.table.items()}
         found |= {Sym(load.symbol): load.value for load in self.free.loads if load.unknown}
-        for dots, numbers in enumerate((self.state.q, self.state.u)):
-            found |= {Sym(name, dots): x for name, x in zip(self.names, numbers.tolist(), strict=True)}
+        for dots, numbers in enumerate((self.q, self.u)):
+            found |= {Sym(name, dots): x for name, x in zip(self.names, numbers, strict=True)}
         return found | {Sym(name, 2): x for name, x in self.free.accelerations.items()}
 
     @cached_property

@@ -45,16 +45,12 @@ impl Builder<'_> {
     pub(crate) fn curve_followers(&mut self) -> Result<()> {
         for element in self.spec.joints.iter().filter(|element| !stays(self.spec, element)) {
             let Some(&(joint, _)) = self.names.joints.get(&element.name) else { continue };
-            let Some(child) = self.m.joints[joint].child else { continue };
-            let carried = |&pin: &usize| self.m.body_of(self.m.joints[pin].first.site) == child;
-            let pin = self.m.closures.iter().copied().find(carried).expect("what runs on a curve carries a pin");
+            let Some(pin) = self.m.pin_of(joint) else { continue };
             let hold = self.m.drives.len();
-            let (name, of) =
-                (format!("{}.hold", element.name), ModelExpr::variable(ModelVariable::Coordinate(joint, 0)));
+            let (name, of) = (element.name.clone(), ModelExpr::variable(ModelVariable::Coordinate(joint, 0)));
             let (law, level) = (ModelExpr::constant(0.0), Level::Velocity);
             self.m.initially_absent.push(Part::Drive(hold));
-            let drive = Drive { name, kind: DriveKind::Coupling, of, law, level, by: None, feedback: false };
-            self.drive(&format!("joints.{}", element.name), drive)?;
+            self.m.drives.push(Drive { name, kind: DriveKind::Hold, of, law, level, by: None, feedback: false });
             self.m.curve_followers.push(CurveFollower { joint, released_joint: pin, hold });
         }
         Ok(())

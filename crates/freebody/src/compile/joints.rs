@@ -297,6 +297,7 @@ impl Builder<'_> {
         let site = self.site(body, crate::mechanism::PointLocation::At([zero, zero]));
         let pin = Marker { site, angle: zero };
         let parent = self.m.body_of(self.m.joints[joint].first.site);
+        let carried = self.m.bodies[self.m.body_of(old.site)].name.clone();
         let j = &mut self.m.joints[joint];
         j.second = pin;
         j.child = Some(body);
@@ -309,7 +310,7 @@ impl Builder<'_> {
             if turns { (Kind::Hinge, vec![], vec![0, 1]) } else { (Kind::Weld, vec![zero], vec![0, 1, 2]) };
         let branch = TreeJoint { parent, joint, reversed: false, start: 0, freedom: j.coordinates.len(), hinge: false };
         self.m.bodies.push(Body {
-            name: format!("{name}.pin"),
+            name: carried,
             listed: None,
             particle: turns,
             mass_elements: vec![],
@@ -318,7 +319,7 @@ impl Builder<'_> {
         });
         self.m.closures.push(self.m.joints.len());
         self.m.joints.push(Joint {
-            name: format!("{name}.pin"),
+            name,
             kind,
             first: pin,
             second: old,

@@ -8,7 +8,7 @@ use super::minimal::{joint_wrenches, row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
 use super::{Row, SolvedView, Source, Workspace};
 use crate::kinematics::StateView;
-use crate::mechanism::{Mechanism, Part};
+use crate::mechanism::{DriveKind, Mechanism, Part};
 use crate::mode::{ContactMode, Mode};
 use crate::plane::Wrench;
 use crate::solve::{Matrix, Orthogonal};
@@ -77,11 +77,11 @@ pub struct Count {
 impl Count {
     /// That of a mechanism in a mode.
     pub fn of(m: &Mechanism, mode: &Mode) -> Self {
-        let joints = (0..m.joints.len()).filter(|&j| mode.has(Part::Joint(j)));
-        let drives = (0..m.drives.len()).filter(|&d| mode.has(Part::Drive(d)));
+        let joints = m.listed_joints().filter(|&j| mode.has(m.part_of(j)));
+        let drives = (0..m.drives.len()).filter(|&d| m.drives[d].kind != DriveKind::Hold && mode.has(Part::Drive(d)));
         let (motions, couplings): (Vec<usize>, Vec<usize>) = drives.partition(|&d| m.drives[d].is_motion());
         Count {
-            bodies: m.bodies[1..].iter().map(|b| if b.particle { 2 } else { 3 }).sum(),
+            bodies: m.listed_bodies().iter().map(|&b| if m.bodies[b].particle { 2 } else { 3 }).sum(),
             rows: joints.map(|j| m.joints[j].rows.len()).sum::<usize>() + couplings.len(),
             driven: motions.len(),
         }
@@ -300,7 +300,8 @@ impl Workspace<'_> {
         let size = |c: &[f64; 3]| c[0].abs().max(c[1].abs()).max(c[2].abs() / self.length);
         let most = s.joints.iter().map(size).fold(1.0, f64::max);
         let mut names: Vec<String> = vec![];
-        for (joint, c) in self.m.joints.iter().zip(&s.joints) {
+        for index in self.m.listed_joints() {
+            let (joint, c) = (&self.m.joints[index], s.joints[index]);
             let forced = c[0].abs().max(c[1].abs()) > UNTOUCHED * most;
             match (forced, c[2].abs() / self.length > UNTOUCHED * most) {
                 (true, true) => names.push(format!("`{}` (force and couple)", joint.name)),

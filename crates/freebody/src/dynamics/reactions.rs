@@ -46,7 +46,7 @@ impl Source {
             },
             Source::Drive(drive) => match m.drives[drive].kind {
                 DriveKind::Motion => format!("motions.{}", self.name(m)),
-                DriveKind::Coupling => format!("joints.{}", self.name(m)),
+                DriveKind::Coupling | DriveKind::Hold => format!("joints.{}", self.name(m)),
                 DriveKind::Lock => "events".to_string(),
             },
             Source::Joint(..) => format!("joints.{}", self.name(m)),

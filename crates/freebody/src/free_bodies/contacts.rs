@@ -108,6 +108,9 @@ pub fn joint_friction<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
         else {
             continue;
         };
+        if !at.mode.has(at.m.part_of(of)) {
+            continue;
+        }
         let joint = &at.m.joints[of];
         let parts = loaded(at, &joint_friction_row(at, index, None), joint_place(at, of));
         let bearing = joint.kind.card().coordinates.first().is_some_and(|c| c.turn);

@@ -5,13 +5,15 @@ use crate::dynamics::{constraint_rows, drive_row, Row, Source};
 use crate::expr::spell;
 use crate::joints::{Joint as _, LoadCard};
 use crate::kinematics::{Poses, StateView};
-use crate::mechanism::Joint;
+use crate::mechanism::{DriveKind, Joint};
 use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 
 /// The components of the reaction of every joint in place, on its second body.
 pub fn joints<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
-    let shown = |(index, joint): &(usize, &Joint)| !joint.rows.is_empty() && at.m.carried(*index).is_none();
+    let shown = |&(index, joint): &(usize, &Joint)| {
+        !joint.rows.is_empty() && at.m.carried(index).is_none() && at.mode.has(at.m.part_of(index))
+    };
     for (index, joint) in at.joints().filter(shown) {
         let (of, mut rows) = (at.m.ends(joint), vec![]);
         let place = constraint_rows(at, index, &mut rows);
@@ -61,7 +63,7 @@ pub(super) fn loaded<S: Scalar>(at: StateView<'_, S>, row: &Row<S>, place: Vec2<
 
 /// What drives every motion and what every coupling passes.
 pub fn drives<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
-    for (index, drive) in at.drives() {
+    for (index, drive) in at.drives().filter(|(_, drive)| drive.kind != DriveKind::Hold) {
         let row = drive_row(at, index, None);
         let parts = along_gauge(at, drive.along(), row.loads());
         let first = if parts.len() > 1 { parts[1].body } else { 0 };

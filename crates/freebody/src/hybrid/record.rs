@@ -3,7 +3,7 @@
 use super::guards::SwitchingFunction;
 use super::mode_changes::{ContactImpulse, ModeChange};
 use super::Trajectory;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{DriveKind, Mechanism};
 use crate::motion::{Kind, Outcome};
 use serde_json::{json, Value};
 
@@ -70,11 +70,12 @@ fn change(m: &Mechanism, c: &ModeChange) -> Value {
         let groups: Vec<_> = i.groups.iter().map(|(name, p)| json!([name, [p.x, p.y]])).collect();
         let impacting: Vec<_> = i.contacts.iter().map(impacting).collect();
         let named = |of: &[f64]| {
-            let named = m.drives.iter().zip(of).filter(|(_, x)| **x != 0.0);
+            let named = m.drives.iter().zip(of).filter(|(drive, x)| drive.kind != DriveKind::Hold && **x != 0.0);
             named.map(|(drive, x)| json!([drive.name, x])).collect::<Vec<_>>()
         };
         let (drives, works) = (named(&i.drives), named(&i.drive_works));
-        json!({"limits": groups, "joints": i.joints, "drives": drives, "works": works, "contact_impulses": impacting, "spared": i.unloaded})
+        let joints: Vec<_> = m.listed_joints().map(|joint| i.joints[joint]).collect();
+        json!({"limits": groups, "joints": joints, "drives": drives, "works": works, "contact_impulses": impacting, "spared": i.unloaded})
     });
     let side = |i: usize| c.states.as_ref().map(|states| state(m, &states[i], json!({})));
     json!({

@@ -196,7 +196,7 @@ impl Trajectory {
         Ok(rows)
     }
 
-    /// Reactions (Fx, Fy, M) of every joint with whether they are determinate, at times.
+    /// Reactions (Fx, Fy, M) of every joint of the model with whether they are determinate, at times.
     ///
     /// # Errors
     /// As [`Trajectory::sample`], and what keeps an instant from being solved.
@@ -206,8 +206,10 @@ impl Trajectory {
         self.each(m, times, |workspace, _, _| {
             workspace.solve()?;
             let sure = workspace.determinacy().joints;
-            let loads = workspace.solved_view().joint_loads();
-            rows.push(loads.iter().zip(sure).map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
+            let seen = workspace.solved_view();
+            let reaction = |joint: usize| (seen.joint_load(joint), sure[joint]);
+            let reactions = m.listed_joints().map(reaction);
+            rows.push(reactions.map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
             Ok(())
         })?;
         Ok(rows)

@@ -18,8 +18,10 @@ pub enum Level {
 pub enum DriveKind {
     /// A prescribed motion.
     Motion,
-    /// A coupling, one of the joints; also what holds a particle on its curve once its pin is released.
+    /// A coupling, one of the joints.
     Coupling,
+    /// What holds a massless body on its curve once its pin is released.
+    Hold,
     /// A gauge that an event locks.
     Lock,
 }
@@ -30,6 +32,7 @@ impl DriveKind {
         match self {
             DriveKind::Motion => "motion",
             DriveKind::Coupling => "coupling",
+            DriveKind::Hold => "hold",
             DriveKind::Lock => "lock",
         }
     }

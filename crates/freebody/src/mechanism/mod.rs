@@ -256,6 +256,20 @@ impl Mechanism {
         let [parent, body] = self.ends(&self.joints[pin]);
         (parent > 0 && self.bodies[parent].listed.is_none()).then_some([parent, body])
     }
+    /// The joints of the model, in its order: all but the pins of massless bodies.
+    pub fn listed_joints(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.joints.len()).filter(|&joint| self.carried(joint).is_none())
+    }
+    /// The pin of the massless body that a joint along a curve carries, if it carries one.
+    pub fn pin_of(&self, joint: usize) -> Option<usize> {
+        let child = self.joints[joint].child?;
+        self.closures.iter().copied().find(|&pin| self.carried(pin).is_some_and(|[carrier, _]| carrier == child))
+    }
+    /// First and second body of a joint as in the model: one along a curve is of the body that is pinned to what it carries.
+    pub fn listed_ends(&self, joint: usize) -> [usize; 2] {
+        let [first, second] = self.ends(&self.joints[joint]);
+        [first, self.pin_of(joint).map_or(second, |pin| self.ends(&self.joints[pin])[1])]
+    }
     /// What is released where a joint is.
     pub fn part_of(&self, joint: usize) -> Part {
         let follower = self.curve_followers.iter().find(|follower| follower.joint == joint);

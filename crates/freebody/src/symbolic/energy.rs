@@ -59,7 +59,7 @@ impl SymbolicState<'_> {
         };
         json!({
             "kinetic": tree(kinetic), "potential": tree(potential),
-            "equations": (0..self.m.freedom()).map(of).collect::<Vec<_>>(),
+            "equations": self.coordinates().map(of).collect::<Vec<_>>(),
         })
     }
 
@@ -73,13 +73,13 @@ impl SymbolicState<'_> {
     /// The equations of the coordinates near rest: matrices of M ẍ + C ẋ + K x = 0, and what is left at the place
     /// itself, which vanishes where it is an equilibrium.
     pub(super) fn linearised(&self, at: &BTreeMap<String, f64>) -> Value {
-        let n = self.m.freedom();
         let place = |i: usize| at.get(&self.m.coordinate(i).name).map(|&x| (self.variable(i, 0), Symbol::of(x)));
         let at_rest = |dots: u8| move |i: usize| (self.variable(i, dots), Symbol::zero());
+        let all = || self.coordinates();
         let fixed: Vec<(Variable, Symbol)> =
-            (0..n).map(at_rest(1)).chain((0..n).map(at_rest(2))).chain((0..n).filter_map(place)).collect();
+            all().map(at_rest(1)).chain(all().map(at_rest(2))).chain(all().filter_map(place)).collect();
         let there = |of: Symbol| of.substitute(&fixed);
-        let residuals: Vec<Symbol> = (0..n)
+        let residuals: Vec<Symbol> = all()
             .map(|i| {
                 let (bodies, test): (Vec<usize>, VirtualMotion) = self.of_coordinate(i);
                 let balance = self.balance(&bodies, test);
@@ -88,10 +88,10 @@ impl SymbolicState<'_> {
             .collect();
         let matrix = |dots: u8| -> Vec<Vec<Value>> {
             let entry = |r: &Symbol, j: usize| json!(tree(there(r.derivative(&self.variable(j, dots)))));
-            residuals.iter().map(|r| (0..n).map(|j| entry(r, j)).collect()).collect()
+            residuals.iter().map(|r| all().map(|j| entry(r, j)).collect()).collect()
         };
         json!({
-            "coordinates": (0..n).map(|i| &self.m.coordinate(i).name).collect::<Vec<_>>(),
+            "coordinates": all().map(|i| &self.m.coordinate(i).name).collect::<Vec<_>>(),
             "M": matrix(2), "C": matrix(1), "K": matrix(0),
             "left": residuals.iter().map(|&r| tree(there(r))).collect::<Vec<_>>(),
         })

@@ -7,6 +7,7 @@ use crate::algebra::{Symbol, Tree, Variable};
 use crate::dynamics::{closing_rows, joint_rows, Row, Source};
 use crate::free_bodies::{loads, relate_friction, Size};
 use crate::kinematics::{relative, JointView, MotionView, StateView};
+use crate::mechanism::Joint;
 use crate::plane::{vec2, Pose, Turn, Twist};
 use crate::scalar::{Jet, Scalar};
 use serde_json::{json, Value};
@@ -16,7 +17,7 @@ impl SymbolicState<'_> {
     /// numbers of the present state beside them; the names of these coordinates.
     fn free(&self) -> (SymbolicState<'_>, Vec<String>) {
         let (mut k, mut bodies, mut coordinates) = (self.k.clone(), self.bodies.clone(), vec![]);
-        for i in 1..self.m.bodies.len() {
+        for i in self.m.listed_bodies() {
             let body = &self.m.bodies[i];
             let mut named = |word: &str, long: &str, values: [Symbol; 3]| -> [Symbol; 3] {
                 let names = [format!("{word}_{}", body.name), format!("{long}_{}", body.name)];
@@ -39,6 +40,19 @@ impl SymbolicState<'_> {
             k.twist[i] = Twist { v: vec2(x[1], y[1]) + to_origin.perp() * angle[1], w: angle[1] };
             let centre = Twist { v: vec2(x[2], y[2]), w: angle[2] };
             bodies[i] = Twist { v: centre.acceleration_at(to_origin, angle[1]), w: angle[2] };
+        }
+        for &pin in &self.m.closures {
+            let Some([carrier, body]) = self.m.carried(pin) else { continue };
+            let second = &self.m.joints[pin].second;
+            let arm = k.pose[body].turn.apply(self.n.arms[second.site]);
+            let (twist, acceleration) = (k.twist[body], bodies[body].acceleration_at(arm, k.twist[body].w));
+            let turn = match self.m.bodies[carrier].particle {
+                true => self.k.pose[carrier].turn,
+                false => Turn::by(k.pose[body].turn.angle + self.n.values[second.angle]),
+            };
+            k.pose[carrier] = Pose { at: k.pose[body].at + arm, turn };
+            k.twist[carrier] = Twist { v: twist.at(arm), w: twist.w };
+            bodies[carrier] = Twist { v: acceleration, w: bodies[body].w };
         }
         for (i, body) in self.m.bodies.iter().enumerate() {
             if let Some(branch) = body.tree_joint {
@@ -73,12 +87,16 @@ impl SymbolicState<'_> {
     /// What all joints, motions and contacts ask of bodies that are free otherwise; joint origins along fixed axes.
     fn free_rows(&self) -> Vec<Row<Symbol>> {
         let (at, mut rows) = (self.at(), vec![]);
-        for (index, _) in at.joints().filter(|(_, joint)| joint.curve.is_none() && !joint.rows.is_empty()) {
+        let own = |&(index, joint): &(usize, &Joint)| {
+            joint.curve.is_none() && !joint.rows.is_empty() && self.m.carried(index).is_none()
+        };
+        for (index, _) in at.joints().filter(own) {
             joint_rows(at, index, Some(&self.bodies), &mut rows);
         }
         self.curve_starts().for_each(|(joint, start)| rows.extend(self.rows_along_curve(joint, start)));
         let tree = |row: &Row<Symbol>| matches!(row.source, Source::Joint(..));
-        rows.extend(closing_rows(at, Some(&self.bodies)).into_iter().filter(|row| !tree(row)));
+        let others = |row: &Row<Symbol>| !tree(row) && !self.holds_what_was_left(row);
+        rows.extend(closing_rows(at, Some(&self.bodies)).into_iter().filter(others));
         self.joint_origins(&self.k, &self.bodies, &mut rows);
         rows
     }
@@ -87,7 +105,9 @@ impl SymbolicState<'_> {
     /// those of the bodies: no place of a body tells it by a formula.
     fn curve_starts(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let start = |joint: usize| self.m.place_in_q(joint, 0).expect("a joint along a curve is in the tree");
-        self.at().joints().filter(|(_, joint)| joint.curve.is_some()).map(move |(index, _)| (index, start(index)))
+        let on_curve =
+            |&(index, joint): &(usize, &Joint)| joint.curve.is_some() && self.mode.has(self.m.part_of(index));
+        self.at().joints().filter(on_curve).map(move |(index, _)| (index, start(index)))
     }
 
     /// What a joint along a curve asks: that its second point is at its coordinate, in both directions of the first body.

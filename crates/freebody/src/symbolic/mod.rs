@@ -100,9 +100,14 @@ impl<'m> SymbolicState<'m> {
         self.at().centre_arm(body)
     }
 
+    /// The coordinates in place: all but those along curves that bodies have left.
+    fn coordinates(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.m.freedom()).filter(|&i| self.mode.has(self.m.part_of(self.m.coordinates[i].0)))
+    }
+
     /// The variables of what is unknown: accelerations, then loads.
     fn unknowns(&self) -> Vec<Variable> {
-        let accelerations = (0..self.m.freedom()).map(|i| Variable::new(&self.m.coordinate(i).name, 2));
+        let accelerations = self.coordinates().map(|i| Variable::new(&self.m.coordinate(i).name, 2));
         let loads = self.loads.iter().filter(|load| matches!(load.size, Size::Unknown | Size::ByLaw));
         accelerations.chain(loads.map(|load| Variable::new(&load.symbol, 0))).collect()
     }
@@ -201,7 +206,7 @@ impl SymbolicState<'_> {
         let mut add = |name: &str, kind: &str, value: f64, unit: &str| {
             table.insert(name.to_string(), json!({"kind": kind, "value": value, "unit": unit}));
         };
-        for i in 0..self.m.freedom() {
+        for i in self.coordinates() {
             let c = self.m.coordinate(i);
             add(&c.name, "coordinate", self.q[i].value(), c.dimension);
         }

@@ -6,6 +6,7 @@ use crate::algebra::{Symbol, Variable};
 use crate::dynamics::{closing_rows, DynamicsError, Row, Source};
 use crate::joints::Joint as _;
 use crate::kinematics::{Kinematics, State};
+use crate::mechanism::DriveKind;
 use crate::plane::{Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
@@ -63,8 +64,14 @@ impl SymbolicState<'_> {
     /// What closes loops, prescribes motions and holds limits.
     pub(super) fn closing(&self) -> Vec<Row<Symbol>> {
         let mut rows = closing_rows(self.at(), Some(&self.bodies));
+        rows.retain(|row| !self.holds_what_was_left(row));
         self.joint_origins(&self.k, &self.bodies, &mut rows);
         rows
+    }
+
+    /// Whether a row is of no part of the model, but holds a massless body on a curve that was left.
+    pub(super) fn holds_what_was_left(&self, row: &Row<Symbol>) -> bool {
+        matches!(row.source, Source::Drive(drive) if self.m.drives[drive].kind == DriveKind::Hold)
     }
 
     /// Tells the rows of joint origins along the fixed axes: from the first point to the second, with its rate and its

@@ -19,7 +19,7 @@ impl SymbolicState<'_> {
             return Err(DynamicsError::WrongQuestion("as many rows as bound coordinates are needed".into()));
         }
         let all = self.m.freedom();
-        let free = (0..all).filter(|i| !bound.contains(i));
+        let free = self.coordinates().filter(|i| !bound.contains(i));
         Ok(free.map(|i| self.power_in(&virtual_rates(&jacobian, all, i, &bound))).collect())
     }
 
@@ -39,7 +39,7 @@ impl SymbolicState<'_> {
         }
         let unknowns = self.unknowns();
         let rates: serde_json::Map<String, Value> =
-            rates.iter().enumerate().map(|(i, &r)| (self.m.coordinate(i).name.clone(), json!(tree(r)))).collect();
+            self.coordinates().map(|i| (self.m.coordinate(i).name.clone(), json!(tree(rates[i])))).collect();
         json!({
             "rates": rates, "left": tree_by(acts, &unknowns), "right": tree_by(moves, &unknowns),
             "linear": self.linear(moves - acts),

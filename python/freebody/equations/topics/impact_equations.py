@@ -185,9 +185,9 @@ class Impact:
     @cached_property
     def zeros(self) -> dict[Sym, Tree]:
         """Coordinates, and rates before the impact, that are 0 there; and coordinates that are then as long as what holds."""
-        state, names, units = self.subject.state, self.subject.names, self.subject.free.units(self.subject.coordinates)
-        fastest = np.abs(state.u / units).max(initial=0.0)
-        sizes = (np.abs(state.q / units), np.abs(state.u / units) / (fastest or 1.0))
+        names, units = self.subject.names, self.subject.free.units(self.subject.coordinates)
+        places, rates = (np.abs(np.array(of) / units) for of in (self.subject.q, self.subject.u))
+        sizes = (places, rates / (rates.max(initial=0.0) or 1.0))
         rest = [Sym(n, dots) for dots, of in enumerate(sizes) for n, x in zip(names, of, strict=True) if x < _NOTHING]
         zeros: dict[Sym, Tree] = dict.fromkeys(rest, ZERO)
         along: dict[Sym, Tree] = {}  # a coordinate that is all of a distance where others are 0: y = −l of what hangs below

@@ -64,7 +64,7 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
         )
     chosen = substitutions_of(mechanism, at)
     first = chosen.start(mechanism, True, None) if at else replace(state, u=np.zeros_like(state.u))
-    names = [c["name"] for c in mechanism.source().metadata["coordinates"]]
+    names = mechanism.source().coordinate_names
     others = {name: value for name, value in at.items() if name not in names}
     touching = (
         substitutions_of(mechanism, others).start(mechanism, True, None) if others else replace(state, u=np.zeros_like(state.u))
