@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from freebody.equations.balances.minimal import MinimalForm
     from freebody.equations.balances.smallest import SmallestSet
     from freebody.equations.derivation.derive import Equations
+    from freebody.equations.derivation.first_integrals import FirstIntegral
     from freebody.find import Extremes, Found, Limit
     from freebody.impact.applied_impulse import AppliedImpulse
     from freebody.impact.impacts import Impact
@@ -198,6 +199,16 @@ class Moving:
         stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
         with self.core_errors():
             return follow(stage, stage.run(state, notes))
+
+    def first_integrals(self: Builder, **changes: Any) -> list[FirstIntegral]:
+        """What stays constant besides energy and momenta: momenta less what a known force gives them, and Jacobi's integral relative to
+        prescribed motions; see ``freebody.equations.derivation.first_integrals``. ``changes`` as in ``solve``."""
+        from freebody.equations.derivation.first_integrals import first_integrals
+        from freebody.solve.symbolic_state import SymbolicState
+
+        state, notes = self.moment(**changes)
+        with self.core_errors():
+            return first_integrals(SymbolicState(self.source(notes), state))
 
     def find(
         self: Builder, of: str, target: Any, *, vary: str, within: tuple[Any, Any], points: int = 33, **changes: Any

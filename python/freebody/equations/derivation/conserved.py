@@ -10,6 +10,7 @@ import numpy as np
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.equations.balances.conserved_momenta import ConservedMomentum, conserved_momenta, independent
 from freebody.equations.balances.reasons import Place, agree, why_absent
+from freebody.equations.derivation.first_integrals import first_integrals
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.perturbed_states import moving_states
 from freebody.solve.symbolic_state import Balance, SymbolicState
@@ -43,7 +44,13 @@ def section(subject: SymbolicState, symbolically: bool = True) -> list[Block]:
         made.append(Paragraph(f"{while_idle} {each.words(subject)} is conserved: {reason}."))
         if symbolically:
             made.append(Equation(each.letter(subject), each.momentum))
-    return made if found else [*made, Paragraph(_NONE)]
+    made += [] if found else [Paragraph(_NONE)]
+    for integral in first_integrals(subject) if symbolically else ():
+        made += [
+            Paragraph(f"{while_idle} {integral.words} is conserved: {integral.reason}."),
+            Equation(Written.of(subject.symbols.taken.give(f"the {integral.words}", Name(integral.letter))), integral.quantity),
+        ]
+    return made
 
 
 def energy(subject: SymbolicState) -> tuple[Tree, Tree, str]:

@@ -9,6 +9,7 @@ without mass, is driven with F = −T cos θ; the power is F ẋ_A. With a_A con
 from math import cos, sin
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.answers import formula
 from freebody.catalogue.reference import motion
 
 L, M, THETA, OMEGA, A = 0.8, 2.0, 0.7, 1.3, 3.1
@@ -55,11 +56,19 @@ def run(case):
     against = "other route: balances by hand, SciPy"
     yield Answer("θ at 0.5…2 s", run.evaluate("theta", times), "rad", check[:, 0], against, 1e-9)
     yield Answer("θ̇ at 0.5…2 s", run.evaluate("rate(theta)", times), "rad/s", check[:, 1], against, 1e-9)
-    first = [L / 2 * OMEGA**2 + A * cos(THETA)] * 4
-    yield Answer(
-        "½ℓθ̇² + a_A cos θ", run.evaluate("l/2*rate(theta)^2 + aA*cos(theta)", times), "m/s²", first, "conservation", 1e-10
-    )
     drive = [-tension(*s) * cos(s[0]) for s in check]
     yield Answer("force that drives A", run.evaluate("drive.force", times), "N", drive, against, 1e-8)
     power = [f * A * t for f, t in zip(drive, times, strict=True)]
     yield Answer("its power", run.evaluate("drive.power", times), "W", power, against, 1e-8)
+
+
+@ask("A first integral of that motion, found")
+def integral(case):
+    (found,) = case.mechanism().first_integrals()
+    closed = "M*l*(l*rate(theta)^2/2 + aA*cos(theta))"
+    yield formula(f"{found.words}: {found.reason}", found.quantity, closed, "closed form: energy in the base's frame, times Mℓ")
+    along = found.along(case.run())
+    start = M * L * (L / 2 * OMEGA**2 + A * cos(THETA))
+    yield Answer(
+        "its least and greatest value in the run", [along.min(), along.max()], "J", [start] * 2, "its value at the start", 1e-10
+    )

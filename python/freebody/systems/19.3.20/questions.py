@@ -22,6 +22,7 @@ from math import cos, pi, sin, sqrt
 from scipy.integrate import quad
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.answers import formula
 from freebody.catalogue.reference import motion
 
 M, m, L, K, G = 2.0, 1.0, 0.5, 100.0, 9.81
@@ -79,21 +80,22 @@ def run(case):
     yield Answer("y from static equilibrium", value, "m", check, f"{EQUATIONS}, SciPy, shifted by (M + m)g/k", 1e-8)
 
 
-@ask("What is conserved besides energy, without spring")
+@ask("What is conserved besides energy, without spring: found")
 def conserved(case):
     """The weight is the only vertical force from outside: the momentum downward is P + (M + m)gt. And the swing, seen
     from a frame that falls freely, has an energy of its own.
     """
-    times = [0.0, 1.0, 2.0, 5.0]
-    run = case.run("free_fall.yaml")
+    closed = {
+        "p": "(M + m)*rate(y) - m*l*sin(theta)*rate(theta) - (M + m)*g*t",
+        "h": "m/2*l^2*(1 - m*sin(theta)^2/(M + m))*rate(theta)^2",
+    }
     _, theta, v, omega = START
-    P = (M + m) * v - m * L * sin(theta) * omega
-    yield Answer(
-        "downward momentum − (M + m)gt", -run.evaluate("momentum_y() + (M + m)*g*t", times), "N·s", [P] * 4, "conservation", 1e-9
-    )
-    inner = m / 2 * L**2 * (1 - m * sin(theta) ** 2 / (M + m)) * omega**2
-    text = "m/2*l^2*(1 - m*sin(theta)^2/(M + m))*rate(theta)^2"
-    yield Answer("energy of the swing, seen falling", run.evaluate(text, times), "J", [inner] * 4, "conservation", 1e-9)
+    start = {"p": (M + m) * v - m * L * sin(theta) * omega, "h": m / 2 * L**2 * (1 - m * sin(theta) ** 2 / (M + m)) * omega**2}
+    for found in case.mechanism("free_fall.yaml").first_integrals():
+        of, along = found.letter, found.along(case.run("free_fall.yaml"))
+        yield formula(f"{found.words}: {found.reason}", found.quantity, closed[of], "closed form: weight alone acts from outside")
+        unit, check = "N·s" if of == "p" else "J", [start[of]] * 2
+        yield Answer(f"the {found.words}: least and greatest in 5 s", [along.min(), along.max()], unit, check, "its start", 1e-8)
 
 
 @ask("How long the bob takes for one turn, without spring")
