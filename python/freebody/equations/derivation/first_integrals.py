@@ -149,7 +149,7 @@ def _relative(subject: SymbolicState, names: Sequence[str], equations: Equations
     reason = f"neither time nor {beside} is in the equations of {joined([unicode_name(name) for name in moving])}"
     return [
         FirstIntegral(
-            f"energy of the motion relative to {beside}" + " (Jacobi's integral)" * bool(held), _tree(whole), reason, "h"
+            f"energy of the motion relative to {beside}" + " (Jacobi's integral)" * bool(held), _tree(whole), reason, "h", numbers
         )
     ]
 
