@@ -3,6 +3,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -69,3 +70,22 @@ def test_a_guess_that_does_not_hold_is_named(kind):
     for text in models(kind):
         notes = fb.Mechanism.loads(text).solve(guess={"X": 0.2}).core.notes
         assert any(note.startswith("X: guess 0.200000, assembled 0.5") for note in notes), notes
+
+
+@pytest.mark.parametrize("kind", RELEASES)
+def test_it_is_a_column_of_the_motion_with_and_without_the_release(kind, tmp_path):
+    """X = X₀ + a t² / 2 on a straight guide, and the ball on its circle has X as its angle; the same from a file."""
+    *_, acceleration = RELEASES[kind]
+    for text in models(kind):
+        run = fb.Mechanism.loads(text).simulate(until=0.5)
+        names, values = [column.name for column in run.columns], np.hstack(list(run.blocks.values()))
+        x, rate, accel = (values[:, names.index(name)] for name in ("X", "rate(X)", "accel(X)"))
+        if kind.startswith("curved"):
+            assert run["x(ball.centre)"] == pytest.approx(1.2 * np.cos(x), abs=1e-8)
+            assert accel[0] == pytest.approx(acceleration)
+        else:
+            assert x == pytest.approx(0.5 + acceleration * run.t**2 / 2, abs=1e-7)
+            assert rate == pytest.approx(acceleration * run.t, abs=1e-7)
+            assert accel == pytest.approx(np.full(len(run.t), acceleration), abs=1e-6)
+        for ending in ("csv", "nc"):
+            assert fb.Run.load(run.save(tmp_path / f"run.{ending}"))["rate(X)"] == pytest.approx(rate, nan_ok=True)

@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import Chebyshev
 
-from freebody.core import EXTREMES, Array, ReportItem, cards, quote
+from freebody.core import EXTREMES, Array, CompiledModel, ReportItem, cards, quote
 from freebody.solve.figures import figure
 from freebody.symbolic.alphabet import GREEK
 from freebody.symbolic.symbols import Name
 
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
 
-KINDS = ("coordinate", "rate", "acceleration", "reaction", "limit", "energy", "pose")
+KINDS = ("coordinate", "rate", "acceleration", "dependent", "reaction", "limit", "energy", "pose")
 """Of columns, in their order."""
 _DEGREE = 16
 """Of the polynomial that follows a signal between two samples: eight of them are in a step, which one of degree 8 follows."""
@@ -41,7 +41,8 @@ class Column:
     """One column of a run.
 
     ``name`` is an expression of the model language that gives the same values; ``unit`` is SI;
-    ``kind`` is coordinate, rate, acceleration, reaction, limit (of contacts, strings, stops, locks and motions), energy or pose.
+    ``kind`` is coordinate, rate, acceleration, dependent (of coordinates that the model names and that follow from the others: places,
+    then rates, then accelerations), reaction, limit (of contacts, strings, stops, locks and motions), energy or pose.
     The entries of the ledger that no expression gives go by their names.
     """
 
@@ -257,17 +258,19 @@ def reduce(how: str, signal: Signal, window: Window, rate: Signal | None = None)
     raise ValueError(f"no such reduction: {how!r}; there are {', '.join(EXTREMES)}")
 
 
-def columns_of(metadata: Mapping[str, Any], ledger: Sequence[str]) -> list[Column]:
+def columns_of(source: CompiledModel, ledger: Sequence[str]) -> list[Column]:
     """All columns, kind by kind, in the order of the core's arrays; ``ledger`` names the entries of the energy ledger."""
-    made: list[Column] = []
+    made, metadata = list[Column](), source.metadata
 
     def add(kind: str, text: str, sign: Name, unit: str, dots: int = 0) -> None:
         made.append(Column(text, sign.latex(dots), unit, kind))
 
     rates = (("coordinate", "{}", ""), ("rate", "rate({})", "/s"), ("acceleration", "accel({})", "/s^2"))
-    for dots, (kind, text, per) in enumerate(rates):
-        for each in metadata["coordinates"]:
-            add(kind, text.format(quote(each["name"])), Name.parse(each["name"]), each["dimension"] + per, dots)
+    following = [("dependent", text, per) for _, text, per in rates]
+    for coordinates, forms in ((metadata["coordinates"], rates), (source.dependent_coordinates, following)):
+        for dots, (kind, text, per) in enumerate(forms):
+            for each in coordinates:
+                add(kind, text.format(quote(each["name"])), Name.parse(each["name"]), each["dimension"] + per, dots)
     for joint in (each["name"] for each in metadata["joints"]):
         add("reaction", f"{quote(joint)}.Fx", Name(joint, ("x",)), "N")
         add("reaction", f"{quote(joint)}.Fy", Name(joint, ("y",)), "N")

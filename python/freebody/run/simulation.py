@@ -49,7 +49,7 @@ def simulate(
 ) -> Run:
     """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
     if settings.every or t_eval is not None:
-        check_size(len(columns_of(source.metadata, ())), settings, start.t, t_eval)
+        check_size(len(columns_of(source, ())), settings, start.t, t_eval)
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
     trajectory = source.simulate(start, progress=progress, **options)
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
@@ -290,13 +290,14 @@ class Run:
     @cached_property
     def columns(self) -> list[Column]:
         """Everything that is kept over ``t``, in the order of ``blocks``."""
-        return columns_of(self.metadata, self.energy.names)
+        return columns_of(self.source, self.energy.names)
 
     @property
     def blocks(self) -> dict[str, Array]:
         """Values of the columns by kind, each (nt, k); an indeterminate reaction is NaN."""
         nt = len(self.t)
-        arrays = (self.q, self.u, self.accelerations, self._reactions, self._limits, self.energy.values, self.poses)
+        own = (self.q, self.u, self.accelerations, self._dependent)
+        arrays = (*own, self._reactions, self._limits, self.energy.values, self.poses)
         return {kind: array.reshape(nt, -1) for kind, array in zip(KINDS, arrays, strict=True)}
 
     def to_xarray(self) -> xarray.Dataset:
@@ -373,8 +374,15 @@ class Run:
         return np.where(known, values, np.nan)
 
     @cached_property
+    def _dependent(self) -> Array:
+        return self._read("dependent")
+
+    @cached_property
     def _limits(self) -> Array:
-        texts = [column.name for column in columns_of(self.metadata, ()) if column.kind == "limit"]
+        return self._read("limit")
+
+    def _read(self, kind: str) -> Array:
+        texts = [column.name for column in columns_of(self.source, ()) if column.kind == kind]
         return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
 
     def _least(self, i: int) -> Array:

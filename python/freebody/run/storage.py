@@ -29,6 +29,7 @@ _VARIABLES = {
     "coordinate": ("q", ("coordinate",), "coordinates, m or rad"),
     "rate": ("u", ("coordinate",), "rates of the coordinates, m/s or rad/s"),
     "acceleration": ("acceleration", ("coordinate",), "second time derivatives of the coordinates, m/s^2 or rad/s^2"),
+    "dependent": ("following", ("dependent",), "coordinates that follow from the others, with rates and accelerations"),
     "reaction": (
         "reaction",
         ("joint", "part"),
@@ -177,6 +178,7 @@ def to_xarray(run: Run) -> xarray.Dataset:
         "coordinate": run.coordinates,
         "joint": [joint["name"] for joint in run.metadata["joints"]],
         "part": ["Fx", "Fy", "M"],
+        "dependent": names["dependent"],
         "limit": names["limit"],
         "ledger": names["energy"],
         "body": run.bodies,
@@ -185,7 +187,7 @@ def to_xarray(run: Run) -> xarray.Dataset:
     variables: dict[str, Any] = {}
     for kind, block in run.blocks.items():
         variable, dimensions, meaning = _VARIABLES[kind]
-        if kind == "limit" and not labels["limit"]:
+        if kind in ("dependent", "limit") and not labels[kind]:
             continue  # netCDF 3 takes a dimension of length 0 for the one that grows
         shape = [len(run.t), *(len(labels[dimension]) for dimension in dimensions)]
         variables[variable] = (("time", *dimensions), block.reshape(shape), {"long_name": meaning})

@@ -32,10 +32,13 @@ def frames(run: Run) -> Array:
 def plots(run: Run) -> list[dict[str, Any]]:
     """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
     shown = refined_at_jumps(run.at(_thinned(run.t, _POINTS)))
-    made = []
+    made, following = [], [c["name"] for c in run.source.dependent_coordinates]
     for dots, (kind, title) in enumerate((("coordinate", "Coordinates"), ("rate", "Rates"), ("acceleration", "Accelerations"))):
+        names = [*run.coordinates, *following]
         units = [column.unit for column in run.columns if column.kind == kind]
-        curves = [(unicode_name(name, dots), y) for name, y in zip(run.coordinates, shown.blocks[kind].T, strict=True)]
+        units += [column.unit for column in run.columns if column.kind == "dependent"][dots * len(following) :][: len(following)]
+        values = np.hstack([shown.blocks[kind], shown.blocks["dependent"].reshape(len(shown.t), 3, -1)[:, dots]])
+        curves = [(unicode_name(name, dots), y) for name, y in zip(names, values.T, strict=True)]
         for unit in dict.fromkeys(units):
             made.append(_plot(title, unit, shown, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
     made += _reactions(shown)
