@@ -19,13 +19,13 @@ MAY_USE = {
     "run": CORE | {"model", "solve", "impact"},
     "find": SOLVED,
     "stability": SOLVED,
-    "inverse": SOLVED,
+    "periodic": CORE | {"model", "run"},
     "views": SOLVED | {"document"},
     "codegen": CORE | {"model", "solve", "document"},
     "equations": SOLVED | {"document", "codegen"},
     "check": SOLVED | {"equations"},
     "catalogue": SOLVED | {"document", "equations", "check", "mechanism"},
-    "cli": SOLVED | {"document", "codegen", "equations", "check", "find", "inverse", "views", "catalogue", "mechanism"},
+    "cli": SOLVED | {"document", "codegen", "equations", "check", "find", "periodic", "views", "catalogue", "mechanism"},
 }
 """What a folder may use; of those not named here, only that there are no circles of modules."""
 

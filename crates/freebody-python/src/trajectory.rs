@@ -37,6 +37,12 @@ impl Trajectory {
     fn state_of_impact<'py>(&self, py: Python<'py>, change: usize) -> PyResult<State<'py>> {
         handed(py, self.run.state_of_impact(&self.of.mechanism(), change).map_err(errors::motion)?)
     }
+    /// The derivatives of the rates after an impact by time, coordinates, rates and parameters before it, in rows.
+    fn impact_derivatives<'py>(&self, py: Python<'py>, change: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let m = self.of.mechanism();
+        let rows = self.run.impact_derivatives(&m, change).map_err(errors::motion)?;
+        array(py, rows.concat(), [rows.len(), m.freedom()])
+    }
     /// The state at the end.
     fn end<'py>(&self, py: Python<'py>) -> PyResult<State<'py>> {
         handed(py, self.run.end(&self.of.mechanism()))

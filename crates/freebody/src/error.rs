@@ -81,6 +81,8 @@ pub enum DynamicsError {
     OutOfRange(f64, f64, f64),
     /// A change of a run, by its place, that is no impact.
     NotAnImpact(usize),
+    /// An impact, at a time, whose outcome has no derivative that is known.
+    NoImpactDerivative(f64),
     /// An integrator of an unknown name: name, those that there are.
     UnknownMethod(String, Vec<&'static str>),
     /// A question about a name that nothing bears: what is wrong and what to try.
@@ -280,6 +282,11 @@ impl DynamicsError {
                 ("out_of_range", format!("t = {t} s is outside the run, {first} s to {last} s"), None)
             }
             Self::NotAnImpact(change) => ("not_an_impact", format!("change {change} of the run is no impact"), None),
+            Self::NoImpactDerivative(t) => (
+                "no_impact_derivative",
+                format!("the impact at t = {t} s follows a law by which its outcome has no derivative that is known; plastic impacts and Newton's restitution do"),
+                None,
+            ),
             Self::UnknownMethod(name, known) => {
                 ("unknown_method", format!("no integrator is called `{name}`; there is {}", known.join(", ")), None)
             }

@@ -11,9 +11,9 @@ from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.find import find
-from freebody.cli.inverse import inverse
 from freebody.cli.models import moment, obtained, opened, simulated, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
+from freebody.cli.periodic import periodic
 from freebody.cli.systems import systems
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
@@ -205,8 +205,8 @@ app.command()(systems)
 app.command(cls=Command)(equations)
 app.command(cls=Command)(code)
 app.command()(find)
+app.command()(periodic)
 app.command()(check)
-app.command(cls=Command)(inverse)
 
 
 @app.command(cls=Command)

@@ -40,6 +40,7 @@ class OutcomeKind(str, Enum):
     BACKWARD = "backward"
     OUT_OF_RANGE = "out_of_range"
     NOT_AN_IMPACT = "not_an_impact"
+    NO_IMPACT_DERIVATIVE = "no_impact_derivative"
     FOREIGN_HISTORY = "foreign_history"
     NOT_FINITE = "not_finite"
     WRONG_SIZE = "wrong_size"

@@ -196,6 +196,11 @@ class Trajectory(Motion):
         """The state during an impact, given by its place among the changes: with the rates before it, and held what takes part."""
         return State(*self.run.state_of_impact(change))
 
+    def impact_derivatives(self, change: int) -> Array:
+        """Derivatives (n, 1 + 2 n + np) of the rates after an impact, given by its place among the changes, by time, coordinates,
+        rates and parameters before it. Raises ``MotionError`` where its law has none."""
+        return self.run.impact_derivatives(change).T
+
     @property
     def end(self) -> State:
         """The state at the end."""

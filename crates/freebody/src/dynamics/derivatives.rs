@@ -19,8 +19,8 @@ use crate::scalar::{Dual, Scalar};
 use crate::solve::{Lu, Matrix};
 
 /// Directions that one sweep of dual numbers carries.
-const LANES: usize = 4;
-type Lanes = Dual<LANES>;
+pub(super) const LANES: usize = 4;
+pub(super) type Lanes = Dual<LANES>;
 
 /// A change of a state, per unit of whatever it is a direction of; no entries for no change.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +39,7 @@ pub struct Direction {
 
 /// What one lane of dual numbers carries: a direction, or a unit of the friction of a joint that slides.
 #[derive(Clone, Copy)]
-enum Lane<'a> {
+pub(super) enum Lane<'a> {
     Along(&'a Direction),
     Friction(usize),
 }
@@ -64,7 +64,7 @@ pub struct RowDerivatives {
 }
 
 /// A state whose numbers carry directions.
-struct Seeded {
+pub(super) struct Seeded {
     n: BoundValues<Lanes>,
     k: Kinematics<Lanes>,
     q: Vec<Lanes>,
@@ -73,7 +73,7 @@ struct Seeded {
 }
 
 impl Seeded {
-    fn of(now: StateView<'_, f64>, along: &[Lane]) -> Self {
+    pub(super) fn of(now: StateView<'_, f64>, along: &[Lane]) -> Self {
         let n = now.m.bind(&seeded(&now.n.p, along, |d| &d.p));
         let (q, u) = (seeded(now.q, along, |d| &d.q), seeded(now.u, along, |d| &d.u));
         let mut k = Kinematics::of(now.m);
@@ -81,7 +81,7 @@ impl Seeded {
         Seeded { n, k, q, u, t: seeded(&[now.t], along, |d| std::slice::from_ref(&d.t))[0] }
     }
 
-    fn view<'a>(&'a self, now: StateView<'a, f64>) -> StateView<'a, Lanes> {
+    pub(super) fn view<'a>(&'a self, now: StateView<'a, f64>) -> StateView<'a, Lanes> {
         StateView { m: now.m, n: &self.n, k: &self.k, q: &self.q, u: &self.u, t: self.t, mode: now.mode }
     }
 }

@@ -17,6 +17,7 @@ mod gaps;
 mod gear_flank;
 mod generalized_force;
 mod impact;
+mod impact_derivatives;
 mod instant;
 mod joint_friction;
 mod loads;

@@ -10,6 +10,10 @@ use crate::mechanism::{Discontinuity, Mechanism};
 use crate::mode::Mode;
 use crate::motion::{EventRecord, Outcome, Run};
 
+/// Part of the fastest rate by which the rates after an impact may differ from those of an impact whose rows part at −e times
+/// their approach: more, and it followed another law.
+const SAME_IMPACT: f64 = 1e-8;
+
 /// A finished run with dense output.
 pub struct Trajectory {
     /// Times of the accepted steps, first and last included.
@@ -128,6 +132,25 @@ impl Trajectory {
         let found = self.mode_changes.get(change).and_then(|c| Some((c.t, c.states.as_ref()?, c.impulses.as_ref()?)));
         let (t, [before, _], impulses) = found.ok_or(DynamicsError::NotAnImpact(change))?;
         Ok(MotionState { mode: impulses.mode.clone(), ..self.state_of(m, t, before) })
+    }
+
+    /// The derivatives of the rates after an impact, given by its place among `mode_changes`, by time, coordinates, rates and
+    /// parameters before it; one row for each of these.
+    ///
+    /// # Errors
+    /// `not_an_impact`, `no_impact_derivative`.
+    pub fn impact_derivatives(&self, m: &Mechanism, change: usize) -> Result<Vec<Vec<f64>>, DynamicsError> {
+        let before = self.state_of_impact(m, change)?;
+        let mut workspace = Workspace::new(m, &before.p);
+        workspace.place(&before.mode, before.t, &before.q, &before.u);
+        let (after, found) = workspace.impact_derivatives(&workspace.unit_directions())?;
+        let n = m.freedom();
+        let states = self.mode_changes[change].states.as_ref().expect("an impact has both of its states");
+        let fastest = states.iter().flat_map(|y| &y[n..2 * n]).fold(0.0_f64, |most, u| most.max(u.abs()));
+        if after.iter().zip(&states[1][n..2 * n]).any(|(a, b)| (a - b).abs() > SAME_IMPACT * fastest) {
+            return Err(DynamicsError::NoImpactDerivative(before.t));
+        }
+        Ok(found)
     }
 
     fn phase(&self, t: f64) -> &Phase {

@@ -1,0 +1,99 @@
+"""The command ``periodic``: motions that come back, their multipliers, and boundaries of stability."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from freebody.cli.models import opened, pairs
+from freebody.cli.options import AsJson, Changes, Model
+from freebody.cli.terminal import print_json
+from freebody.cli.user_errors import UserError
+
+if TYPE_CHECKING:
+    from freebody.periodic.boundary import Crossing
+    from freebody.periodic.motion import PeriodicMotion
+
+
+def periodic(
+    model: Model,
+    section: Annotated[str | None, typer.Option(metavar="NAME", help="An event, contact or stop at which it comes back.")] = None,
+    period: Annotated[str | None, typer.Option(metavar="TIME", help="After which it comes back, like '2*pi/Omega'.")] = None,
+    returns: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=EXPRESSION", help="What it starts with, and what that is when it comes back; repeatable."),
+    ] = None,
+    horizon: Annotated[str | None, typer.Option(metavar="TIME", help="The longest time to come back in.")] = None,
+    within: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=LOW:HIGH", help="All within these bounds of what it starts with; repeatable."),
+    ] = None,
+    boundary: Annotated[
+        str | None, typer.Option(metavar="NAME=LOW:HIGH", help="Where multipliers reach the unit circle as a parameter changes.")
+    ] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find periodic motions by Newton's method from the start of the model, with the multipliers of perturbations."""
+    asked = opened(model, changes).periodic(
+        pairs(returns) or None, section=section, period=period, **({"horizon": horizon} if horizon else {})
+    )
+    if boundary:
+        ((name, bounds),) = _bounds([boundary]).items()
+        _show_crossings(name, asked.boundary(name, bounds), as_json)
+    else:
+        _show_motions(asked.find_all(_bounds(within)) if within else [asked.find()], as_json)
+
+
+def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
+    found = {}
+    for name, text in pairs(texts).items():
+        low, _, high = text.partition(":")
+        try:
+            found[name] = (float(low), float(high))
+        except ValueError:
+            raise UserError(f"'{name}={text}' is not NAME=LOW:HIGH", "write it like 'omega=0.5:3', in SI units") from None
+    return found
+
+
+def _show_motions(found: list[PeriodicMotion], as_json: bool) -> None:
+    from rich.console import Console
+
+    from freebody.solve.rich_tables import table
+
+    if as_json:
+        print_json([_motion(each) for each in found])
+        return
+    console = Console(highlight=False, soft_wrap=True)
+    if not found:
+        console.print("no motion that repeats itself was found within these bounds")
+    for each in found:
+        console.print(table("starts with", ["name", "value [SI]"], list(each.values.items())))
+        console.print(f"comes back after {each.period:.10g} s, {'stable' if each.stable else 'not stable'}\n")
+        rows = [[f"{mu:.10g}" if abs(mu.imag) else f"{mu.real:.10g}", float(abs(mu))] for mu in each.multipliers.tolist()]
+        console.print(table("multipliers", ["multiplier", "modulus"], rows))
+        console.print(table("checked", ["", "differs by"], [[name, float(value)] for name, value in each.checks.items()]))
+
+
+def _motion(found: PeriodicMotion) -> dict[str, Any]:
+    multipliers = [[mu.real, mu.imag] for mu in found.multipliers.tolist()]
+    checks = {name: float(value) for name, value in found.checks.items()}
+    return {"values": dict(found.values), "period": found.period, "stable": found.stable, "multipliers": multipliers,
+            "slopes": found.slopes.tolist(), "checks": checks}  # fmt: skip
+
+
+def _show_crossings(name: str, found: list[Crossing], as_json: bool) -> None:
+    from rich.console import Console
+
+    from freebody.solve.rich_tables import table
+
+    if as_json:
+        print_json([{"value": each.value, "kind": each.kind, "miss": each.miss} for each in found])
+        return
+    console = Console(highlight=False, soft_wrap=True)
+    if not found:
+        console.print("no multiplier reaches the unit circle within these bounds")
+        return
+    rows = [[each.value, each.kind, each.miss] for each in found]
+    console.print(table("boundaries of stability", [f"{name} [SI]", "a multiplier leaves the unit circle", "condition"], rows))

@@ -1,0 +1,122 @@
+"""What is asked of motions that come back: periodic motions, all of them within bounds, steps, boundaries, limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import scipy.linalg
+
+from freebody.core import Array, CompiledModel, State, quote
+from freebody.model.errors import ModelProblem
+from freebody.model.start import parameter_values
+from freebody.periodic import boundary, motion
+from freebody.periodic.boundary import Crossing
+from freebody.periodic.limit import Limit, limit
+from freebody.periodic.motion import PeriodicMotion
+from freebody.periodic.return_map import RTOL, Return, ReturnMap
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+_INDEPENDENT = 1e-9
+"""Part of the largest singular value of the rows below which one follows from the others."""
+
+
+@dataclass(frozen=True)
+class Periodic:
+    """A return map and the values (k,) of its unknowns at the start of the model."""
+
+    map: ReturnMap
+    start: Array
+
+    def step(self, values: Mapping[str, float] | None = None, **changes: Any) -> Return:
+        """One return from the start, or from ``values`` of unknowns."""
+        return self.map(self._from(values), **changes)
+
+    def steps(self, number: int, values: Mapping[str, float] | None = None, **changes: Any) -> list[tuple[Array, float]]:
+        """The values of the unknowns after each of a ``number`` of returns, each begun with those of the one before; and its time."""
+        here, found = self._from(values), []
+        for _ in range(number):
+            here, time = self.map.value(here, **changes)
+            found.append((here, time))
+        return found
+
+    def find(self, values: Mapping[str, float] | None = None, **changes: Any) -> PeriodicMotion:
+        """The periodic motion to which Newton's method comes from the start, or from ``values`` of unknowns. Raises
+        ``NoPeriodicMotion``."""
+        return motion.find(self.map, self._from(values), **changes)
+
+    def find_all(self, within: Mapping[str, tuple[float, float]], starts: int = 32, **changes: Any) -> list[PeriodicMotion]:
+        """The periodic motions with unknowns within bounds to which Newton's method comes from ``starts`` points spread over them."""
+        if missing := [name for name in self.map.unknowns if name not in within]:
+            raise ModelProblem(f"`{missing[0]}` has no bounds", "give (lowest, highest) for every unknown")
+        return motion.find_all(self.map, [within[name] for name in self.map.unknowns], starts, **changes)[0]
+
+    def boundary(self, parameter: str, within: tuple[float, float], samples: int = 24, **changes: Any) -> list[Crossing]:
+        """All values of a parameter within bounds at which a multiplier of the periodic motion comes to the unit circle; see
+        ``freebody.periodic.boundary.crossings``."""
+        return boundary.crossings(self.map, parameter, within, self.start, samples, **changes)
+
+    def boundary_curve(
+        self, parameter: str, within: tuple[float, float], along: str, values: Sequence[float], samples: int = 24, **changes: Any
+    ) -> list[Crossing]:
+        """The same for each of the ``values`` of another parameter, ``along``: the boundary in the plane of both."""
+        return [each for value in values for each in self.boundary(parameter, within, samples, **changes, **{along: value})]
+
+    def limit(self, parameter: str, first: float, values: Mapping[str, float] | None = None, **changes: Any) -> Limit:
+        """The periodic motion as a parameter tends to 0 from ``first``, with its error; see ``freebody.periodic.limit``."""
+        return limit(self.map, parameter, first, self._from(values), **changes)
+
+    def _from(self, values: Mapping[str, float] | None) -> Array:
+        if unknown := [name for name in values or {} if name not in self.map.unknowns]:
+            raise ModelProblem(f"`{unknown[0]}` is not among the unknowns", f"they are {', '.join(self.map.unknowns)}")
+        return np.array([(values or {}).get(name, own) for name, own in zip(self.map.unknowns, self.start, strict=True)])
+
+
+def periodic(
+    mechanism: Builder,
+    returns: Mapping[str, str] | Sequence[str] | None = None,
+    *,
+    section: str | None = None,
+    period: str | float | None = None,
+    horizon: float | str | None = None,
+    rtol: float = RTOL,
+    **changes: Any,
+) -> Periodic:
+    """Motions that come back after a ``period``, or whenever ``section`` switches; see ``Mechanism.periodic``."""
+    if (section is None) == (period is None):
+        raise ModelProblem(
+            "say when the motion comes back: by `section` or by `period`", "a section is an event, contact or stop"
+        )
+    source = mechanism.compile()
+    if source.metadata["states"]:
+        raise ModelProblem("perturbations of states with rates of their own are not followed", "leave `states` out of the model")
+    state, _ = mechanism.start(**changes)
+    named = returns if isinstance(returns, Mapping) else {name: name for name in returns or independent(source, state)}
+    _check_section(source, section)
+    parameters = parameter_values(source, state.p)
+    readings = [name for name in named if name not in parameters]
+    read = dict(zip(readings, source.evaluate(readings, state).tolist(), strict=True)) if readings else {}
+    start = np.array([parameters[name] if name in parameters else read[name] for name in named])
+    longest = float(mechanism.run_plan(horizon, {}).until) if section else 0.0
+    text = None if period is None else str(period)
+    return Periodic(ReturnMap(mechanism, tuple(named), tuple(named.values()), section, text, changes, rtol, longest), start)
+
+
+def independent(source: CompiledModel, state: State) -> list[str]:
+    """Coordinates that are free of one another and of prescribed motions, and then their rates."""
+    names, n = [quote(each["name"]) for each in source.metadata["coordinates"]], len(state.q)
+    rows = np.array([row.value[1 : 1 + n] for row in source.row_derivatives(state) if row.value is not None]).reshape(-1, n)
+    free = scipy.linalg.null_space(rows, rcond=_INDEPENDENT)
+    _, _, order = scipy.linalg.qr(free.T, pivoting=True)
+    chosen = [names[i] for i in sorted(order[: free.shape[1]])]
+    return [*chosen, *(f"rate({name})" for name in chosen)]
+
+
+def _check_section(source: CompiledModel, section: str | None) -> None:
+    known = [each["name"] for each in (*source.spec["events"], *source.metadata["limits"], *source.metadata["joints"])]
+    if section and section not in {*known, *(name.partition("[")[0] for name in known)}:
+        raise ModelProblem(f"there is no event, contact, string, stop or joint `{section}`", f"there is {', '.join(known)}")

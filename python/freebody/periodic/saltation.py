@@ -1,0 +1,131 @@
+"""How a perturbation passes a moment at which something switches: the saltation matrix.
+
+Kong, Payne, Zhu & Johnson, *Saltation Matrices: The Essential Tool for Linearizing Hybrid Dynamical Systems* (Proc. IEEE 112,
+2024): Ξ = D R + (F⁺ − D R F⁻) D g / (ġ), here with the clock and parameters among what is perturbed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from freebody.core import Array, Change, State, quote
+from freebody.periodic.variation import NotDifferentiable, VectorField
+from freebody.run.simulation import Run
+
+_GRAZING = 1e-7
+"""Rate of a guard over its largest on the way below which the motion grazes what switches it."""
+_SAME = 1e-7
+"""Part of the largest shift of the moment by which guards that switch together may differ."""
+_CONTINUOUS = 1e-9
+"""Part of the largest rate or acceleration by which these may differ on both sides of what is no jump."""
+_READINGS = {"lift-off": "N", "slack": "tension"}
+_IMPACTS = ("impact", "taut", "contact")
+_REFUSED = {"slip": "a contact begins to slide", "stick": "a contact ceases to slide", "reversal": "sliding turns back",
+            "rest": "infinitely many bounces come to an end", "reset": "rates are given at once"}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Perturbation:
+    """Changes (2n, k) of coordinates and rates at a fixed time, and those of the clock and parameters (1 + np, k)."""
+
+    state: Array
+    others: Array
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A moment of a run at which something happens."""
+
+    run: Run
+    field: VectorField
+    t: float
+
+    @cached_property
+    def before(self) -> State:
+        """The state just before."""
+        return replace(self.run.motion.state(float(np.nextafter(self.t, -np.inf))), t=self.t)
+
+    @cached_property
+    def after(self) -> State:
+        """The state after all that happens then."""
+        return self.run.motion.state(self.t)
+
+    @cached_property
+    def changes(self) -> dict[int, Change]:
+        """What switches then, by its place among the changes of the run."""
+        return {i: change for i, change in enumerate(self.run.changes) if change.t == self.t}
+
+    def guards(self) -> list[str]:
+        """The expressions that fall to zero then, and so switch."""
+        events = {event["name"]: event["when"] for event in self.run.source.spec["events"]}
+        found = [events[event.name] for event in self.run.events if event.t == self.t and event.kind != "start"]
+        engaged = {name for change in self.changes.values() if change.kind == "engaged" for name in change.of}
+        limits = {limit["name"]: limit["type"] for limit in self.run.metadata["limits"]}
+        for change in self.changes.values():
+            if change.kind in _IMPACTS:
+                names = [name for name in change.of if name in limits and name not in engaged]
+                found += [f"{quote(name)}.{'slack' if limits[name] == 'string' else 'gap'}" for name in names]
+        if not found:
+            lost = [change for change in self.changes.values() if change.kind in _READINGS]
+            found = [f"{quote(name)}.{_READINGS[change.kind]}" for change in lost for name in change.of]
+        return found
+
+    def _fastest(self, guards: list[str]) -> Array:
+        """The largest mean rates of expressions over the steps up to then."""
+        steps = self.run.motion.steps
+        times = np.append(steps[steps < self.t], np.nextafter(self.t, -np.inf))
+        return np.nanmax(np.abs(np.diff(self.run.motion.evaluate(guards, times), axis=0) / np.diff(times)[:, None]), axis=0)
+
+    def shift(self, perturbation: Perturbation) -> Array:
+        """By how much the moment is later (k,). Raises ``NotDifferentiable`` for what grazes and for what only happens to switch
+        at one time."""
+        guards, n = self.guards(), len(self.before.q)
+        if not guards:
+            what = (
+                ", ".join(sorted({_REFUSED.get(change.kind, change.kind) for change in self.changes.values()})) or "a law jumps"
+            )
+            raise NotDifferentiable(f"at t = {self.t:g} s {what}, through which no perturbation is followed")
+        of, rates = self.run.source.derivatives(guards, self.before), self.field(self.before)
+        slopes, others = of[:, 1 : 1 + 2 * n], np.delete(of, np.s_[1 : 1 + 2 * n], axis=1)
+        speed = others[:, 0] + slopes @ rates
+        if (grazing := np.flatnonzero(np.abs(speed) <= _GRAZING * self._fastest(guards))).size:
+            name = guards[grazing[0]]
+            raise NotDifferentiable(
+                f"at t = {self.t:g} s `{name}` grazes zero: its rate there is 0, and what follows has no derivative"
+            )
+        shifts = -(slopes @ perturbation.state + others @ perturbation.others) / speed[:, None]
+        if np.ptp(shifts, axis=0).max() > _SAME * np.abs(shifts).max():
+            raise NotDifferentiable(f"at t = {self.t:g} s {', '.join(f'`{text}`' for text in guards)} fall to zero together, which a "
+                                    "neighbouring motion need not do")  # fmt: skip
+        return shifts[0]
+
+    def through(self, perturbation: Perturbation) -> tuple[Perturbation, Array]:
+        """The perturbation just after, at the shifted moment, and the shift: each motion is read when it is there."""
+        if refused := [change for change in self.changes.values() if change.kind in ("reset", "rest")]:
+            raise NotDifferentiable(f"at t = {self.t:g} s {_REFUSED[refused[0].kind]}, through which no perturbation is followed")
+        shift, n = self.shift(perturbation), len(self.before.q)
+        state = perturbation.state + np.outer(self.field(self.before), shift)
+        others = perturbation.others.copy()
+        others[0] += shift
+        for i, change in self.changes.items():
+            if change.impulses:
+                of = self.run.motion.impact_derivatives(i)
+                state = np.vstack(
+                    [state[:n], of[:, 1 : 1 + 2 * n] @ state + np.delete(of, np.s_[1 : 1 + 2 * n], axis=1) @ others]
+                )
+        return Perturbation(state, others), shift
+
+    def passed(self, perturbation: Perturbation) -> Perturbation:
+        """The perturbation after the moment, at a fixed time."""
+        if not self.is_jump():
+            return perturbation
+        there, shift = self.through(perturbation)
+        return Perturbation(there.state - np.outer(self.field(self.after), shift), perturbation.others)
+
+    def is_jump(self) -> bool:
+        """Whether rates or accelerations jump."""
+        before, after = self.field(self.before), self.field(self.after)
+        return bool((np.abs(after - before) > _CONTINUOUS * max(np.abs(before).max(), np.abs(after).max())).any())
