@@ -14,7 +14,7 @@ import numpy as np
 from freebody.core import CompiledModel, ModelError, MotionError, ReportItem, Spec, State, cards
 from freebody.symbolic.dimensions import TIME
 
-from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, units
+from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, table_friction, units
 from .errors import ModelFileError, ModelProblem, Path, Problem, Where
 from .outlines import Outlines
 from .schema import Model, StateVariable
@@ -221,6 +221,8 @@ def _elements(write: Writer) -> None:
         guides.ends_and_side(write, name, joint, written)
     for name, force in model.forces.items():
         spec["forces"].append(_element(write, ("forces", name), force, cards.forces()[force.type]))
+        if force.type == table_friction.WORD:
+            table_friction.rest(write, name, spec["forces"][-1])
     for name, motion in model.motions.items():
         path: Path = ("motions", name)
         of, dimension = write.expression((*path, "of"), motion.of), write.dimension(motion.of)

@@ -10,7 +10,7 @@ from itertools import chain
 from freebody.core import cards
 from freebody.symbolic.dimensions import Dimension
 
-from . import elements, guides, syntax
+from . import elements, guides, syntax, table_friction
 from .errors import ModelProblem, Path
 from .names import TOKEN, fault, suggestion, unquote
 from .schema import Body
@@ -132,6 +132,8 @@ class _Declarations:
             self.value(name, ("states", name), "state", None)
         for name, force in m.forces.items():
             self.owner(name, "force", ("forces", name), cards.forces()[force.type].readings)
+            if force.type == table_friction.WORD:
+                self.event(table_friction.resting(name), f"the force `{name}`")
         for section, kind in _LIMITED.items():
             for name in getattr(m, section):
                 self.owner(name, kind, (section, name), cards.readings()[kind])
@@ -161,10 +163,13 @@ class _Declarations:
         if elements.given(joint, "one_sided"):
             events += [event for event, _ in guides.lifting(name, joint)]
         for event in events:
-            if event in self.model.events:
-                what = f"the joint `{name}` has an event `{event}`"
-                self.scope.complain(("events", event), what, "give yours another name", True)
-            self.found.events.add(self.prefix + event)
+            self.event(event, f"the joint `{name}`")
+
+    def event(self, event: str, of: str) -> None:
+        """An event that an item comes to."""
+        if event in self.model.events:
+            self.scope.complain(("events", event), f"{of} has an event `{event}`", "give yours another name", True)
+        self.found.events.add(self.prefix + event)
 
     def stops_of(self, name: str, *sides: str) -> None:
         full = self.prefix + name

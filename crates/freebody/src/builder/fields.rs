@@ -111,6 +111,16 @@ impl<'a, 's> Fields<'a, 's> {
         self.site_of(field, &value)
     }
 
+    /// One point or more.
+    pub fn sites(&mut self, field: &str) -> Result<Vec<usize>> {
+        match self.value(field)? {
+            Value::List(points) if !points.is_empty() => {
+                points.iter().map(|point| self.site_of(field, point)).collect()
+            }
+            _ => Err(self.error(field, "points are needed here", "write `[body.P, body.Q, …]`")),
+        }
+    }
+
     /// Two points.
     pub fn two_sites(&mut self, field: &str) -> Result<[usize; 2]> {
         match self.value(field)? {

@@ -98,7 +98,8 @@ impl Builder<'_> {
             let mut force = kind.lower(&mut fields)?;
             force.name = element.name.clone();
             force.word = card.word;
-            force.cards = card.parts[..force.gauge_forces.len() + force.point_forces.len()].to_vec();
+            let loads = force.gauge_forces.len() + force.point_forces.len();
+            force.cards = card.parts.iter().cycle().take(loads).copied().collect();
             for (pull, card) in force.gauge_forces.iter_mut().zip(&mut force.cards) {
                 pull.bodies = self.m.bodies_of(&pull.gauge);
                 *card = card.along(self.m.turns(&pull.gauge));

@@ -7,6 +7,7 @@
 mod force;
 mod law;
 mod spring;
+mod table_friction;
 mod torque;
 
 use crate::builder::Fields;
@@ -36,6 +37,7 @@ list! {
     spring::Spring,
     spring::Damper,
     law::General,
+    table_friction::TableFriction,
 }
 
 /// The force of a given word.
