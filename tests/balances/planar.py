@@ -136,7 +136,7 @@ class Fake:
             place = {"at": list(b["G"]), "angle": float(b["angle"]), "G": list(b["G"])}
             motion = {"v": list(v[own][:2]), "omega": v[own][2], "a": list(a[own][:2]), "alpha": a[own][2]}
             plain = {"name": body, "particle": False, "mass": b["mass"], "inertia": b["inertia"]}
-            bodies.append({**plain, **place, **motion, "by_accelerations": by, "bias_acceleration": [0.0, 0.0, 0.0]})
+            bodies.append({**plain, **place, **motion, "by_accelerations": by, "bias": [0.0, 0.0, 0.0]})
         loads = [
             {**x, "unknown": True, "value": float(y), "determinate": True} for x, y in zip(self.unknown, values, strict=True)
         ]

@@ -30,7 +30,7 @@ FAR = 1e7
 """How far a parameter goes that goes to infinity (its inverse: to 0)."""
 
 SMALL = 1e-3
-"""How small a coordinate is that is small, in rad or m."""
+"""How small a coordinate is that is small, in rad or typical lengths of the model."""
 
 _WORDS: dict[str, dict[str, Any]] = {
     "at rest": {"at_rest": True},

@@ -36,8 +36,8 @@ _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
-_NOTHING = 1e-11  # SI: what vanishes by a hypothesis is below it
-_DONE = 1e-14  # SI: where Newton's method has nothing left to do
+_NOTHING = 1e-11  # of what an expression changes by within the model's sizes: what vanishes by a hypothesis is below it
+_DONE = 1e-14  # of the same: where Newton's method has nothing left to do
 _NEWTON = 30  # steps of it
 _STEP = 1e-6  # of central differences, relative to the size of a coordinate
 _EXACT = 1e-13  # tolerance of runs whose course matters
@@ -47,7 +47,6 @@ _ELSEWHERE = 0.8  # share of samples at random places with random rates; the oth
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
 _STEPS = 2000  # of a run, which is short
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
-_RATES = (1e-3, 1e3)  # 1/s, within which the usual rate of a model is looked for
 
 
 class MotionSampler:
@@ -98,8 +97,6 @@ class MotionSampler:
         self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
         return name
 
-    # -- samples of a family
-
     def samples(self, family: Family = ALL, count: int = SAMPLES, fresh: int = 0) -> Samples:
         """True states of a family; ``fresh`` other than 0 gives others than before. Raises ``NoMotion``."""
         key = (family, 1000 * fresh + count)
@@ -146,7 +143,7 @@ class MotionSampler:
 
     def _vanishes(self, text: str, state: State, family: Family) -> bool:
         """Whether an expression is 0 there. Raises ``NoMotion`` where nothing can be done for it."""
-        if abs(float(Samples(self.core, [state]).values([text])[text][0])) < _NOTHING:
+        if abs(float(Samples(self.core, [state]).values([text])[text][0])) <= _NOTHING * self._size(text, state):
             return True
         if self.restricted:
             why = "contacts, strings, stops or friction decide how this model moves, so that it is tried on runs from its start"
@@ -154,6 +151,11 @@ class MotionSampler:
         if family.at_start:
             raise NoMotion(f"`{_stated(text)}` does not hold at the start of this model")
         return False
+
+    def _size(self, text: str, state: State) -> float:
+        """What an expression changes by while coordinates, rates and parameters do by what is typical of the model."""
+        by = np.abs(self.core.derivatives([text], state)[0, 1:])
+        return float(by @ np.concatenate([self.sizes, self.rate * self.sizes, np.abs(state.p)]))
 
     def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         held, scaled = dict(family.held), dict(family.scaled)
@@ -176,8 +178,6 @@ class MotionSampler:
         factor = low * (high / low) ** size
         return value * factor if value else sign * factor * self.unit(dimension)
 
-    # -- anywhere
-
     def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         """A random state of the start's assembly and side, none of whose limits is closed."""
         words = initial_state(self.start, self.core, values)
@@ -189,8 +189,9 @@ class MotionSampler:
         for done in np.arange(1, stages + 1) / stages:
             p, guess = self.first.p + done * (words["p"] - self.first.p), self._named(state.q + move / stages)
             state, _ = self.core.assemble(p, done * t, guess=guess, rates=rates, branch=words["branch"])
-        small = [f"({text}) - ({size * _about(rng)!r})" for text, size in family.small]
-        slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in family.small if not family.at_rest]
+        sizes = [(text, size * self._size(text, self.first)) for text, size in family.small]
+        small = [f"({text}) - ({size * _about(rng)!r})" for text, size in sizes]
+        slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
         for text in (*family.vanishing, *small, *slow):
             state = self._vanished(text, state, list(rates), words["branch"])
         solved = self.core.instant(state)
@@ -238,20 +239,18 @@ class MotionSampler:
             return self.core.evaluate([text], moved(places, rates))
 
         q, u, sizes = state.q[chosen], state.u[chosen], self.sizes[chosen]
-        slope = _slopes(lambda rates: value(q, rates), u, self.rate * sizes)[0]
-        if np.abs(slope * sizes).max(initial=0.0) > _NOTHING:
+        slope, size = _slopes(lambda rates: value(q, rates), u, self.rate * sizes)[0], self._size(text, state)
+        if np.abs(slope * sizes).max(initial=0.0) * self.rate > _NOTHING * size:
             return moved(q, u - slope * value(q, u) / (slope @ slope))
         for _ in range(_NEWTON):
-            if abs(left := value(q, u)[0]) < _DONE:
+            if abs(left := value(q, u)[0]) <= _DONE * size:
                 break
             slope = _slopes(lambda places: value(places, u), q, _STEP * sizes)[0]
-            if not np.abs(slope * sizes).max(initial=0.0) > _NOTHING:
+            if not np.abs(slope * sizes).max(initial=0.0) > _NOTHING * size:
                 why = "it depends on nothing that is free in" if free else "no freedom is left in"
                 raise NoMotion(f"`{_stated(text)}` cannot be arranged: {why} this mechanism")
             q = q - slope * left / (slope @ slope)
         return moved(q, u)
-
-    # -- near a moment, where contacts, strings, stops, friction or events decide what moves
 
     @cached_property
     def own(self) -> State:
@@ -312,8 +311,6 @@ class MotionSampler:
         """All loads at the moment."""
         return self.core.free_bodies(self.own)
 
-    # -- what the model says of itself before anything of it moves
-
     def _named(self, q: Array) -> dict[str, float]:
         """Coordinates, or rates, by their names."""
         return dict(zip(self.names, q.tolist(), strict=True))
@@ -361,7 +358,7 @@ class MotionSampler:
         with suppress(MotionError):
             accelerations = self.core.instant(self.first).accelerations
             found = max(found, math.sqrt(np.max(np.abs(accelerations / self.sizes), initial=0.0)))
-        return float(np.clip(found, *_RATES)) if found > 0 else 1.0
+        return found or 1.0
 
     def unit(self, dimension: Dimension | None) -> float:
         """What is typical of a dimension, SI."""

@@ -158,6 +158,20 @@ class FreeBodies:
         """What each coordinate is measured by, (n,): an angle by 1 rad, a length by the size of the mechanism."""
         return np.array([1.0 if c["dimension"] == "rad" else self.extent for c in coordinates])
 
+    def usual_rate(self, coordinates: Sequence[Mapping[str, Any]], u: Array) -> float:
+        """What rates are measured by at a state with the rates ``u``, 1/s: the fastest of these, or of what the accelerations and
+        loads bring about within a radian or the size of the mechanism; 1/s where there is none, for any unit will do."""
+        units, mass = self.units(coordinates), sum(body.mass for body in self.bodies.values())
+        falls = np.abs([self.accelerations[c["name"]] for c in coordinates]) / units
+        forces = [abs(load.value) * np.hypot(*part.force) for load in self.loads for part in load.on]
+        own = np.nan_to_num(forces).max(initial=0.0) / (mass * self.extent) if mass else 0.0
+        return float(max(np.abs(u / units).max(initial=0.0), np.sqrt(max(falls.max(initial=0.0), own))) or 1.0)
+
+    def row_sizes(self, coordinates: Sequence[Mapping[str, Any]]) -> Array:
+        """What each row changes by while the coordinates do by what they are measured by, (k,)."""
+        units = self.units(coordinates)
+        return np.array([sum(abs(row.coefficients[c["name"]]) * x for c, x in zip(coordinates, units, strict=True)) for row in self.rows])
+
     def on(self, *group: str) -> tuple[Load, ...]:
         """The loads on the diagram of a body, or of a group of bodies cut free together: those inside the group are left out."""
         self._known(group)
@@ -225,8 +239,8 @@ def _pair(values: Any) -> Pair:
 def _body(item: Mapping[str, Any]) -> Body:
     pairs = {name: _pair(item[name]) for name in ("at", "G", "v", "a")}
     plain = {name: float(item[name]) for name in ("mass", "inertia", "angle", "omega", "alpha")}
-    by = {name: tuple(row) for name, row in item.get("by_accelerations", {}).items()}
-    bias = tuple(item.get("bias_acceleration", (*pairs["a"], plain["alpha"])))
+    by = {name: tuple(row) for name, row in item["by_accelerations"].items()}
+    bias = tuple(item["bias"])
     return Body(name=item["name"], particle=item["particle"], by_accelerations=by, bias_acceleration=bias, **pairs, **plain)
 
 

@@ -45,7 +45,8 @@ MOST_MEASURED = 8
 MOST_OPERATIONS_MEASURED = 250
 """The same there."""
 AGREES = 1e-7
-"""Gap (m), and rate of one (m/s), below which what is closed stays so; part of the largest rate by which those of an impact agree."""
+"""Of what gaps and their rates are measured by, below which what is closed stays so; part of the largest rate by which those of an
+impact agree."""
 _SAME = 1e-9
 """Difference of an answer from the numbers, relative to the largest acceleration or load of its kind, beyond which it is refused."""
 _INERTIAS = ("kg", "kg*m^2")
@@ -96,11 +97,11 @@ def solve_in_letters(
     states near by. Raises ``TooLarge``, ``Unconfirmed``, ``Singular``, ``KeyError`` for what is not unknown, ``Indeterminate``."""
     chosen = substitutions_of(mechanism, set or {}, limits or {})
     state = chosen.start(mechanism, at_rest, initial, **moment)
-    if at_rest and np.abs(state.u).max(initial=0.0) > AGREES:
+    subject = SymbolicState(mechanism.source(), state, at_rest)
+    if at_rest and np.any(np.abs(state.u) > AGREES * subject.usual_rate * subject.free.units(subject.coordinates)):
         raise ValueError(
             "it is not at rest: a motion prescribes rates that are not 0, or it has begun to move; leave at_rest out"
         )
-    subject = SymbolicState(mechanism.source(), state, at_rest)
     _require_limits(subject, chosen, limits or {})
     names = list(wanted) if wanted else subject.names
     for given_more, named in _ways(subject, chosen, limits or {}):
@@ -319,9 +320,11 @@ def _is_like(subject: SymbolicState, there: SymbolicState) -> bool:
         return [(load.symbol, float(np.sign(load.follows[1])) if load.follows else 0.0) for load in each.free.loads]
 
     try:
-        held = [tree for row in there.rows for tree in (row.value, row.rate) if tree is not None]
-        gaps = [evaluate(tree, there.values, there.tables) for tree in held]
-        return acting(there) == acting(subject) and bool(np.abs(gaps).max(initial=0.0) < AGREES)
+        for row, size in zip(there.rows, there.free.row_sizes(there.coordinates), strict=True):
+            for tree, most in ((row.value, size), (row.rate, size * there.usual_rate)):
+                if tree is not None and not abs(evaluate(tree, there.values, there.tables)) <= AGREES * most:
+                    return False
+        return acting(there) == acting(subject)
     except MotionError:  # what touches here would be pressed in
         return False
 

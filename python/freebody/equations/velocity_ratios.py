@@ -5,7 +5,7 @@ what closes the loops: (kᵀ M k) z̈ + kᵀ (M c + b) = 0. The factor of z̈ is
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from dataclasses import replace as replaced
 from itertools import combinations
@@ -29,7 +29,7 @@ MOST_TOGETHER = 3
 _SHORT = 2
 """Operations up to which a ratio has no symbol of its own."""
 _NOTHING = 1e-9
-"""Factor of a coordinate, SI, below which a row does not tell it."""
+"""Factor of a coordinate, by what that is measured by and of the largest in the row, below which a row does not give it."""
 
 
 @dataclass
@@ -71,7 +71,7 @@ def ratios(subject: SymbolicState, put: Put, free: str) -> Ratios:
     rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest))
             for row in subject.rows if row.kind != "motion"]  # fmt: skip
     while unknown := [name for name in names if name not in found.rates]:
-        _tell(found, subject, *_block(rows, unknown, subject.values))
+        _tell(found, subject, *_block(rows, unknown, subject))
     _sum_up(found, subject, put)
     for row in subject.rows:
         if row.kind == "motion":  # what it takes: J z̈ less the other loads
@@ -92,9 +92,11 @@ def driven(subject: SymbolicState) -> str | None:
     return next(iter(motions[0].linear.coefficients)).name if motions else None
 
 
-def _block(rows: Sequence[Linear], unknown: Sequence[str], values: Mapping[Sym, float]) -> tuple[list[Linear], list[str]]:
-    """The fewest rows that tell as many coordinates, with these."""
-    sizes = np.array([[evaluate(row.coefficients.get(Sym(n, 2), ZERO), values) for n in unknown] for row in rows], float)
+def _block(rows: Sequence[Linear], unknown: Sequence[str], subject: SymbolicState) -> tuple[list[Linear], list[str]]:
+    """The fewest rows that give as many coordinates, with these."""
+    units = dict(zip(subject.names, subject.free.units(subject.coordinates), strict=True))
+    table = [[evaluate(row.coefficients.get(Sym(n, 2), ZERO), subject.values) * units[n] for n in subject.names] for row in rows]
+    sizes = np.array([[row[subject.names.index(n)] / (max(map(abs, row)) or 1.0) for n in unknown] for row in table], float)
     for count in range(1, MOST_TOGETHER + 1):
         for chosen in combinations(range(len(rows)), count):
             held = [i for i in range(len(unknown)) if np.abs(sizes[list(chosen), i]).max() > _NOTHING]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import CompiledModel, State
+from freebody.core import CompiledModel, MotionError, State
 from freebody.model.start import quantity
 from freebody.run.simulation import Run, simulate
 
@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 START = "start"
 """What the events at the start are called together."""
 _MOMENT = 1e-6
-"""Length of a motion in which nothing but the events at its start happens, s."""
+"""Length of a motion in which nothing but the events at its start happens, of the time natural to the mechanism, or of the run where
+it has none before these events."""
 
 
 class Unreached(ValueError):
@@ -34,7 +35,11 @@ def opening(mechanism: Builder, start: State, source: CompiledModel) -> Run | No
     Raises ``Unreached`` where they let nothing move on."""
     if not _at_start(mechanism):
         return None
-    run = simulate(source, start, mechanism.run_plan(start.t + _MOMENT, {"step": _MOMENT}))
+    try:
+        time = 1 / source.free_bodies(start).usual_rate(source.metadata["coordinates"], start.u)
+    except MotionError:  # what the events put in place is missed
+        time = (mechanism.run_numbers().until or start.t + 1.0) - start.t
+    run = simulate(source, start, mechanism.run_plan(start.t + _MOMENT * time, {"step": _MOMENT * time}))
     if run.outcome.t == start.t:
         raise Unreached(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
     return run

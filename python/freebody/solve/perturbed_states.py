@@ -20,7 +20,7 @@ NEARLY, OUT = 0.98, 0.05
 """Part of a gap by which it is closed at once; part by which one that is pierced is opened."""
 PLACES, RATES, PASSES = 3, 4, 3
 CLOSED_RATE = 1e-9
-"""Rate of a gap over the rates tried below which it stays closed."""
+"""Rate of a gap, over what it is at the rates tried, below which it stays closed."""
 STEP = {"rad": 0.3, "m": 0.2}
 """How far a coordinate is moved: an angle in rad, a length as a part of the size of the mechanism."""
 CLOSED = 1e-12
@@ -67,22 +67,23 @@ def moving_states(source: CompiledModel, state: State) -> list[FreeBodies]:
 
 def others(source: CompiledModel, state: State) -> list[State]:
     """States of the same mode: at the places of a state and near by, with random rates that keep closed what is closed, each at a
-    time of its own. The same things act there, and what slides or bears on a tooth does so in the same sense."""
+    time of its own, as fast as is usual for the mechanism. The same things act there, and what slides or bears on a tooth does so in the same sense."""
     first = source.free_bodies(state)
     rng = np.random.default_rng(SEED)
-    scale = first.units(source.metadata["coordinates"])
+    coordinates = source.metadata["coordinates"]
+    scale, rate = first.units(coordinates), first.usual_rate(coordinates, state.u)
     closing, found = Closing(source, state, first), []
     steps = [np.zeros_like(scale), *(STEP["m"] * NEARER**k * scale * rng.uniform(-1, 1, len(scale)) for k in range(PLACES))]
     for q in (closing.place(state.q + step) for step in steps):
         for _ in range(RATES if q is not None else 0):
-            rates, t = scale * rng.uniform(-1, 1, len(scale)), state.t + rng.uniform(0, 1)
+            rates, t = rate * scale * rng.uniform(-1, 1, len(scale)), state.t + rng.uniform(0, 1) / rate
             try:
                 other = closing.moving(q, rates, t)
                 free = source.free_bodies(other)
             except MotionError:
                 continue
-            held = np.abs(closing.rows(free) @ other.u).max(initial=0.0) < CLOSED_RATE * np.abs(scale).max(initial=1.0)
-            if held and same_mode(free, first) and np.isfinite(_places(free)).all():
+            held = np.abs(closing.rows(free) @ other.u) <= CLOSED_RATE * rate * free.row_sizes(coordinates)
+            if held.all() and same_mode(free, first) and np.isfinite(_places(free)).all():
                 found.append(other)
     return found
 

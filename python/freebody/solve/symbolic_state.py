@@ -223,6 +223,11 @@ class SymbolicState:
         return self.given or self.source.free_bodies(self.state)
 
     @cached_property
+    def usual_rate(self) -> float:
+        """What rates are measured by at the state, 1/s."""
+        return self.free.usual_rate(self.coordinates, self.state.u)
+
+    @cached_property
     def neighbours(self) -> list[FreeBodies]:
         """The free bodies at the state and at others near by, with other parameters, as far as these are symbols: so what drops out
         of a balance there does so whatever the symbols are."""

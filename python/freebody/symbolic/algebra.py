@@ -5,8 +5,9 @@ from __future__ import annotations
 import itertools
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -80,14 +81,14 @@ def divided(tree: Tree, factor: Tree) -> Tree:
     return add(*(quotient(term, factor) for term in (tree.terms if isinstance(tree, Add) else (tree,))))
 
 
-def equal(first: Tree, second: Tree) -> bool:
+def equal(first: Tree, second: Tree, tables: Mapping[str, Callable[..., Any]] | None = None) -> bool:
     """Whether two expressions agree at random values of their symbols; places where one has no value are passed over."""
     draw, occurring, compared = random.Random(7), sorted(symbols(first, second), key=str), 0
     for _ in range(4 * _SAMPLES):
         values = {symbol: draw.uniform(0.3, 1.9) for symbol in occurring}
         try:
             with np.errstate(all="ignore"):
-                a, b = (complex(evaluate(tree, values)) for tree in (first, second))
+                a, b = (complex(evaluate(tree, values, tables)) for tree in (first, second))
         except (ZeroDivisionError, OverflowError):
             continue
         if a == a and b == b:

@@ -28,12 +28,14 @@ WORTH = 4
 
 @dataclass(frozen=True)
 class Candidate:
-    """The balance of a group along a virtual motion. ``support`` and ``coefficients`` (nu,) say which unknowns are in it."""
+    """The balance of a group along a virtual motion. ``support`` and ``coefficients`` (nu,) say which unknowns are in it; ``row``
+    are these over what a unit of each unknown does at most, so that newtons and kilograms compare."""
 
     group: Group
     twist: VirtualMotion
     support: int
     coefficients: Array = field(repr=False)
+    row: Array = field(repr=False)
     right: float
 
     def order(self, accelerations: int) -> tuple[int, ...]:
@@ -77,7 +79,7 @@ def bits(places: Iterable[int]) -> int:
 def plainest(equations: Sequence[Candidate], accelerations: int) -> list[Candidate]:
     """Those that do not follow from plainer ones at the state asked for, in the order of plainness."""
     ordered = sorted(equations, key=lambda equation: equation.order(accelerations))
-    rows = np.array([equation.coefficients for equation in ordered])
+    rows = np.array([equation.row for equation in ordered])
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
     return [ordered[i] for i in independent(rows / np.where(sizes > 0, sizes, 1.0))]
 
@@ -98,9 +100,9 @@ def _of_group(problem: Problem, group: Group, named: Sequence[VirtualMotion], co
     asked = np.array([counted >> i & 1 for i in range(len(problem.unknowns))], bool)
     use = stays.any(axis=1) & ((stays & asked).sum(axis=1) <= WORTH)
     right = motions[:, 0] @ problem.systems[0].right[members].sum(axis=0)
+    made, units = np.where(stays, work[:, 0], 0.0), np.where(sizes > 0, sizes, 1.0)
     return [
-        Candidate(group, tried[c], bits(np.flatnonzero(stays[c])), np.where(stays[c], work[c, 0], 0.0), right[c])
-        for c in np.flatnonzero(use)
+        Candidate(group, tried[c], bits(np.flatnonzero(stays[c])), made[c], made[c] / units, right[c]) for c in np.flatnonzero(use)
     ]
 
 
@@ -123,7 +125,7 @@ def best(by_support: Supports, sets: Iterator[int] | Sequence[int], size: int, a
     def cost(found: tuple[list[Candidate], int]) -> tuple[float, ...]:
         """Points of inertia, bodies, constructed points, condition number, accelerations, plainness."""
         orders = np.array([equation.order(accelerations) for equation in found[0]]).sum(axis=0)
-        rows = np.array([equation.coefficients for equation in found[0]])
+        rows = np.array([equation.row for equation in found[0]])
         condition = np.linalg.cond(rows[:, np.abs(rows).max(axis=0) > 0])
         return *map(float, orders[:3]), float(np.round(2 * np.log10(condition))), *map(float, orders[3:])
 

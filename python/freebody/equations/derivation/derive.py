@@ -6,8 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Words, equations, listed
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved, preamble
@@ -18,16 +16,13 @@ from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.equations.derivation.single_unknown import wanted
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.algebra import quotient
-from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, symbols
 
 _TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
 FORMS = tuple(_TITLES)
 _ELSEWHERE = "it is among the equations as data and in the generated code"
-_SAME = 1e-9
-"""Part of the largest entry of a matrix by which two are no longer equal."""
 _LOPSIDED = "It is not symmetric, as its rows are these balances, not Lagrange's equations."
 
 
@@ -111,9 +106,8 @@ def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block
         letter, name = ("M", "Mass matrix and right-hand side") if only_moves else ("A", "The equations together")
         made = [Heading("Matrix form"), MatrixEquation(system.matrix, system.unknowns, system.right, name, letter=letter)]
         if only_moves:
-            values, tables = subject.values, subject.tables
-            rows = np.array([[evaluate(entry, values, tables) for entry in row] for row in system.matrix], float)
-            made += [Paragraph(_LOPSIDED)] * bool(np.abs(rows - rows.T).max() > _SAME * np.abs(rows).max())
+            pairs = ((row[k], system.matrix[k][i]) for i, row in enumerate(system.matrix) for k in range(i))
+            made += [Paragraph(_LOPSIDED)] * (not all(equal(*pair, subject.tables) for pair in pairs))
     if system.unknowns and not system.is_square:
         made.append(Paragraph(_uneven(len(system.matrix), len(system.unknowns), len(subject.laws))))
     if moving:

@@ -38,7 +38,7 @@ from freebody.symbolic.tree import ZERO, Num, Sym, is_zero, symbols
 _ROUND_OFF = 1e-14
 """Of the largest rate, below which one is what is left of 0."""
 _NOTHING = 1e-12
-"""Of a number in SI, below which it is what is left of 0."""
+"""Of the largest number in the row and in the column of a matrix, below which one is what is left of 0."""
 
 
 def impact(
@@ -191,9 +191,11 @@ def _matrix(found: Impact) -> list[Block]:
     rows = Rows.of(found)
     unknowns = [Sym(after(name), 1) for name in found.subject.names] + rows.impulses
     matrix, right = rows.matrix(found)
-    table = [[ZERO if abs(x) < _NOTHING else Num(float(f"{x:.5g}")) for x in row] for row in (*matrix, right)]
+    whole = np.column_stack([matrix, right])
+    least = _NOTHING * np.minimum(np.abs(whole).max(axis=1)[:, None], np.abs(whole).max(axis=0))
+    shown = [[Num(float(f"{x:.5g}")) if x else ZERO for x in row] for row in np.where(np.abs(whole) < least, 0.0, whole).tolist()]
     name = "The balances of the coordinates, then the constraints, in numbers (SI) at this impact"
-    return [MatrixEquation(table[:-1], unknowns, table[-1], name)]
+    return [MatrixEquation([row[:-1] for row in shown], unknowns, [row[-1] for row in shown], name)]
 
 
 def _numbers(found: Impact) -> list[Block]:

@@ -50,7 +50,8 @@ if TYPE_CHECKING:
     from freebody.core import Change
 
 _NOTHING = 1e-9
-"""Part of the mechanism's size, or of its largest rate, below which a length, an arm or a rate is 0: what an event leaves of it."""
+"""Part of what it is measured by, as the mechanism's size and its largest rate, below which a length, an arm or a rate is 0: what an
+event leaves of it."""
 _HALF = Fraction(1, 2)
 MOST_OPERATIONS = 300
 """In a system, or in an answer before it is shortened, above which none is sought symbolically."""
@@ -234,13 +235,13 @@ class Impact:
 
     def vanishes(self, rate: Tree) -> bool:
         """Whether a rate is 0 just before the impact."""
-        return abs(float(evaluate(rate, self.values, self.subject.tables))) < _NOTHING * self._usual_rate
+        return abs(float(evaluate(rate, self.values, self.subject.tables))) <= _NOTHING * self._size(rate)
 
     def holds(self, condition: Condition) -> bool:
         """Whether a condition holds after the impact, to the rounding of the rates."""
         values = self.values | self.rates_after
         one, other = (float(evaluate(side, values, self.subject.tables)) for side in self.sides(condition))
-        return abs(one - other) <= 10 * AGREES * self._usual_rate
+        return abs(one - other) <= 10 * AGREES * self._size(condition.rate)
 
     def sides(self, condition: Condition) -> tuple[Tree, Tree]:
         """Of its equation: the rate after the impact, and what it is; not one less than nothing."""
@@ -253,7 +254,8 @@ class Impact:
         """Whether rates after the impact are those that happened, and impulses those that the jumps of momenta take."""
         sizes = {x: size for x, size in self.sizes().items() if x in solution and not np.isnan(size)}
         usual = np.nanmax([abs(load.value) for load in self.subject.impact.impulses.loads], initial=0.0)
-        pairs = [(x, u, self._usual_rate) for x, u in self.rates_after.items()] + [(x, size, usual) for x, size in sizes.items()]
+        after = zip(self.rates_after.items(), self._usual_rates.values(), strict=True) if self.change.after else ()
+        pairs = [(x, u, most) for (x, u), most in after] + [(x, size, usual) for x, size in sizes.items()]
         found = {x: float(evaluate(solution[x], self.values, self.subject.tables)) for x, *_ in pairs}
         return all(abs(found[x] - true) <= 10 * AGREES * most for x, true, most in pairs)
 
@@ -267,13 +269,19 @@ class Impact:
         return f"the run takes another law of impact. {self.change.note}".strip()
 
     @cached_property
-    def _usual_rate(self) -> float:
-        """What rates of what holds are measured by: the largest rate before and after, rad/s, or m/s over the mechanism's size; times
-        this size where that is less, since some are those of lengths."""
-        free, coordinates = self.subject.free, self.subject.coordinates
+    def _usual_rates(self) -> dict[str, float]:
+        """What the rate of each coordinate is measured by: the largest before and after, in radians and sizes of the mechanism."""
+        units = self.subject.free.units(self.subject.coordinates)
         sides = [list(each.u.values()) for each in (self.change.before, self.change.after) if each]
-        largest = max((np.abs(u / free.units(coordinates)).max(initial=0.0) for u in sides), default=0.0)
-        return float(largest or 1.0) * min(1.0, free.extent)
+        largest = max((np.abs(u / units).max(initial=0.0) for u in sides), default=0.0) or 1.0
+        return dict(zip(self.subject.names, (largest * units).tolist(), strict=True))
+
+    def _size(self, rate: Tree) -> float:
+        """What an expression that is linear in the rates is measured by: what the usual ones give to it."""
+        at_rest = self.values | {Sym(name, 1): 0.0 for name in self.subject.names}
+        base = evaluate(rate, at_rest, self.subject.tables)
+        usual = ({Sym(name, 1): size} for name, size in self._usual_rates.items())
+        return float(sum(abs(evaluate(rate, at_rest | one, self.subject.tables) - base) for one in usual))
 
     def sizes(self) -> dict[Sym, float]:
         """The impulses in numbers; NaN of one that the momenta do not determine."""

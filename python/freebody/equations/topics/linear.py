@@ -35,7 +35,7 @@ _BOLD = tuple(Written(sign, bold(symbol)) for sign, symbol in (("𝐌", "M"), ("
 _VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumerate(("𝐱", "𝐱\u0307", "𝐱\u0308")))
 """The perturbations, their rates and accelerations."""
 _STANDS = 1e-9
-"""Rate, rad/s or m/s, below which what is prescribed stands still."""
+"""Rate that is prescribed, over what it is at the usual rates of the mechanism, below which it is round-off of 0."""
 
 
 @dataclass(frozen=True)
@@ -111,8 +111,8 @@ def _require_regular(subject: SymbolicState) -> None:
             f"{clause(free, 'constrains', 'constrain')} rates only, so that every place beside this equilibrium can be one, too, "
             "and these equations would not show it"
         )
-    for row in subject.rows:
-        if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS:
+    for row, size in zip(subject.rows, subject.usual_rate * subject.free.row_sizes(subject.coordinates), strict=True):
+        if row.rate is not None and abs(float(evaluate(row.rate, subject.values, subject.tables))) > _STANDS * size:
             raise NotHere(f"{row.name} prescribes a rate that is not 0, so nothing stays at rest; prescribe that it stands still")
     states = [free.rows for free in nearby(subject.source, subject.state) if free.rows]
     ranks = [len(independent(np.array([[row.coefficients[name] for name in subject.names] for row in rows]))) for rows in states]

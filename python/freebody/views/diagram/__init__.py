@@ -25,7 +25,7 @@ from freebody.views.sketch import sketch_of_state
 _NARROWEST = 60.0  # mm
 _SMALLER = 0.85  # of what is drawn, step by step until it is as narrow as the column
 _SMALLEST = 0.5
-_STEP = 1e-3  # m, rad and their rates: enough for a spring at rest to pull
+_STEP = 1e-3  # of the size of the mechanism, rad, and the same at its usual rate: enough for a spring at rest to pull
 
 
 @dataclass(frozen=True)
@@ -174,9 +174,12 @@ class DiagramBuilder:
 def _further(source: CompiledModel, state: State, free: FreeBodies) -> FreeBodies:
     """The free bodies a little further on in all coordinates and rates, and with something of every parameter (a mass, gravity)
     that is 0; those of now where that has no answer."""
-    step = _STEP * (1.0 + np.arange(len(state.q)) % 7 / 3.0)  # all different, so that differences of coordinates change as well
+    coordinates = source.metadata["coordinates"]
+    # all different, so that differences of coordinates change as well
+    step = _STEP * free.units(coordinates) * (1.0 + np.arange(len(state.q)) % 7 / 3.0)
+    p, rates = np.where(state.p == 0, _STEP, state.p), free.usual_rate(coordinates, state.u) * step
     try:
-        return source.free_bodies(State(np.where(state.p == 0, _STEP, state.p), state.t, state.q + step, state.u + step))
+        return source.free_bodies(State(p, state.t, state.q + step, state.u + rates))
     except MotionError:
         return free
 

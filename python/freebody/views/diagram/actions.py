@@ -15,8 +15,6 @@ from freebody.views.sketch import Sketch
 _ROUND_OFF = 1e-9
 """Relative to the largest force of a diagram, below which an arrow would show only round-off."""
 
-_NOTHING = 1e-30
-"""N and N·m: what is left of nothing where everything else is nothing, too."""
 _ACROSS = 50.0
 """Sizes of symbols in a mechanism: how far a force may be from where its moment is taken."""
 _WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to the left", "down and to the left", "down",
@@ -151,7 +149,7 @@ def to_scale(
     terms = [term for name in group for term in _terms(free.bodies[name], labels, len(group) == 1)] if effective else []
     largest = max((action.size for action in forces + terms if not action.turns), default=0.0)
     turning = max([action.size for action in forces + terms if action.turns] + [largest * _ACROSS * sketch.size])
-    least = max(_ROUND_OFF * largest, _NOTHING), max(_ROUND_OFF * turning, _NOTHING)
+    least = _ROUND_OFF * largest, _ROUND_OFF * turning
 
     def seen(actions: list[Action]) -> list[Action]:
         return [action for action in actions if action.size > least[action.turns]]
