@@ -226,10 +226,23 @@ class Moving:
 
         return extremes(self, of, vary=vary, within=within, points=points, changes=changes)
 
-    def limit(self: Builder, of: str, *, until: Any = None, **changes: Any) -> Limit:
-        """What an expression, or ``integral of`` one, tends to as t → ∞, with its error; see ``freebody.find.limit``."""
-        from freebody.find import limit
+    def limit(
+        self: Builder,
+        of: str,
+        *,
+        until: Any = None,
+        vary: str | None = None,
+        towards: Any = "inf",
+        begin: Any = None,
+        **changes: Any,
+    ) -> Limit:
+        """What an expression, or ``integral of`` one, tends to as t → ∞, with its error; or a quantity as in ``find`` as a parameter or
+        value of the start goes from ``begin`` ``towards`` a value, by default infinity. See ``freebody.find``."""
+        from freebody.find import limit, limit_over
 
+        if vary is not None:
+            end = {} if until is None else {"until": until}
+            return limit_over(self, of, vary=vary, towards=towards, begin=begin, changes=changes | end)
         return limit(self, of, until=until, changes=changes)
 
     def periodic(self: Builder, returns: Mapping[str, str] | Sequence[str] | None = None, **asked: Any) -> Periodic:

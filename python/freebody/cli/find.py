@@ -24,7 +24,9 @@ def find(
     vary: Annotated[
         str | None, typer.Option(metavar="NAME=A..B", help="A parameter, or coordinate or rate(…) of the start.")
     ] = None,
-    to_infinity: Annotated[bool, typer.Option("--limit", help="What an expression tends to as t → ∞.")] = False,
+    to_infinity: Annotated[
+        bool, typer.Option("--limit", help="What it tends to as t → ∞, or as NAME goes from A towards B (inf).")
+    ] = False,
     points: Annotated[int, typer.Option(min=4, help="Of the first grid; intervals are halved where that is too coarse.")] = 33,
     changes: Changes = None,
     until: Until = None,
@@ -34,16 +36,16 @@ def find(
     """All values of a parameter or of the start for which a quantity is what it is asked to be; without --is, its extremes."""
     mechanism = opened(model, changes)
     asked: dict[str, Any] = {name: value for name, value in (("until", until), ("rtol", rtol)) if value is not None}
+    stated = _RANGE.fullmatch(vary or "")
+    if (vary or not to_infinity) and not stated:
+        raise UserError(f"--vary {vary or ''}: between which values?", "write it like --vary 'angle=10 deg..80 deg'")
+    name, *within = (part.strip() for part in stated.groups()) if stated else ("",)
     if to_infinity:
-        if vary or target:
-            raise UserError(
-                "--limit is of one motion: --vary and --is are not for it", "change the start with --set, or in the model"
-            )
+        if target:
+            raise UserError("--limit says what it tends to, and --is what it shall be", "give one of them")
+        asked |= {"vary": name, "begin": within[0], "towards": within[1]} if stated else {}
         found, is_answered = mechanism.limit(of, **asked), True
     else:
-        if not (stated := _RANGE.fullmatch(vary or "")):
-            raise UserError(f"--vary {vary or ''}: between which values?", "write it like --vary 'angle=10 deg..80 deg'")
-        name, *within = (part.strip() for part in stated.groups())
         asked |= {"vary": name, "within": tuple(within), "points": points}
         found = mechanism.extremes(of, **asked) if target is None else mechanism.find(of, target, **asked)
         is_answered = target is None or bool(found.roots or found.throughout)

@@ -6,13 +6,13 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
-from freebody.find.response import Sample
+from freebody.find.response import Response, Sample
 from freebody.solve.figures import figure
 
 FOLLOWED = 1e-3
@@ -23,8 +23,8 @@ _TOLD_APART = 3
 """Halvings after which different things that happen on the two sides are taken to be the reason."""
 _EDGE = 1e-14
 """Part of the range to which the place of a break is found."""
-_LEVEL = 1e-9
-"""Part of the size of the quantity that may be its error."""
+_LEVEL, _SAFETY = 1e-9, 10.0
+"""Part of the size of the quantity that may be its error; how much larger the error may be elsewhere than where it is known."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class Break:
 class Curve:
     """What is known of a quantity between two places: samples in order, breaks, and intervals where it could not be followed."""
 
-    respond: Callable[[float], Sample]
+    respond: Response
     start: float
     end: float
     points: int = 33
@@ -82,6 +82,8 @@ class Curve:
     def __post_init__(self) -> None:
         grid = np.linspace(self.start, self.end, self.points).tolist()
         waiting = deque(pairwise([self._take(x) for x in grid]))
+        known = [sample for sample in self.samples if sample.is_known]
+        self.error = _SAFETY * self.respond.error(known) if known else 0.0
         while waiting:
             if len(self.samples) >= self.runs:
                 self.unresolved += [(low.x, high.x) for low, high in waiting]
@@ -115,7 +117,7 @@ class Curve:
     @property
     def level(self) -> float:
         """Differences below this may be errors."""
-        return _LEVEL * max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0)
+        return max(self.error, _LEVEL * max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0))
 
     def sentence(self, unit: str) -> str:
         """How closely it was looked at."""

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array
+from freebody.find.response import Response
 from freebody.model.start import quantity
 from freebody.run.records import Window, integral, over_time, unit_of
 from freebody.solve.figures import Known, figure
@@ -43,8 +44,8 @@ class NoLimit(ValueError):
 
 @dataclass(frozen=True)
 class Limit(PlainText):
-    """What a quantity ``of`` a motion tends to (SI): ``value`` with its error. ``tail`` says how it gets there; up to ``until`` (s) the
-    motion was followed, where the quantity was ``last``."""
+    """What a quantity ``of`` a motion tends to (SI): ``value`` with its error. ``tail`` says how it gets there; up to ``until`` (s, or
+    the value of what is ``varied``) it was followed, where the quantity was ``last``."""
 
     of: str
     value: Known
@@ -52,13 +53,14 @@ class Limit(PlainText):
     tail: str
     until: float
     last: float
+    varied: str = ""
 
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
         unit = f" {self.unit}" if self.unit else ""
         told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to {self.value.error:.0e}"
-        return f"{told}: {self.tail}; it was {figure(self.last, 8)} at {figure(self.until)} s."
+        return f"{told}: {self.tail}; it was {figure(self.last, 8)} at {self.varied}{figure(self.until)}{'' if self.varied else ' s'}."
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, in SI."""
@@ -76,6 +78,32 @@ class Limit(PlainText):
 
     def __str__(self) -> str:
         return captured(self, 130).strip()
+
+
+def limit_over(
+    mechanism: Builder, of: str, *, vary: str, towards: Any, begin: Any, changes: Mapping[str, Any] | None = None
+) -> Limit:
+    """What a quantity of the motion, as in ``find``, tends to as ``vary`` goes from ``begin`` ``towards`` a value, or infinity: it is
+    looked at where what is left of the way halves, or where the value doubles. Raises ``NoLimit``."""
+    respond = Response(mechanism, of, vary, {"rtol": 1e-12, **(changes or {})})
+    first, to = respond.place(begin), math.inf if towards in (math.inf, "inf") else respond.place(towards)
+    steps = np.arange(_TERMS + 1)
+    places = first * 2.0**steps if to == math.inf else to + (first - to) * 2.0**-steps
+    values = np.array([respond(float(x)).y for x in places])
+    if missing := [respond(float(x)) for x in places if not respond(float(x)).is_known]:
+        raise NoLimit(f"{of} has no value at {vary} = {missing[0].x:g}: {missing[0].why}")
+    gaps, size = np.abs(np.diff(values)), float(np.abs(values).max())
+    level = max(_SETTLED * size, *(respond.known(float(places[i])).error for i in (0, -1)))
+    whole, *parts = (extrapolated(each) for each in (values, values[:-1], values[1:]))
+    if gaps.max() <= level:
+        whole, parts = float(values[-1]), [values[-1] - gaps.max()]
+    error = _SAFETY * max([level, *(abs(whole - part) for part in parts)])
+    if gaps[-1] > max(_LESS * gaps[-2], level) or not error <= _WANTED * size:
+        seen = f"it was {values[-2]:.8g} at {places[-2]:.6g} and is {values[-1]:.8g} at {places[-1]:.6g}"
+        raise NoLimit(f"no limit of {of} is seen as {vary} tends to {towards}: {seen}")
+    tail = _tail("power", values, whole, places).replace("t^", f"{vary}^" if to == math.inf else f"({vary} − {to:g})^-")
+    found = Known(whole, error, max(size, abs(whole)))
+    return Limit(of, found, respond.quantity_unit, tail, float(places[-1]), float(values[-1]), f"{vary} = ")
 
 
 def limit(mechanism: Builder, of: str, *, until: Any = None, changes: Mapping[str, Any] | None = None) -> Limit:

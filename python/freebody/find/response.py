@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
     from freebody.run.records import Reported
     from freebody.run.simulation import Run
+    from freebody.solve.instant import Instant
 
 _NO_VALUE = (MotionError, ModelError, ModelFileError, ModelProblem, Indeterminate, NotFinite)
 _ROUND_OFF = 1e-13
@@ -96,8 +97,9 @@ class Response:
     def known(self, x: float) -> Known:
         """The quantity at a place, found anew, with how far it is known. Raises what has no value there."""
         if self._at_start:
-            y = self(x).y
-            return Known(y, _ROUND_OFF * abs(y), abs(y))
+            solved = self._solved(x)
+            y = solved[self.item.value]
+            return Known(y, _ROUND_OFF * max(abs(y), *solved.sizes), abs(y))
         run, _ = self._reported(x)
         found = run.accuracy.report[self.item.label]
         unit = unit_size(found.unit)
@@ -110,7 +112,7 @@ class Response:
     def _sample(self, x: float) -> Sample:
         try:
             if self._at_start:
-                return Sample(x, self.mechanism.solve(**self._changes(x, of_run=False))[self.item.value])
+                return Sample(x, self._solved(x)[self.item.value])
             run, reported = self._reported(x)
         except _NO_VALUE as error:
             return Sample(x, math.nan, why=_reason(error))
@@ -118,6 +120,14 @@ class Response:
         if reported.value is None or (stopped and self.item.at == "end"):
             return Sample(x, math.nan, (*_story(run, math.inf), *stopped), reported.note or f"the run ends by {run.outcome.name}")
         return Sample(x, reported.value * unit_size(reported.unit), _story(run, self._moment(run)))
+
+    def _solved(self, x: float) -> Instant:
+        return self.mechanism.solve(**self._changes(x, of_run=False))
+
+    def error(self, samples: Sequence[Sample]) -> float:
+        """How large the error of the quantity is, from the first, the middle and the last sample of some."""
+        known = [self.known(samples[i].x).error for i in sorted({0, len(samples) // 2, len(samples) - 1})]
+        return max(filter(math.isfinite, known), default=0.0)
 
     def _reported(self, x: float) -> tuple[Run, Reported]:
         """The run at a place, or that which it hands over to, in which the quantity has its value, and the quantity."""

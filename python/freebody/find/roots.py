@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, Any
 
 from freebody.find.curve import Break, Curve
@@ -67,13 +67,13 @@ class Found(PlainText):
         unit, of_value = (f" {each}" if each else "" for each in self.units)
         asked = f"{self.of} is {figure(self.target, 10)}{of_value}"
         between = f"between {figure(self.curve.start)} and {figure(self.curve.end)}{unit}"
-        told = [f"{figure(root.where, 12)}{unit}" + " (touches)" * root.touching for root in self.roots]
+        told = [f"= {figure(root.where, 12)}{unit}" + " (touches)" * root.touching for root in self.roots]
         told += [f"from {figure(a, 8)} to {figure(b, 8)}{unit}" for a, b in self.throughout]
         if not told:
             seen = [sample.y for sample in self.curve.samples if sample.is_known]
             least_most = f"it is from {figure(min(seen))} to {figure(max(seen))}{of_value}"
             return f"{asked} for no {self.varied} {between}: {least_most}."
-        return f"{asked} for {self.varied} = {', '.join(told)}, and for no other {between}."
+        return f"{asked} for {self.varied} {', '.join(told)}, and for no other {between}."
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, in SI."""
@@ -132,7 +132,7 @@ def find(
     respond = Response(mechanism, of, vary, changes or {})
     goal, curve = respond.target(target), followed(respond, within, points)
     level = max(curve.level, 1e-9 * abs(goal))
-    throughout = [(run[0].x, run[-1].x) for run in _level_runs(curve, goal, level)]
+    throughout = list(_throughout(curve, goal, level))
     inside = lambda x: any(a <= x <= b for a, b in throughout)
     roots = [root for root in _roots(respond, curve, goal) if not inside(float(root.where))]
     return Found(of, goal, vary, (respond.unit, respond.quantity_unit), curve, roots, throughout)
@@ -152,17 +152,24 @@ def followed(respond: Response, within: tuple[Any, Any], points: int) -> Curve:
     return curve
 
 
-def _level_runs(curve: Curve, goal: float, level: float) -> Iterator[list[Sample]]:
-    """Samples one after the other, at least four, at which the quantity is the target to its error."""
+def _throughout(curve: Curve, goal: float, level: float) -> Iterator[tuple[float, float]]:
+    """The intervals, of at least four samples, on which the quantity is the target to its error; their ends to the last digits."""
+
+    def edge(inside: float, outside: float) -> float:
+        while abs(outside - inside) > 1e-12 * (curve.end - curve.start):
+            amid = (inside + outside) / 2
+            inside, outside = (amid, outside) if abs(curve.respond(amid).y - goal) <= level else (inside, amid)
+        return inside
+
     for piece in curve.pieces:
-        run: list[Sample] = []
-        for sample in [*piece, None]:
-            if sample and abs(sample.y - goal) <= level:
-                run.append(sample)
+        met = [abs(sample.y - goal) <= level for sample in piece]
+        for is_met, group in groupby(range(len(piece)), key=met.__getitem__):
+            places = list(group)
+            first, last = places[0], places[-1]
+            if not is_met or last - first < 3:
                 continue
-            if len(run) > 3:
-                yield run
-            run = []
+            start = edge(piece[first].x, piece[first - 1].x) if first else piece[first].x
+            yield start, edge(piece[last].x, piece[last + 1].x) if last + 1 < len(piece) else piece[last].x
 
 
 def _roots(respond: Response, curve: Curve, goal: float) -> Iterator[Root]:

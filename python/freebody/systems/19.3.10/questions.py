@@ -8,12 +8,20 @@ With R = a cosh u, dθ/du = √((I + ma²)/(I + mR²)), whose integral to ∞ is
 with k² = I/(I + ma²) (put sinh u = tan φ): π/2 for I = 0, a straight line, and more for a heavier rod.
 """
 
-from math import acosh, atan, cosh, sqrt
+from math import acosh, cosh, sqrt
 
 from scipy.integrate import quad
 from scipy.special import ellipk
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.answers import formula
+from freebody.equations.solve import coefficients
+from freebody.equations.topics.elimination import eliminated
+from freebody.find import NoLimit
+from freebody.solve.symbolic_state import SymbolicState
+from freebody.symbolic.algebra import quotient
+from freebody.symbolic.differentiate import rate
+from freebody.symbolic.tree import Sym, add
 
 M, A, W = 1.0, 1.0, 1.0
 INERTIAS = (2.0, 0.0, 1.0)
@@ -73,33 +81,33 @@ def one_equation(case):
         yield Answer(f"R̈, I_O = {inertia:g}", run.evaluate("accel(R)", times), "m/s²", check, "closed form: Rh²/(I + mR²)²", 1e-9)
 
 
-@ask("(f) As t → ∞, from the run to 1000 s and a bound on what is left")
+@ask("(d) One equation in R in symbols, by both routes: what is left of Lagrange's equations, and the energy differentiated")
+def both_routes(case):
+    mechanism = case.mechanism()
+    found = eliminated(SymbolicState(mechanism.source(), mechanism.start()[0]))
+    closed, against = "accel(R) - R*p_theta^2/(I_O + m*R^2)^2", "closed form: R̈ = Rh²/(I + mR²)²"
+    routes = {
+        "momentum of θ put into the balance of R": found.equations["R"],
+        "Ė = 0": rate(found.energy, ("p_theta", "I_O", "m")),
+    }
+    for of, left in routes.items():
+        factors, rest = coefficients(left, [Sym("R", 2)])
+        bare = add(Sym("R", 2), quotient(rest, factors[0]))
+        yield formula(f"0 = R̈ + …, {of}", bare, closed, against)
+
+
+@ask("(f) As t → ∞: distance, speed, angular velocity, total angle")
 def limits(case):
-    """From time t on, θ̇ = h/(I + mR²) and Ṙ(t) ≤ Ṙ < v∞ bracket the angle that remains:
-    h J/v∞ < θ∞ − θ(t) ≤ h J/Ṙ(t) with J = ∫_R^∞ dR/(I + mR²). The middle is given, and half the width as its error.
-    """
     for inertia in INERTIAS:
-        run, t = case.run(parameters={"I_O": inertia}), 1000.0
-        R, Rdot, h, energy = (run.evaluate(text, t) for text in ("R", "rate(R)", "angular_momentum(ground.O)", "energy()"))
-        fastest = sqrt(2 * energy / M)
-        rest = h * (atan(sqrt(inertia / M) / R) / sqrt(inertia * M) if inertia else 1 / (M * R))
-        low, high = rest / fastest, rest / Rdot
-        total, error = run.evaluate("theta", t) + (low + high) / 2, (high - low) / 2
-        of, whole = f"I_O = {inertia:g}", inertia + M * A**2
-        yield Answer(f"total angle, {of}", total, "rad", ellipk(inertia / whole), "closed form: K(I/(I + ma²))", 1e-9)
-        # Ṙ/v∞ = √((R² − a²)/(R² + I/m)) and R ≈ v∞t, so that these two are known to first order.
-        lack = (A**2 + inertia / M) / (2 * (fastest * t) ** 2)
-        leading = whole * W / (M * fastest**2 * t) * lack / 2
-        yield Answer(f"bound on its error, {of}", error, "rad", leading, "closed form: first order in 1/t³", 1e-2)
-        yield Answer(f"last speed, {of}", fastest, "m/s", W * sqrt(whole / M), "conservation", 1e-9)
-        yield Answer(
-            f"what the speed lacks at 1000 s, {of}",
-            fastest - Rdot,
-            "m/s",
-            fastest * lack,
-            "closed form: first order in 1/t²",
-            1e-2,
-        )
-        yield Answer(
-            f"θ̇ R² at 1000 s, {of}", run.evaluate("rate(theta)*R^2", t), "m²/s", whole * W / M, "closed form: → h/m", 1e-5
-        )
+        mechanism, whole = case.mechanism(I_O=inertia), inertia + M * A**2
+        closed = "closed form: all energy in the bead; K(I/(I + ma²))"
+        checks = (("rate(R)", "speed", "m/s", W * sqrt(whole / M)), ("rate(theta)", "angular velocity", "rad/s", 0.0),
+                  ("rate(theta)*R^2", "θ̇R²", "m²/s", whole * W / M), ("theta", "total angle", "rad", ellipk(inertia / whole)))  # fmt: skip
+        for text, of, unit, check in checks:
+            found = mechanism.limit(text)
+            yield Answer(f"{of}, I_O = {inertia:g}: {found.tail}", found.value, unit, check, closed, 1e-9, 1.0)
+        try:
+            said = mechanism.limit("R").sentence
+        except NoLimit as error:
+            said = str(error)
+        yield Answer(f"distance, I_O = {inertia:g}", 1.0, "", 1.0, "closed form: R ≈ v∞ t without bound", said=said)

@@ -73,3 +73,16 @@ def net_angle(case):
     yield Answer(
         "total angle, by quadrature", total, "rad", integral(lambda u: 1 / growth(u), 0.0, 12.0) + rest(12.0), "quadrature", 1e-10
     )
+
+
+@ask("(a) First-order form: the rates of R, θ, v = Ṙ, ω = θ̇")
+def first_order(case):
+    """Ṙ = v, θ̇ = ω by definition; v̇ and ω̇ are the equations of motion, solved."""
+    closed = {"R": "R*rate(theta)^2", "theta": "-2*m*R*rate(R)*rate(theta)/(I_O + m*R^2)"}
+    yield from case.symbolically(closed, "closed form: (I_O + m R²) θ̇ is constant, no force along the slot")
+
+
+@ask("(b) The net angle, as a limit of the run")
+def limit(case):
+    found = case.mechanism().limit("theta")
+    yield Answer(f"θ as t → ∞: {found.tail}", found.value, "rad", rest(0.0), "quadrature", 1e-9)

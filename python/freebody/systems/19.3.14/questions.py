@@ -12,6 +12,11 @@ top runs away below it: with N = 0 its height over the top grows as (a₀ sin(γ
 from math import cos, pi, sin
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.answers import formula
+from freebody.equations.solve import coefficients
+from freebody.symbolic.algebra import quotient
+from freebody.symbolic.presentation import presented
+from freebody.symbolic.tree import Sym, negative
 
 M, D0, V0, A0, G, BETA = 2.0, 0.5, 1.0, 3.0, 9.81, pi / 6
 TOPS = (60, -30, 30, 0)
@@ -59,24 +64,29 @@ def depends(case):
         yield Answer(f"normal force with a0 = {a0:g}", value, "N", normal(gamma, a0), AGAINST, 1e-12)
 
 
-@ask("(b) When the mass accelerates exactly vertically")
+@ask("(b) When the mass accelerates exactly vertically: all a₀ from −50 to 50 m/s², whatever d₀, v₀, t")
 def vertical(case):
-    """The horizontal acceleration is a straight line in a₀: two instants give its zero, a third one shows it."""
-    for degrees in (60, -30):
+    """Where the top is left behind, or barely touched: on one side of a₀ = g cos γ/sin(γ − β), the mass falls freely."""
+    for degrees in TOPS:
         gamma, of = degrees * pi / 180, f"γ = {degrees}°"
-        at0, at1 = (case.instant(parameters={"gamma": gamma, "a0": a})["ax(mass.centre)"] for a in (0.0, 1.0))
-        a0 = at0 / (at0 - at1)
-        yield Answer(f"a₀, {of}", a0, "m/s²", G * cos(gamma) / sin(gamma - BETA), "closed form: N = 0", 1e-12)
-        now = case.instant(parameters={"gamma": gamma, "a0": a0})
-        acceleration = [now["ax(mass.centre)"], now["ay(mass.centre)"]]
-        yield Answer(f"acceleration of the mass then, {of}", acceleration, "m/s²", [0.0, -G], "closed form: free fall", 1e-12)
-    across = [case.instant(parameters={"gamma": 0.0, "a0": a})["ax(mass.centre)"] for a in (0.0, 3.0, 6.0)]
-    yield Answer(
-        "horizontal acceleration on a level top, a₀ = 0, 3, 6", across, "m/s²", [0.0] * 3, "closed form: N is vertical", 1e-12, G
-    )
-    across = [case.instant(parameters={"gamma": BETA, "a0": a})["ax(mass.centre)"] for a in (0.0, 3.0, 6.0)]
-    check = [-G * cos(BETA) * sin(BETA)] * 3
-    yield Answer("the same for γ = 30°: never", across, "m/s²", check, "closed form: N = mg cos γ for every a₀", 1e-12)
+        found = case.mechanism().find("ax(mass.centre) @ start", 0.0, vary="a0", within=(-50.0, 50.0), gamma=gamma)
+        yield Answer(f"single values, {of}", len(found.values), "", 0, "closed form: N sin γ = 0", 1e-15, said=found.sentence)
+        edge = G * cos(gamma) / sin(gamma - BETA) if degrees in (60, -30) else 0.0
+        check = {60: [edge, 50.0], -30: [-50.0, edge], 0: [-50.0, 50.0]}.get(degrees)
+        if check is None:
+            yield Answer(f"intervals, {of}", len(found.throughout), "", 0, "closed form: N = mg cos γ for every a₀", 1e-15)
+        else:
+            ((low, high),) = found.throughout
+            yield Answer(f"from … to, {of}", [low, high], "m/s²", check, "closed form: N ≤ 0, or N vertical", 1e-8)
+
+
+@ask("(b) The a₀ in symbols, from where on it does")
+def vertical_symbolically(case):
+    """The horizontal acceleration as long as the top is touched is linear in a₀."""
+    found = case.mechanism().solve_in_letters(["mass.x"])
+    (slope,), rest = coefficients(found["mass.x"], [Sym("a0")])
+    closed = "g*cos(gamma)/sin(gamma - ramp)"
+    yield formula("a₀", presented(negative(quotient(rest, slope))), closed, "closed form: N = 0", found.letters)
 
 
 @ask("Position at 0.3 s")

@@ -161,26 +161,26 @@ def again(case):
         yield Answer(f"spin when radial again, {sense}", value, "rad/s", radial(other), CONSERVED, OFF, W)
 
 
-@ask("The length of strings that leaves no spin")
+@ask("Which lengths of strings leave no spin, from 0.5 to 8 m: found")
 def none(case):
-    tangential, across = np.sqrt(KAPPA), np.sqrt(KAPPA) - R
-    for how, length, release in (("tangential", tangential, 1), ("radial", across, 2)):
-        value = run(case, "(b)", release=release, L=length).evaluate("rate(theta)", 2.0)
-        yield Answer(f"spin of (b) released {how}, L = {length:.6g} m", value, "rad/s", 0.0, CONSERVED, OFF, W)
-        value = run(case, "(a)", release=release, L=length).evaluate("rate(theta)", 2.0)
-        left = W if release == 1 else radial("(a)", length)
-        yield Answer(f"spin of (a) released {how}, L = {length:.6g} m", value, "rad/s", left, CONSERVED, OFF)
+    """Tangential: ℓ² = κ; radial: (R + L)² = κ; in (a) none."""
+    for how, length in (("unwound", np.sqrt(KAPPA)), ("radial", np.sqrt(KAPPA) - R)):
+        for sense, file in (("(a)", "with_spin.yaml"), ("(b)", "model.yaml")):
+            bounds, words = (0.5, 8.0), {"until": 4.0, "points": 9, "rtol": 1e-12}
+            found = case.mechanism(file).find(f"rate(theta) @ {how}", 0.0, vary="L", within=bounds, **words)
+            of = f"released {'when tangential' if how == 'unwound' else 'when radial'}, {sense}"
+            check = [length] if sense == "(b)" else []
+            yield Answer(f"how many, {of}", len(found.values), "", len(check), CONSERVED, 1e-15)
+            if check:
+                yield Answer(f"L, {of}", found.values, "m", check, CONSERVED, OFF)
 
 
-@ask("Long strings")
+@ask("Long strings: the spin that is left as L → ∞")
 def long(case):
-    for length, off in ((30.0, 4e-2), (100.0, 4e-3)):
-        for sense, sigma in SENSES.items():
-            of, until = f"{sense}, L = {length:g}", length / (R * W) + 15
-            value = run(case, sense, L=length, release=1, until=until).evaluate("rate(theta)", until)
-            yield Answer(f"spin after a tangential release, {of}", value, "rad/s", spin(sense, length), CONSERVED, OFF)
-            yield Answer(f"the same beside its limit, {of}", value, "rad/s", sigma * W, "closed form: L = ∞, to order κ/L²", off)
-            value = run(case, sense, L=length, release=2, until=until).evaluate("rate(theta)", until)
-            yield Answer(f"spin after a radial release, {of}", value, "rad/s", radial(sense, length), CONSERVED, OFF)
-            limit = sigma * W * np.sqrt(1 + 2 * m * R**2 / I)
-            yield Answer(f"the same beside its limit, {of}", value, "rad/s", limit, "closed form: L = ∞, to order κ/L²", off)
+    for sense, sigma in SENSES.items():
+        file = "with_spin.yaml" if sense == "(a)" else "model.yaml"
+        for how, release, check in (("tangential", 1, sigma * W), ("radial", 2, sigma * W * np.sqrt(1 + 2 * m * R**2 / I))):
+            found = case.mechanism(file).limit(
+                "rate(theta) @ end", vary="L", begin=8.0, release=release, until=1100.0, rtol=1e-12
+            )
+            yield Answer(f"spin after a {how} release, {sense}: {found.tail}", found.value, "rad/s", check, CONSERVED, 1e-6)

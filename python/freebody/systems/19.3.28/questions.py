@@ -86,3 +86,14 @@ def ceiling_force(one, two, spin1, spin2):
     ax = h * (cos(one) * alpha - sin(one) * spin1**2)
     ay = h * (sin(one) * alpha + cos(one) * spin1**2)
     return Fx + M * ax, Fy + M * (ay + G)
+
+
+@ask("The other reading: φ₁ = 0, φ₂ = π/2 from the horizontal, bar 1 along x and bar 2 upright")
+def other_reading(case):
+    """Only gravity at rest: with bar 2 above the elbow, m a_G1 and m a_G2 are vertical, φ̈₂ = 0 and (4/3)φ̈₁ = −(3/2) g/ℓ."""
+    state = {"phi1": "90 deg", "phi2": "180 deg"}
+    closed = {"phi1": "-9*g/(8*l)", "phi2": "0"}
+    yield from case.symbolically(closed, "closed form: balances about ceiling and elbow", at_rest=True, set=state)
+    now, check = case.instant(**state), solve(pi / 2, pi, 0.0, 0.0)
+    yield Answer("φ̈₁, φ̈₂", [now["accel(phi1)"], now["accel(phi2)"]], "rad/s²", check[:2], LETTERS, 1e-13)
+    yield Answer("elbow on bar 2", [now["elbow.Fx"], now["elbow.Fy"]], "N", check[2:], "other route: balances by hand", 1e-12)

@@ -166,3 +166,14 @@ def unequal(case):
         "other route: Lagrange's equations in 20 digits",
         0.05,
     )
+    run = case.run("two_bars.yaml", rtol=1e-10)
+    error = np.maximum.accumulate(np.abs(usual - exact), axis=0)
+    size = np.maximum.accumulate(np.abs(exact), axis=0)
+    true = -np.log10(error / size)
+    said = f"the motion {run.accuracy.sentence}"
+    for i in (0, 1):
+        claimed = run.digits(f"phi{i + 1}", times)
+        label = f"digits of φ{i + 1} that the program claims at 1 … 10 s at rtol 1e-10"
+        yield Answer(
+            label, claimed, "", np.minimum(true[:, i], claimed + 2), "the digits that there are, or more", 0.25, 4.0, said
+        )
