@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from freebody.run.sampling import Times
     from freebody.run.simulation import Progress, Run
     from freebody.solve.instant import Instant
+    from freebody.stability.answers import Curves, Stability
     from freebody.views.diagram import Diagram
 
 
@@ -256,6 +257,34 @@ class Moving:
 
         with self.core_errors():
             return periodic(self, returns, **asked)
+
+    def stability(
+        self: Builder,
+        bounds: Mapping[str, tuple[Any, Any]] | None = None,
+        *,
+        inputs: Sequence[str] = (),
+        outputs: Sequence[str] = (),
+        initial: Mapping[str, Any] | None = None,
+        **changes: Any,
+    ) -> Stability:
+        """The equilibrium near the start, or all that are found with coordinates within ``bounds``
+        (``{"theta": ("-180 deg", "180 deg")}``): each with static forces, linear equations with ``inputs`` (parameters) and ``outputs``
+        (expressions), modes, and whether it is stable; ``changes`` as in ``solve``. Raises ``NoEquilibrium``; see
+        ``freebody.stability``."""
+        from freebody.stability.answers import stability
+
+        state, _ = self.start(initial, **changes)
+        with self.core_errors():
+            return stability(self, state, bounds, inputs, outputs)
+
+    def equilibria_along(self: Builder, parameter: str, within: tuple[Any, Any], **changes: Any) -> Curves:
+        """The equilibrium near the start, followed while a parameter is within a range, through folds and onto the curves that branch
+        off. Raises ``NoEquilibrium``; see ``freebody.stability``."""
+        from freebody.stability.answers import curves
+
+        state, _ = self.start(**changes)
+        with self.core_errors():
+            return curves(self, state, parameter, within, changes)
 
     def check_equilibrium(self: Builder, state: State) -> None:
         """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""

@@ -26,7 +26,7 @@ AT_RUN_TIME = {
     "no_equilibrium": "initial:",
     "spin_without_inertia": "crank:",
 }
-COMMANDS = ["run", "solve", "validate", "animate", "compare", "certify", "systems", "code", "find", "schema", "version"]
+COMMANDS = ["run", "solve", "validate", "animate", "compare", "certify", "systems", "code", "find", "stability", "schema", "version"]
 
 
 def test_help_names_every_command(command):

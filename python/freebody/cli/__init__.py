@@ -14,6 +14,7 @@ from freebody.cli.find import find
 from freebody.cli.models import moment, obtained, opened, simulated, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.periodic import periodic
+from freebody.cli.stability import stability
 from freebody.cli.systems import systems
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import NOT_TRUE, Guarded, UserError
@@ -206,6 +207,7 @@ app.command(cls=Command)(equations)
 app.command(cls=Command)(code)
 app.command()(find)
 app.command()(periodic)
+app.command(cls=Command)(stability)
 app.command()(check)
 
 

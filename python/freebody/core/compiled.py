@@ -159,6 +159,10 @@ class CompiledModel:
         made = [(name, sticks, *(None if x is None else np.array(x) for x in rows)) for name, sticks, *rows in found]
         return [RowDerivatives(*row) for row in made]
 
+    def mass_matrix(self, state: State) -> Array:
+        """The mass matrix (n, n) of the tree, by its coordinates: twice the kinetic energy is u M u."""
+        return self.mechanism.mass_matrix(state.p, state.q)
+
     def points(self, p: Array) -> dict[str, tuple[str, float, float]]:
         """Named points: body, x and y in its frame (m)."""
         return {name: (body, x, y) for name, (body, x, y) in self.mechanism.points(p).items()}

@@ -29,8 +29,9 @@ class SingularConfiguration(ValueError):
 
 @dataclass(frozen=True)
 class StateSpace:
-    """ẋ = A x + B w, y = C x + D w in SI units: x are perturbations of ``states``, w of ``inputs``, y of ``outputs``. Along a motion
-    this holds at the time of ``state``. δq = ``places`` x and δu = ``rates`` x are the perturbations of all ``coordinates``."""
+    """ẋ = A x + B w, y = C x + D w in SI units: x are perturbations of ``states`` (independent coordinates, independent rates, states of
+    the model's own), w of ``inputs``, y of ``outputs``. Along a motion this holds at the time of ``state``. δq = ``places`` x and
+    δu = ``rates`` x are the perturbations of all ``coordinates``."""
 
     state: State
     states: tuple[str, ...]
@@ -49,6 +50,11 @@ class StateSpace:
         """The coordinates whose perturbations are independent."""
         return tuple(name for name in self.states if name in self.coordinates)
 
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """The coordinates whose rates are independent."""
+        return tuple(name for name in self.coordinates if f"rate({quote(name)})" in self.states)
+
 
 def state_space(
     source: CompiledModel,
@@ -63,29 +69,29 @@ def state_space(
     ``outputs`` are any expressions. ``free`` are the independent coordinates, by default those that the others follow most slowly.
     Raises ``ValueError`` for inputs that are none, coordinates that are not independent and what has no derivatives,
     ``SingularConfiguration``, and what solving an instant raises."""
-    names = [c["name"] for c in source.metadata["coordinates"]]
+    names = source.coordinate_names
     n, rows = len(names), source.row_derivatives(state)
-    columns = [1 + 2 * n + _parameter(source, name) for name in inputs]
-    free, moving, places, rates = _perturbations(source, state, rows, free and [names.index(name) for name in free])
-    accelerations, parts = [f"accel({quote(name)})" for name in names], _places_of_bodies(source, state)
-    texts = [*accelerations, *outputs, *parts]
-    found = source.derivatives(texts, state)
-    found, of_places = found[: n + len(outputs)], found[n + len(outputs) :]
+    columns, own = ([1 + 2 * n + _parameter(source, name) for name in each] for each in (inputs, source.metadata["states"]))
+    free, moving, places, rates = _perturbations(source, state, rows, own, free and [names.index(name) for name in free])
+    accelerations, parts = [f"accel({quote(name)})" for name in names], _places_of_bodies(source, state) if inputs else []
+    texts = [*accelerations, *(f"rate({quote(name)})" for name in source.metadata["states"]), *outputs, *parts]
+    found, of_places = np.split(source.derivatives(texts, state), [len(texts) - len(parts)])
     if not np.isfinite(found).all():
         raise ValueError(f"{texts[int(np.argmin(np.isfinite(found).all(axis=1)))]} has no derivatives at this state")
     for name, column in zip(inputs, columns, strict=True):
         _require_input(name, [row.name for row in rows if _moves(row, column)], parts, of_places[:, column])
     by_state = found[:, 1 : 1 + n] @ places + found[:, 1 + n : 1 + 2 * n] @ rates
-    by_input = found[:, columns]
+    by_state[:, len(free) + len(moving) :] += found[:, own]
+    by_input, changing, given = found[:, columns], [*moving, *range(n, n + len(own))], n + len(own)
     return StateSpace(
         state=state,
-        states=(*(names[i] for i in free), *(f"rate({quote(names[i])})" for i in moving)),
+        states=(*(names[i] for i in free), *(f"rate({quote(names[i])})" for i in moving), *source.metadata["states"]),
         inputs=tuple(inputs),
         outputs=tuple(outputs),
-        a=np.vstack([rates[free], by_state[moving]]),
-        b=np.vstack([np.zeros((len(free), len(inputs))), by_input[moving]]),
-        c=by_state[n:],
-        d=by_input[n:],
+        a=np.vstack([rates[free], by_state[changing]]),
+        b=np.vstack([np.zeros((len(free), len(inputs))), by_input[changing]]),
+        c=by_state[given:],
+        d=by_input[given:],
         coordinates=tuple(names),
         places=places,
         rates=rates,
@@ -103,41 +109,64 @@ def along_motion(
     return found
 
 
+def by_parameter(source: CompiledModel, state: State, space: StateSpace, which: int) -> tuple[Array, Array]:
+    """How the dependent coordinates (n,), and the accelerations of the free ones, change by a parameter while the free ones stay: of a
+    state at rest with its linear equations."""
+    n = len(state.q)
+    column = 1 + 2 * n + which
+    rows = [row for row in source.row_derivatives(state) if row.value is not None]
+    free = [space.coordinates.index(name) for name in space.free]
+    texts = [f"accel({quote(name)})" for name in space.free]
+    found, dependent = source.derivatives(texts, state), [i for i in range(n) if i not in free]
+    places = np.zeros(n)
+    if rows:
+        held = np.array([row.value for row in rows])
+        places[dependent] = _following(held[:, 1 : 1 + n], dependent, held[:, column])
+    return places, found[:, column] + found[:, 1 : 1 + n] @ places
+
+
 def _perturbations(
-    source: CompiledModel, state: State, rows: Sequence[RowDerivatives], asked: Sequence[int] | None
+    source: CompiledModel, state: State, rows: Sequence[RowDerivatives], own: Sequence[int], asked: Sequence[int] | None
 ) -> tuple[list[int], list[int], Array, Array]:
     """The coordinates that are free, those whose rates are, and what perturbations of these make of all coordinates and rates."""
     n = len(state.q)
     units = source.free_bodies(state).units(source.metadata["coordinates"]) if rows else np.ones(n)
-    places, by_places, by_rates = _matrices(rows, n)
+    places, by_places, by_rates, by_own = _matrices(rows, n, own)
     dependent = _dependent(by_rates * units, [i for i in range(n) if asked is None or i not in asked])
     placed = _dependent(places * units, dependent)
     free, moving = ([i for i in range(n) if i not in follow] for follow in (placed, dependent))
     if asked is not None and list(asked) != free:
-        names = [c["name"] for c in source.metadata["coordinates"]]
+        names = source.coordinate_names
         raise ValueError(f"{', '.join(names[i] for i in asked)} are not as many independent coordinates as there are")
-    size = len(free) + len(moving)
+    fixed = len(free) + len(moving)
+    size = fixed + len(own)
     q, u = np.zeros((n, size)), np.zeros((n, size))
     q[free, range(len(free))] = 1
-    u[moving, range(len(free), size)] = 1
+    u[moving, range(len(free), fixed)] = 1
     q[placed] = _following(places * units, placed, places @ q) * units[placed, None]
-    u[dependent] = _following(by_rates * units, dependent, by_rates @ u + by_places @ q) * units[dependent, None]
+    left = by_rates @ u + by_places @ q
+    left[:, fixed:] += by_own
+    u[dependent] = _following(by_rates * units, dependent, left) * units[dependent, None]
     if len(dependent) < len(by_rates):
         _require_regular(source, state, q[:, : len(free)], units, len(dependent))
     return free, moving, q, u
 
 
-def _matrices(rows: Sequence[RowDerivatives], n: int) -> tuple[Array, Array, Array]:
-    """What rows hold of places, by coordinates; and of rates, by coordinates and by rates."""
-    on_q, on_u = slice(1, 1 + n), slice(1 + n, 1 + 2 * n)
+def _matrices(rows: Sequence[RowDerivatives], n: int, own: Sequence[int] = ()) -> tuple[Array, ...]:
+    """What rows hold of places, by coordinates; and of rates, by coordinates, by rates and by the model's own states."""
+    on_q, on_u = list(range(1, 1 + n)), list(range(1 + n, 1 + 2 * n))
     going = [row for row in rows if row.rate is not None]
     kept = [row.rate[on_u] if row.sticks else row.value[on_q] for row in going if row.sticks or row.value is not None]
-    return tuple(np.array(part).reshape(-1, n) for part in (kept, *([row.rate[on] for row in going] for on in (on_q, on_u))))
+    of_rates = ([row.rate[on] for row in going] for on in (on_q, on_u, list(own)))
+    return tuple(
+        np.array(part).reshape(len(part), -1) if part else np.zeros((0, k))
+        for part, k in zip((kept, *of_rates), (n, n, n, len(own)), strict=True)
+    )
 
 
 def _require_regular(source: CompiledModel, state: State, ways: Array, units: Array, rank: int) -> None:
     """Raises ``SingularConfiguration`` where rows that depend on each other do not do so beside it."""
-    names = [c["name"] for c in source.metadata["coordinates"]]
+    names = source.coordinate_names
     for way in ways.T:
         guess = dict(zip(names, state.q + _BESIDE * way / np.abs(way / units).max(), strict=True))
         beside = source.assemble(state.p, state.t, guess=guess, history=state.history)[0]

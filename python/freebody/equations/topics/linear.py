@@ -20,10 +20,10 @@ from freebody.equations.stability import Stability
 from freebody.equations.substitutions import Substitutions, substitutions_of
 from freebody.equations.topics.common import Asked, NotHere, document
 from freebody.equations.topics.stability_text import character
-from freebody.solve.equilibrium import rest_near
 from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import nearby
 from freebody.solve.symbolic_state import SymbolicState
+from freebody.stability.equilibria import rest_near
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import bold, dotted

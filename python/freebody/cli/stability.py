@@ -1,0 +1,91 @@
+"""The command ``stability``: where does it rest, is that stable, how does it vibrate there?"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from freebody.cli.models import opened, pairs, written
+from freebody.cli.options import AsJson, Changes, Model
+from freebody.cli.terminal import print_json
+from freebody.cli.user_errors import UserError
+
+_RANGE = re.compile(r"\s*(.+?)\s*=\s*(.+?)\s*\.\.\s*(.+?)\s*")
+
+
+def stability(
+    model: Model,
+    at: Annotated[list[str] | None, typer.Option(metavar="NAME=VALUE", help="A coordinate near the equilibrium.")] = None,
+    bounds: Annotated[
+        list[str] | None, typer.Option(metavar="NAME=A..B", help="All equilibria with a coordinate within these.")
+    ] = None,
+    along: Annotated[str | None, typer.Option(metavar="NAME=A..B", help="Follow the equilibrium as a parameter changes.")] = None,
+    inputs: Annotated[list[str] | None, typer.Option("--input", metavar="PARAMETER", help="Of forces or controllers.")] = None,
+    outputs: Annotated[list[str] | None, typer.Option("--output", metavar="EXPRESSION", help="What responds.")] = None,
+    response: Annotated[str | None, typer.Option(metavar="A..B", help="Frequency response of outputs to inputs, Hz.")] = None,
+    poles: Annotated[
+        str | None, typer.Option(metavar="LIST", help="Gains of inputs for these eigenvalues, like '-1,-2+1j,-2-1j'.")
+    ] = None,
+    output: Annotated[Path | None, typer.Option("-o", help="Draw the modes: {views.diagram.picture}.")] = None,
+    changes: Changes = None,
+    as_json: AsJson = False,
+) -> None:
+    """Equilibria and their stability, modes, frequency response, gains for given poles."""
+    import numpy as np
+    from rich.console import Console
+
+    from freebody.stability.answers import response_table
+    from freebody.stability.modes import gains
+
+    mechanism, near = opened(model, changes), pairs(at)
+    if along:
+        name, *within = _range(along, "--along")
+        found: Any = mechanism.equilibria_along(name, tuple(within), **near)
+    else:
+        limits = {name: (low, high) for name, low, high in (_range(text, "--bounds") for text in bounds or [])}
+        found = mechanism.stability(bounds=limits, inputs=inputs or (), outputs=outputs or (), **near)
+    asked: list[Any] = []
+    stated = found.to_json()
+    for rest in () if along else found:
+        if response:
+            low, high = _numbers(response.split(".."), "--response", "write two frequencies in Hz, like --response 0.1..20")
+            asked.append(response_table(rest, np.geomspace(low, high, 25)))
+        if poles:
+            wanted = _numbers(poles.split(","), "--poles", "write as many as there are states, like --poles='-1,-2'", complex)
+            found_gains = gains(rest.space, wanted)
+            asked.append(_gain_table(rest.space, found_gains))
+            stated["gains"] = found_gains.tolist()
+    if as_json:
+        print_json(stated)
+    else:
+        Console().print(found, *asked)
+    if output:
+        from freebody.views.modes import draw_modes
+
+        written(draw_modes(found[0], output))
+
+
+def _range(text: str, option: str) -> tuple[str, ...]:
+    if not (stated := _RANGE.fullmatch(text)):
+        raise UserError(f"{option} {text}: between which values?", f"write it like {option} 'theta=-90 deg..90 deg'")
+    return stated.groups()
+
+
+def _numbers(texts: list[str], option: str, hint: str, kind: type = float) -> list[Any]:
+    try:
+        found = [kind(text.strip().replace("i", "j") if kind is complex else text) for text in texts]
+    except ValueError:
+        raise UserError(f"{option} {','.join(texts)}: these are no numbers", hint) from None
+    if kind is float and not (len(found) == 2 and 0 < found[0] < found[1]):
+        raise UserError(f"{option} {'..'.join(texts)}: from which to which frequency?", hint)
+    return found
+
+
+def _gain_table(space: Any, found: Any) -> Any:
+    from freebody.solve.rich_tables import table
+
+    rows = [(name, *row) for name, row in zip(space.inputs, found.tolist(), strict=True)]
+    return table("gains: input = Σ gain × state, SI", ["input", *space.states], rows, space.states)
