@@ -68,6 +68,8 @@ def test_json_has_what_a_script_needs():
 
 
 def test_figures_are_printed_with_the_digits_that_agree_and_hold():
+    assert figures(Answer("", [1.0] * 6, check=1.0), True) == "1, 1, 1, 1, 1, 1"
+    assert figures(Answer("", [1.0] * 6, check=1.0)) == "1, 1, 1, 1, … (6; --full)"
     assert figures(Answer("", [1.23456789, 1e-17], check=[1.234568, 0.0])) == "1.234568, 0"
     assert figures(Answer("", [Known(1.23456789, 3e-3, 1.0), 2.0], check=[1.23456789, 2.0])) == "1.23, 2"
 

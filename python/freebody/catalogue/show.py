@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from collections import Counter
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +24,8 @@ from freebody.solve.rich_tables import table
 if TYPE_CHECKING:
     from freebody.check.file import Judged
 
+_SHOWN = 4
+"""Figures of a long row that a table shows."""
 _UNEXPECTED = " (not as expected)"
 
 
@@ -32,12 +36,12 @@ def show_list(systems: Iterable[System]) -> None:
     rich.print(table("", ("system", "what it is", *counts), rows, counts, edge=True))
 
 
-def show_asked(asked: Asked) -> None:
-    """One question with its answers."""
+def show_asked(asked: Asked, full: bool = False) -> None:
+    """One question with its answers; ``full``: with all figures of long rows."""
     rows = []
     for answer in asked.answers:
         digits = "missing" if math.isnan(answer.digits) else f"{answer.digits:.1f}"
-        cells = (answer.label, answer.said or figures(answer), answer.unit, digits, _source(answer))
+        cells = (answer.label, answer.said or figures(answer, full), answer.unit, digits, _source(answer))
         rows.append([Text(cell, "" if answer.ok else "bold red") for cell in cells])
     rich.print(table(asked.label, ("", "freebody", "unit", "digits", "agrees with"), rows, ("freebody", "digits"), edge=True))
     if asked.failure:
@@ -94,11 +98,26 @@ def show_summary(results: dict[str, list[Asked]]) -> None:
     rich.print(table("", ("system", *counts, ""), rows, counts, edge=True))
 
 
-def figures(answer: Answer) -> str:
-    """A figure, or the first of a long row, with the digits that hold."""
+def figures(answer: Answer, full: bool = False) -> str:
+    """A figure, or the first of a long row or all of it, with the digits that hold."""
     row = answer.known
-    shown = ", ".join(figure(x, 8) for x in row[:4])
-    return shown if len(row) <= 4 else f"{shown}, … ({len(row)})"
+    shown = row if full or len(row) <= _SHOWN else row[:_SHOWN]
+    told = ", ".join(figure(x, 8) for x in shown)
+    return told if len(shown) == len(row) else f"{told}, … ({len(row)}; --full)"
+
+
+def write_csv(path: Path, results: dict[str, list[Asked]]) -> None:
+    """A table with every figure of every answer beside its check, one a row."""
+    heads = ("system", "question", "answer", "place", "value", "unit", "check", "digits", "agrees with", "same run", "in letters")
+    with path.open("w", newline="", encoding="utf-8") as file:
+        rows = csv.writer(file)
+        rows.writerow(heads)
+        for identity, asked in ((identity, each) for identity, every in results.items() for each in every):
+            for answer in asked.answers:
+                values, checks = np.broadcast_arrays(*(np.ravel(np.asarray(x, float)) for x in (answer.value, answer.check)))
+                about = (f"{answer.digits:.1f}", answer.against, int(answer.own), answer.said)
+                for place, (value, check) in enumerate(zip(values.tolist(), checks.tolist(), strict=True), 1):
+                    rows.writerow((identity, asked.label, answer.label, place, repr(value), answer.unit, repr(check), *about))
 
 
 def _source(answer: Answer) -> str:

@@ -11,7 +11,7 @@ from freebody.cli.models import opened, written
 from freebody.cli.options import AsJson
 from freebody.cli.terminal import print_json, speaks_unicode
 from freebody.cli.user_errors import NOT_TRUE, UserError
-from freebody.formats import check_writable
+from freebody.formats import check_writable, replacing
 
 if TYPE_CHECKING:
     from freebody.catalogue import System
@@ -24,6 +24,8 @@ def systems(
     stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
     output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
+    full: Annotated[bool, typer.Option("--full", help="All figures of long rows, not the first four.")] = False,
+    table: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Write every figure beside its check.")] = None,
     symbolic: Annotated[bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")] = False,
 ) -> None:
     """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
@@ -48,10 +50,12 @@ def systems(
     elif symbolic:
         _derive(chosen)
     else:
-        _answer(chosen, everything, as_json)
+        if table:
+            check_writable(table)
+        _answer(chosen, everything, as_json, full, table)
 
 
-def _answer(systems: list[System], briefly: bool, as_json: bool) -> None:
+def _answer(systems: list[System], briefly: bool, as_json: bool, full: bool, table: Path | None) -> None:
     """The questions of systems with their answers, each printed as it comes or all as JSON; of one system what is stated, too."""
     from freebody import catalogue
     from freebody.catalogue import show
@@ -63,7 +67,10 @@ def _answer(systems: list[System], briefly: bool, as_json: bool) -> None:
         for asked in catalogue.run(system):
             results[system.id].append(asked)
             if not as_json:
-                show.show_asked(asked)
+                show.show_asked(asked, full)
+    if table:
+        with replacing(table) as beside:
+            show.write_csv(beside, results)
     if as_json:
         print_json(catalogue.rows(results))
     elif briefly:

@@ -93,15 +93,18 @@ def limit_over(
     if missing := [respond(float(x)) for x in places if not respond(float(x)).is_known]:
         raise NoLimit(f"{of} has no value at {vary} = {missing[0].x:g}: {missing[0].why}")
     gaps, size = np.abs(np.diff(values)), float(np.abs(values).max())
-    level = max(_SETTLED * size, *(respond.known(float(places[i])).error for i in (0, -1)))
+    level = max(_SETTLED * size, respond.error([respond(float(x)) for x in places]))
     whole, *parts = (extrapolated(each) for each in (values, values[:-1], values[1:]))
-    if gaps.max() <= level:
+    still = max(_AIMED * size, level)
+    if gaps.max() <= still:
         whole, parts = float(values[-1]), [values[-1] - gaps.max()]
     error = _SAFETY * max([level, *(abs(whole - part) for part in parts)])
-    if gaps[-1] > max(_LESS * gaps[-2], level) or not error <= _WANTED * size:
+    if gaps[-1] > max(_LESS * gaps[-2], still) or not error <= _WANTED * size:
         seen = f"it was {values[-2]:.8g} at {places[-2]:.6g} and is {values[-1]:.8g} at {places[-1]:.6g}"
         raise NoLimit(f"no limit of {of} is seen as {vary} tends to {towards}: {seen}")
-    tail = _tail("power", values, whole, places).replace("t^", f"{vary}^" if to == math.inf else f"({vary} − {to:g})^-")
+    tail = _tail("power", values, whole, places)
+    way = vary if to in (0, math.inf) else f"({vary} − {to:g})"
+    tail = tail.replace("t^", f"{way}^") if to == math.inf else tail.replace("t^-", f"{way}^")
     found = Known(whole, error, max(size, abs(whole)))
     return Limit(of, found, respond.quantity_unit, tail, float(places[-1]), float(values[-1]), f"{vary} = ")
 

@@ -85,7 +85,7 @@ class Response:
     def quantity_unit(self) -> str:
         """The SI unit of the quantity; empty where it takes more to tell."""
         source = self.mechanism.source()
-        unit = unit_of(self.item.value, columns_of(source.metadata, ()), source.metadata)
+        unit = unit_of(self.item.value, columns_of(source, ()), source.metadata)
         return over_time(unit) if self.item.how == "integral" else unit
 
     def __call__(self, x: float) -> Sample:
