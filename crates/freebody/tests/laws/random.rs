@@ -85,14 +85,16 @@ impl Recipe {
             let b = rng.of(&bodies[1..]).clone();
             let others: Vec<String> = bodies.iter().filter(|&a| *a != b && !thrown.is_particle(a)).cloned().collect();
             let a = rng.of(&others).clone();
-            let kinds: Vec<Kind> = Kind::ALL.iter().copied().filter(|k| k.card().rows.len() == 1 + i % 2).collect();
+            let kinds: Vec<Kind> = Kind::ALL.iter().copied().filter(|k| closes(k, 1 + i % 2)).collect();
             let fits = |k: &&Kind| !thrown.is_particle(&b) || suits_particle(**k);
             let fitting: Vec<Kind> = kinds.iter().filter(fits).copied().collect();
             let kind = *rng.of(&fitting);
             thrown.join(rng, &format!("loop{i}"), kind, [&a, &b], false, false);
         }
         for i in 0..self.forces {
-            let kind = forces::ALL[i % forces::ALL.len()];
+            // What lies still on a table has no friction of sliding.
+            let all: Vec<_> = forces::ALL.iter().filter(|f| f.card().word != "table_friction").collect();
+            let kind = *all[i % all.len()];
             let turns = kind.card().fields.iter().any(|f| f.kind == FieldKind::Body);
             let able: Vec<String> = bodies.iter().filter(|b| !(turns && thrown.is_particle(b))).cloned().collect();
             let two = [rng.of(&able[1..]).clone(), rng.of(&able).clone()];
@@ -232,6 +234,12 @@ impl Base {
                 .motion("hold", "foundation", &format!("{a:?}"), "acceleration", None),
         };
     }
+}
+
+/// Whether a joint closes a loop of places by so many rows.
+fn closes(kind: &Kind, rows: usize) -> bool {
+    let card = kind.card();
+    card.rows.len() == rows && !card.rows.iter().any(|row| row.of_rates)
 }
 
 /// A force of the list between two bodies, its fields drawn as its card asks.
