@@ -15,6 +15,7 @@ import numpy as np
 
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
+from freebody.stability.modes import gains as placed
 
 L, M, G = 1.5, 1.0, 9.81
 C, REDUCED = L / 2, 2 * L / 3
@@ -108,9 +109,41 @@ def gains(poles):
     return Kx, Kv, (c2 + kappa * G + Kx) / kappa, (c3 + Kv) / kappa
 
 
+POLES = [-1, -2, -2.5, -3]
+
+
+@ask("Gains of a law for poles −1, −2, −2.5, −3, the hand's position fed back too")
+def gains_for_poles(case):
+    """The gains of x, ẋ, θ, θ̇ from A and B about the upright, with the acceleration a0 of the hand as input."""
+    (upright,) = case.mechanism(Kp=0, Kd=0).stability(theta=0, rates={"theta": 0}, inputs=["a0"])
+    found = dict(zip(upright.space.states, placed(upright.space, POLES)[0], strict=True))
+    for name, check in zip(("s", "rate(s)", "theta", "rate(theta)"), gains(POLES), strict=True):
+        unit = {"s": "1/s²", "rate(s)": "1/s", "theta": "m/s²", "rate(theta)": "m/s"}[name]
+        yield Answer(f"gain of {name}", found[name], unit, check, "closed form: comparison of coefficients", 1e-10)
+
+
+@ask("All closed-loop eigenvalues with a = 20 θ + 6 θ̇, those of the hand included")
+def eigenvalues(case):
+    """The hand goes free: 0 twice; λ² + κ 6 λ + κ (20 − g) = 0 of the broom."""
+    (upright,) = case.mechanism().stability(theta=0, rates={"theta": 0})
+    found = np.linalg.eigvals(upright.space.a)
+    check = [0, 0, *np.roots([1, 6 / REDUCED, (20 - G) / REDUCED])]
+    for part in ("real", "imag"):
+        values, own = ([getattr(x, part) for x in np.sort_complex(np.round(each, 6))] for each in (found, check))
+        yield Answer(f"{part} parts", values, "1/s", own, "closed form: characteristic polynomial", 1e-5, 1.0)
+
+
+@ask("The terminal speed of the hand with a = 20 θ + 6 θ̇ from θ = 0.3")
+def terminal_speed(case):
+    """Where the broom has come upright the hand goes on at one speed."""
+    found = case.mechanism().limit("rate(s)")
+    late = motion(rates(lambda s, th, v, w: 20 * th + 6 * w), [0.0, 0.3, 0.0, 0.0], [30.0])
+    yield Answer("speed of the hand, t → ∞", float(found.value), "m/s", late[0, 2], f"{EQUATIONS}, at 30 s", 1e-7)
+
+
 @ask("Feedback of the hand's position too, poles −1, −2, −2.5, −3: 10 s")
 def position(case):
-    Kx, Kv, Kp, Kd = gains([-1, -2, -2.5, -3])
+    Kx, Kv, Kp, Kd = gains(POLES)
     start = {"hand0": 0.1, "theta0": 0.15}
     run = case.run(parameters={"Kx": Kx, "Kv": Kv, "Kp": Kp, "Kd": Kd, **start})
     yield from compared(run, lambda s, th, v, w: Kx * s + Kv * v + Kp * th + Kd * w, [0.1, 0.15, 0.0, 0.0], [1.0, 2.0, 5.0, 10.0])
