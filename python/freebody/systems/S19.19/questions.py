@@ -13,7 +13,7 @@ import numpy as np
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
 from freebody.run.digits import expression
-from freebody.solve.figures import Known
+from freebody.solve.figures import Known, figure
 
 M, LOAD, K, TORQUE = 1.0, 1.0, 1.0, 0.015
 NATURAL = np.sqrt(K / (M + LOAD))
@@ -98,6 +98,27 @@ def capture(case):
     error = run.accuracy.at(expression("theta"), edges).error[1:, 0] / 50
     late = [Known(*each) for each in zip(mean[5:], error[5:], abs(mean[5:]), strict=True)]
     yield Answer("mean θ̇ over 250–300, 300–350, 350–400 s", late, "rad/s", gained[5:], "energy gained over T", 1e-7, own=True)
+
+
+@ask("captured or not, for several ε: mean θ̇ over 50–100 s")
+def captured(case):
+    """Captured: nearer to √(k/(M + m)) than to the spin T t/(m ε²) of a bolted motor, in ratio."""
+    for eps in (1.0, 0.5, 0.1):
+        run = case.run(parameters={"eps": eps}, until=100)
+        turned = [Known(run.evaluate("theta", t), *_held(run, t)) for t in (50.0, 100.0)]
+        mean = Known((turned[1] - turned[0]) / 50, (turned[0].error + turned[1].error) / 50, abs(turned[1]) / 50)
+        bolted = TORQUE * 75 / (LOAD * eps**2)
+        is_captured = abs(np.log(mean / NATURAL)) < abs(np.log(mean / bolted))
+        of = "captured by the resonance" if is_captured else "not captured"
+        label = f"ε = {eps:g}, {of}: mean θ̇, {figure(mean / NATURAL, 3)} of √(k/(M+m)), {figure(mean / bolted, 3)} of a bolted motor's"
+        check = motion(rates(eps), [0, 0, 0, 0], [50.0, 100.0])[:, 0]
+        yield Answer(label, [mean], "rad/s", (check[1] - check[0]) / 50, SCIPY, 1e-7)
+
+
+def _held(run, t):
+    """Error and size of θ at a time."""
+    known = run.accuracy.at(expression("theta"), np.array([t]))
+    return known.error[0, 0], known.size[0, 0]
 
 
 @ask("shorter arms")
