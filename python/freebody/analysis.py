@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from freebody.find import Extremes, Found, Limit
     from freebody.impact.applied_impulse import AppliedImpulse
     from freebody.impact.impacts import Impact
+    from freebody.inverse import InverseDynamics
+    from freebody.inverse.laws import Law
     from freebody.model.builder import Builder
     from freebody.periodic.ask import Periodic
     from freebody.run.sampling import Times
@@ -285,6 +287,32 @@ class Moving:
         state, _ = self.start(**changes)
         with self.core_errors():
             return curves(self, state, parameter, within, changes)
+
+    def inverse(
+        self: Builder,
+        motion: Mapping[str, Law] | Run | str | None = None,
+        actuators: Sequence[str] | str = (),
+        *,
+        limits: Mapping[str, Any] | None = None,
+        least: bool = False,
+        until: float | str | None = None,
+        initial: Mapping[str, Any] | None = None,
+        t: float = 0.0,
+        **settings: Any,
+    ) -> InverseDynamics:
+        """Inverse dynamics: the forces that a motion takes, and every reaction.
+
+        ``motion`` gives laws of time by gauge, ``{"theta": "2*pi*t"}`` (see ``freebody.inverse.quintic``, ``steady``), or a finished
+        run; ``"rest"`` keeps the start as it is; by default it is what the model prescribes. ``actuators`` are the forces of the model
+        that give it, each with a parameter of its own as its value; without them the motions act along their own gauges. ``limits``
+        (N, N·m) are held where they can be; where the forces are not unique, ``least`` takes those of least sum of squares. ``settings``
+        and changes are those of ``simulate``.
+
+        Raises ``NotRealizable`` for a motion that cannot be had, ``Indeterminate`` for forces that are not unique."""
+        from freebody.inverse.solve import inverse
+
+        with self.core_errors():
+            return inverse(self, motion, actuators, limits, least, until, initial, t, settings)
 
     def check_equilibrium(self: Builder, state: State) -> None:
         """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""

@@ -20,12 +20,26 @@ MAY_USE = {
     "find": SOLVED,
     "stability": SOLVED,
     "periodic": CORE | {"model", "run"},
+    "inverse": SOLVED,
     "views": SOLVED | {"document", "stability"},
     "codegen": CORE | {"model", "solve", "document"},
     "equations": SOLVED | {"document", "codegen", "stability"},
     "check": SOLVED | {"equations"},
     "catalogue": SOLVED | {"document", "equations", "check", "mechanism"},
-    "cli": SOLVED | {"document", "codegen", "equations", "check", "find", "stability", "periodic", "views", "catalogue", "mechanism"},
+    "cli": SOLVED
+    | {
+        "document",
+        "codegen",
+        "equations",
+        "check",
+        "find",
+        "stability",
+        "periodic",
+        "inverse",
+        "views",
+        "catalogue",
+        "mechanism",
+    },
 }
 """What a folder may use; of those not named here, only that there are no circles of modules."""
 

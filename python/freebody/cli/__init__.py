@@ -11,6 +11,7 @@ from freebody.cli.check import check
 from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.find import find
+from freebody.cli.inverse import inverse
 from freebody.cli.models import moment, obtained, opened, simulated, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.periodic import periodic
@@ -209,6 +210,7 @@ app.command()(find)
 app.command()(periodic)
 app.command(cls=Command)(stability)
 app.command()(check)
+app.command(cls=Command)(inverse)
 
 
 @app.command(cls=Command)
