@@ -89,28 +89,18 @@ def spin(c):
     return -c.after.u["wheel.angle"]
 
 
-def step(case, w, until=3.0, file="model.yaml", **parameters):
-    """From just after a collision with ω+ = w to the next one: its time and ω+."""
-    mechanism = case.mechanism(file, **parameters)
-    mechanism.parameters["omega"] = w
-    (first, *_) = collisions(mechanism.simulate(until=until, rtol=1e-13))
-    return first.t, spin(first)
+def steady(case, w, file="model.yaml", **parameters):
+    """The motion that repeats itself from one tip to the next, found from near w."""
+    section = "hit" if file == "hinged.yaml" else "foot"
+    rolling = case.mechanism(file, **parameters).periodic({"omega": "-rate(wheel.angle)"}, section=section, horizon=3)
+    return rolling.find({"omega": w})
 
 
-def steady(case, w, **parameters):
-    """ω+ that comes back, its time and the multiplier there: secants in ω² over runs from one collision to the next."""
-
-    def off(square):
-        return step(case, sqrt(square), **parameters)[1] ** 2 - square
-
-    old, new = w**2, 1.1 * w**2
-    gap = off(old)
-    while abs(new - old) > 1e-14 * new:
-        slope, gap = (off(new) - gap) / (new - old), off(new)
-        old, new = new, new - gap / slope
-    w, h = sqrt(new), 1e-3 * sqrt(new)
-    multiplier = (step(case, w + h, **parameters)[1] - step(case, w - h, **parameters)[1]) / (2 * h)
-    return w, step(case, w, **parameters)[0], multiplier
+def over_the_top(found):
+    """The square of the least rate in a step that repeats itself."""
+    run = found.returned.run
+    least = minimize_scalar(lambda t: run.evaluate("rate(wheel.angle)^2", t), bounds=(0, found.period), options={"xatol": 1e-9})
+    return least.fun
 
 
 @ask("In symbols: a step of a hinged tip")
@@ -192,7 +182,8 @@ def gait(case):
     for degrees in (5, 10):
         steps = Steps(8, degrees)
         of, parameters = f"k = 8, {degrees}°", {"slope": f"{degrees} deg"}
-        w, period, multiplier = steady(case, steps.vault + 0.8, **parameters)
+        found = steady(case, steps.vault + 0.8, **parameters)
+        w, period = found.values["omega"], found.period
         run = case.run(parameters={**parameters, "omega": steps.vault * 1.001}, until=45.0)
         last = spin(collisions(run)[-1])
         yield Answer(f"ω+ that comes back, {of}", w, "rad/s", steps.steady, "closed form: fixed point of the return map", 1e-11)
@@ -200,7 +191,7 @@ def gait(case):
             f"ω+ of collision {len(collisions(run))} after the push, {of}", last, "rad/s", w, "the fixed point found", 1e-9
         )
         yield Answer(f"time of a step, {of}", period, "s", steps.time(steps.steady), "quadrature", 1e-10)
-        yield Answer(f"multiplier, {of}", multiplier, "", steps.eta**2, "closed form: η²; central difference of the runs", 1e-5)
+        yield Answer(f"multiplier, {of}", abs(found.multipliers), "", [steps.eta**2], "closed form: η²", 1e-10)
 
 
 @ask("(e) Steady speed at other slopes and numbers of spokes, the tips hinged")
@@ -209,14 +200,37 @@ def gaits(case):
     for k, degrees in ((4, 30), (6, 10), (6, 20), (8, 3), (8, 20), (8, 30), (8, 40), (16, 2), (16, 5)):
         steps = Steps(k, degrees)
         parameters = {"file": "hinged.yaml", "k": k, "n": 1, "slope": f"{degrees} deg"}
-        w, period, _ = steady(case, steps.vault + 0.9, **parameters)
-        yield Answer(f"ω+, k = {k}, {degrees}°", w, "rad/s", steps.steady, "closed form: fixed point", 1e-10)
-        yield Answer(f"time of a step, k = {k}, {degrees}°", period, "s", steps.time(steps.steady), "quadrature", 1e-10)
+        found = steady(case, steps.vault + 0.9, **parameters)
+        value = found.values["omega"]
+        yield Answer(f"ω+, k = {k}, {degrees}°", value, "rad/s", steps.steady, "closed form: fixed point", 1e-11)
+        yield Answer(f"time of a step, k = {k}, {degrees}°", found.period, "s", steps.time(steps.steady), "quadrature", 1e-10)
 
 
 @cache
 def least_slope(k):
     return brentq(lambda degrees: Steps(k, degrees).steady - Steps(k, degrees).vault, 0.1, 180 / k, xtol=1e-12)
+
+
+@ask("(e) Any number of spokes: least slope for a steady speed; its multiplier and period a little above")
+def any_number(case):
+    """Nearer and nearer to the least slope the gait all but stops over the tip: where the square of its rate there, extrapolated by a
+    polynomial through six gaits, falls to 0."""
+    for k in range(4, 17):
+        file, bound = {"file": "hinged.yaml", "k": k, "n": 1}, least_slope(k)
+        slopes = [bound * factor for factor in (1.05, 1.1, 1.15, 1.2, 1.25, 1.3)]
+        gaits = [steady(case, 1.02 * Steps(k, d).steady, slope=f"{d!r} deg", **file) for d in slopes]
+        found = lagrange_at_0([over_the_top(gait) for gait in gaits], slopes)
+        yield Answer(f"least slope, k = {k}", found, "°", bound, "closed form: ω* just carries the centre over the tip", 1e-4)
+        steps, gait = Steps(k, slopes[-1]), gaits[-1]
+        of = f"k = {k}, {slopes[-1]:.3f}°"
+        yield Answer(f"ω+, {of}", gait.values["omega"], "rad/s", steps.steady, "closed form: fixed point", 1e-11)
+        yield Answer(f"multiplier, {of}", abs(gait.multipliers), "", [steps.eta**2], "closed form: η²", 1e-10)
+        yield Answer(f"time of a step, {of}", gait.period, "s", steps.time(steps.steady), "quadrature", 1e-10)
+
+
+def lagrange_at_0(x, y):
+    """The polynomial through all points, read at 0."""
+    return float(sum(b * np.prod([c / (c - a) for c in x if c != a]) for a, b in zip(x, y, strict=True)))
 
 
 @ask("(e) Which of these a foot that can only push and never slides can walk")
