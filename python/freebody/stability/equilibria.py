@@ -65,7 +65,7 @@ def equilibrium(
     """The place of rest that Newton's method comes to from a state, None if to none. Raises as ``state_space``."""
     state = state.at(state.q)
     rest = rest_near(source, state, touching) if is_moving(source, state) else state
-    if rest is None or Instant(source, rest, "newton_euler").nonequilibrium():
+    if rest is None or not _rests(source, rest, "newton_euler"):
         return None
     space = state_space(source, rest, inputs, outputs)
     return Equilibrium(rest, space, *_judged(source, space), source)
@@ -105,6 +105,18 @@ def is_moving(source: CompiledModel, state: State) -> bool:
     return bool(Instant(source, state).nonequilibrium()) or bool(own and source.evaluate(own, state).any())
 
 
+def _rests(source: CompiledModel, state: State, route: str = "minimal") -> bool:
+    """Whether accelerations are round-off: of the loads, or where nothing loads it of what a perturbation of round-off would cause."""
+    instant = Instant(source, state, route)
+    if not instant.nonequilibrium():
+        return True
+    space, (names, units) = state_space(source, state), _named(source, state)
+    free, moving = ([names.index(name) for name in part] for part in (space.free, space.moving))
+    slopes = space.a[len(free) : len(free) + len(moving), : len(free)] * units[free] / units[moving, None]
+    left = np.array([instant.accelerations[name] for name in space.moving]) / units[moving]
+    return bool(np.abs(left).max(initial=0.0) <= _FOUND * np.abs(slopes).max(initial=0.0))
+
+
 def rest_near(source: CompiledModel, state: State, touching: State | None = None) -> State | None:
     """The place of rest that Newton's method comes to on closed loops, from a state, and with closed what touches in it, or in
     another; None if to none."""
@@ -127,7 +139,7 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
             p = np.append(rest.p[: len(rest.p) - len(own)], rest.p[len(rest.p) - len(own) :] + own)
             rest = replace(rest, p=p).at(closed(rest.q + change * min(1.0, _LONGEST / (longest or 1.0))))
             if longest < _FOUND and np.abs(own).max(initial=0.0) <= _FOUND * np.abs(p).max(initial=1.0):
-                return None if Instant(source, rest).nonequilibrium() else rest
+                return rest if _rests(source, rest) else None
     except (MotionError, np.linalg.LinAlgError, SingularConfiguration):
         pass
     return None
