@@ -191,3 +191,22 @@ def falling(case):
     yield Answer(
         "energy", run.evaluate("energy()", times), "J", start + 0 * times, "conservation: no work but of the weights", 1e-10
     )
+
+
+@ask("inverse dynamics, both assemblies: torque and all pin forces every 15°, work of a turn, shaking force")
+def inverse(case):
+    """The ground feels what A and D exert on it."""
+    for side, name in ((1, "C to the left"), (-1, "C to the right")):
+        found, bars = case.mechanism("driven.yaml", side=side).inverse(), by_hand(side)
+        torques, *pins = zip(*(bars.forces(at(bars, t)) for t in TURN), strict=True)
+        yield Answer(f"T, {name}", found.evaluate("drive.force", TURN), "N·m", torques, HAND, 1e-10)
+        for pin, force in zip("ABCD", np.array(pins), strict=True):
+            value = found.evaluate(f"{pin}.Fx", TURN) + 1j * found.evaluate(f"{pin}.Fy", TURN)
+            parts = [np.concatenate([z.real, z.imag]) for z in (value, force)]
+            yield Answer(f"{pin}, x then y, {name}", parts[0], "N", parts[1], HAND, 1e-10)
+        x = found.values([found.shaking[0]], TURN)[:, 0]
+        yield Answer(f"shaking force along x, {name}", x, "N", -(np.array(pins[0]) + np.array(pins[3])).real, HAND, 1e-10)
+        size = found.summary("drive.power").greatest.value
+        yield Answer(
+            f"work of a turn, {name}", found.work("drive"), "J", 0.0, "conservation: kinetic energy comes back", 1e-10, size
+        )
