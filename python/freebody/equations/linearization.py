@@ -23,7 +23,7 @@ PATIENCE = 1.0
 MOST_OPERATIONS = 150
 """Operations in an entry above which no short form of it is looked for."""
 MOST_IN_ENTRY = 400
-"""Operations in an entry above which it is not multiplied out, which would take minutes."""
+"""Operations in an entry above which it is not multiplied out, which would take minutes, or not shown when it is."""
 READABLE = 40
 """Operations in the short form of an entry above which it is left to numbers."""
 _INDEPENDENT = (0.1, 1e-3, 1e-8)
@@ -99,9 +99,7 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     loading = [[negative(part.coefficients.get(x, ZERO)) for x in loads] for part in parts]
     asked = independent(numbers(subject, slopes).reshape(len(slopes), len(names)))
     follows = independent(numbers(subject, [slopes[i] for i in asked]).reshape(len(asked), len(names)).T, last_first=True)
-    bearing = independent(numbers(subject, loading), last_first=True) if laws else follows
-    acting = independent(numbers(subject, [loading[i] for i in bearing]).T)
-    chosen, bare = ([i for i in range(len(names)) if i not in places] for places in (follows, bearing))
+    chosen = [i for i in range(len(names)) if i not in follows]
 
     def perturbations(inner: Matrix, outer: Matrix, follows: Sequence[int], chosen: Sequence[int]) -> Matrix:
         """N of J N = 0, a row for each coordinate, from the columns of J that follow and those chosen."""
@@ -111,6 +109,11 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
                 for i in range(len(names))]  # fmt: skip
 
     ways = perturbations(_part(slopes, asked, follows), _part(slopes, asked, chosen), follows, chosen)
+    free = numbers(subject, ways).reshape(len(names), len(chosen))
+    laws = [law for law in laws if np.abs(_accelerations(subject, law) @ free).max(initial=0.0) > _INDEPENDENT[-1]]
+    bearing = independent(numbers(subject, loading), last_first=True) if laws else follows
+    acting = independent(numbers(subject, [loading[i] for i in bearing]).T)
+    bare = [i for i in range(len(names)) if i not in bearing]
     inner = _part(loading, bearing, acting)
     turned, others = ([list(column) for column in zip(*part, strict=True)] for part in (inner, _part(loading, bare, acting)))
     tests = perturbations(turned, others, bearing, bare)
@@ -125,6 +128,11 @@ def held(subject: SymbolicState, found: Linearised, put: Mapping[str, Tree]) -> 
     equations = Linearised(tuple(names[i] for i in chosen), *matrices, [ZERO] * len(chosen))
     follow, undecided = {names[i]: ways[i] for i in follows}, len(acting) < len(loads)
     return Held([slopes[i] for i in asked], follow, reactions, undecided, equations, tuple(law.name for law in laws))
+
+
+def _accelerations(subject: SymbolicState, row: Row) -> Array:
+    """The factors of all accelerations in a row."""
+    return numbers(subject, [[row.linear.coefficients.get(Sym(name, 2), ZERO) for name in subject.names]])[0]
 
 
 def _slope(row: Row, symbol: Sym, put: Mapping[str, Tree]) -> Tree:
@@ -169,10 +177,11 @@ def independent(rows: Array, last_first: bool = False) -> list[int]:
 def _put(tree: Tree, place: Mapping[str, Tree]) -> Tree:
     values = {sympy.Symbol(name): to_sympy(value) for name, value in place.items()}
     given = to_sympy(with_exact_numbers(tree)).subs(values, simultaneous=True)
-    if given.count_ops() > MOST_IN_ENTRY:
-        raise TooLarge("the linear equations are too long symbolically; set some symbols to numbers")
-    found = sympy.expand(given)
-    return measured(found) if is_measured(found) else from_sympy(sympy.factor_terms(found))
+    if given.count_ops() <= MOST_IN_ENTRY:
+        found = measured(given) if is_measured(given) else from_sympy(sympy.factor_terms(sympy.expand(given)))
+        if operations(found) <= MOST_IN_ENTRY:
+            return found
+    raise TooLarge("the linear equations are too long symbolically; set some symbols to numbers")
 
 
 def _part(matrix: Matrix, rows: Sequence[int], columns: Sequence[int]) -> Matrix:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.equations.solve import TooLarge, rational_in_symbols
-from freebody.symbolic.decimals import is_measured
+from freebody.symbolic.decimals import is_measured, measured, rational
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import sympy, to_sympy
@@ -81,10 +81,15 @@ def eigenvalues(
     polynomial = _polynomial(matrix, positive)
     if sum(factor.count_ops() for factor in polynomial.all_coeffs()) > MOST_OPERATIONS:
         raise TooLarge("the characteristic polynomial is too long for its roots symbolically; set some symbols to numbers")
+    given: dict[Any, Any] = {}
+    if any(map(is_measured, polynomial.all_coeffs())):  # whose common factors round-off hides: each is as good as a symbol
+        given = {sympy.Dummy(real=True): factor for factor in polynomial.all_coeffs()[1:] if factor != 0}
+        named = {factor: symbol for symbol, factor in given.items()}
+        polynomial = sympy.Poly([named.get(factor, factor) for factor in polynomial.all_coeffs()], polynomial.gen)
     found = sympy.roots(polynomial, cubics=False, quartics=False)
     if sum(found.values()) != polynomial.degree():
         raise TooLarge("these eigenvalues have no short symbolic form; put numbers, or ask for the stability conditions")
-    made = [_eigenvalue(root, count, nomenclature) for root, count in found.items()]
+    made = [_eigenvalue(root.xreplace(given), count, nomenclature) for root, count in found.items()]
     return sorted(made, key=lambda value: (str(value.imaginary), str(value.real)))
 
 
@@ -158,9 +163,15 @@ def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> 
     require_few(len(matrix))
     entries = sympy.Matrix([[to_sympy(entry, positive=positive, real=True) for entry in row] for row in matrix])
     _require_brief(entries, "the characteristic polynomial")
-    shared, (rational,) = rational_in_symbols(entries)
-    polynomial, back = rational.charpoly(sympy.Dummy("s")), {new: old for old, new in shared.items()}
-    return sympy.Poly([sympy.factor(factor.xreplace(back)) for factor in polynomial.all_coeffs()], polynomial.gen)
+    rounded = is_measured(entries)
+    shared, (plain,) = rational_in_symbols(entries.applyfunc(rational) if rounded else entries)
+    polynomial, back = plain.charpoly(sympy.Dummy("s")), {new: old for old, new in shared.items()}
+
+    def short(coefficient: Any) -> Any:
+        """In factors; with measured numbers as one sum over another, since round-off hides what it has in common."""
+        return to_sympy(measured(coefficient), positive=positive, real=True) if rounded else sympy.factor(coefficient)
+
+    return sympy.Poly([short(coefficient.xreplace(back)) for coefficient in polynomial.all_coeffs()], polynomial.gen)
 
 
 def _eigenvalue(root: Any, count: int, nomenclature: Nomenclature | None) -> Eigenvalue:

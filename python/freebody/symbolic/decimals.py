@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from freebody.symbolic.algebra import factored, quotient
-from freebody.symbolic.to_sympy import from_sympy, sympy
+from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import PI, ZERO, Num, Sym, Tree, add, mul, number, rebuilt
 
 _RATIONAL = 1e-12
@@ -41,9 +41,14 @@ def ratio(above: Any, below: Any) -> Tree:
 
 
 def rational(expression: Any) -> Any:
-    """A SymPy expression in which numbers are the fractions that they are as floats, so that algebra is exact."""
+    """A SymPy expression in which numbers are the plain fractions, or the decimals, that they are as floats, so that algebra is exact."""
     found = sympy.N(expression, 17)
-    return found.xreplace({x: sympy.nsimplify(x, rational=True) for x in found.atoms(sympy.Float)})
+    return found.xreplace({x: _fraction(float(x)) for x in found.atoms(sympy.Float)})
+
+
+def _fraction(value: float) -> Any:
+    part = Fraction(value).limit_denominator(_DENOMINATORS)
+    return sympy.Rational(part if abs(float(part) - value) <= math.ulp(value) else Fraction(repr(value)))
 
 
 def _terms(expression: Any) -> list[tuple[float, Any]]:
@@ -59,8 +64,13 @@ def _sum(terms: list[tuple[float, Any]], unit: float) -> Tree:
     parts = [exact(c / first) for c, _ in terms]
     alike = all(isinstance(part.value, Fraction) and part.value.denominator <= _PLAIN for part in parts)
     sizes = parts if alike else [exact(c / unit) for c, _ in terms]
-    made = factored(add(*(mul(size, from_sympy(rest)) for size, (_, rest) in zip(sizes, terms, strict=True))))
+    made = factored(add(*(mul(size, _with_short_roots(rest)) for size, (_, rest) in zip(sizes, terms, strict=True))))
     return mul(exact(first / unit), made) if alike else made
+
+
+def _with_short_roots(expression: Any) -> Tree:
+    roots = (part for part in expression.atoms(sympy.Pow) if not part.exp.is_Integer and part.base.free_symbols)
+    return from_sympy(expression.xreplace({root: to_sympy(measured(root.base)) ** root.exp for root in roots}))
 
 
 def with_exact_numbers(tree: Tree) -> Tree:

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import GROUND, Load
+from freebody.core import GROUND, Load, MotionError
 from freebody.equations.answers import AGREES
 from freebody.equations.balances.minimal import minimal_form
 from freebody.equations.derivation.balance_text import Stated, of_bodies
 from freebody.equations.derivation.coordinates import stated
-from freebody.equations.solve import TooLarge
+from freebody.equations.solve import Singular, TooLarge
 from freebody.impact.impacts import Impulsive
 from freebody.impact.symbols import ImpulsiveState
 from freebody.solve.symbolic_state import Balance
@@ -76,8 +76,13 @@ class Impact:
 
     @classmethod
     def of(cls, happened: Impulsive) -> Impact:
-        """What happened, symbolically."""
-        return cls(ImpulsiveState.of(happened))
+        """What happened, symbolically. Raises ``Singular`` where what is held then asks more than there are motions."""
+        subject = ImpulsiveState.of(happened)
+        try:
+            subject.table
+        except MotionError as error:
+            raise Singular(f"no equations are told for this impact, since with the rates before it {error.what}") from None
+        return cls(subject)
 
     @property
     def change(self) -> Change:
@@ -363,7 +368,7 @@ def _row(tree: Tree, unknowns: Sequence[Sym]) -> Row:
     return [parts.coefficients.get(x, ZERO) for x in unknowns], parts.rest
 
 
-def require_brief(trees: Sequence[Tree]) -> None:
+def require_brief(trees: Sequence[Tree], most: int = MOST_OPERATIONS) -> None:
     """Raises ``TooLarge``."""
-    if (size := sum(map(operations, trees))) > MOST_OPERATIONS:
+    if (size := sum(map(operations, trees))) > most:
         raise TooLarge(f"what acts together has {size} operations, which is too long for a symbolic answer")

@@ -46,6 +46,8 @@ _BRIEF = 40
 """Signs of a rate after an impact above which it may be written by another."""
 _HELPS = 12
 """Operations of a rate by others, above which it is no help."""
+_MOST_SPREAD = 1000
+"""Operations in equations above which they are not multiplied out: that takes long, and what comes is no shorter."""
 _MOST_TOGETHER = 6
 """Unknowns that are solved together."""
 _PATIENCE = 1.0
@@ -262,6 +264,7 @@ class _System:
 
     def _together(self, equations: Sequence[_Sides], wanted: Sequence[Sym]) -> Solution:
         _require_few(len(wanted))
+        require_brief([side for sides in equations for side in sides], _MOST_SPREAD)
         matrix, right = linear_system(equations, wanted)
         require_brief([*(entry for row in matrix for entry in row), *right])
         found = solve([list(map(spread, row)) for row in matrix], list(map(spread, right)), self.found.nomenclature, patience=0.0)

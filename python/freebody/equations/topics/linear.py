@@ -8,12 +8,22 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import CompiledModel, State
+from freebody.core import CompiledModel, MotionError, State
 from freebody.document.blocks import Block, Equation, Heading, Matrices, Paragraph, Side, Words, Written, listed
 from freebody.document.blocks import Matrix as Rows
 from freebody.document.document import Document
 from freebody.equations.derivation.sentences import clause, joined
-from freebody.equations.linearization import Held, Linearised, Matrix, held, independent, is_natural, linearised, place_of
+from freebody.equations.linearization import (
+    Held,
+    Linearised,
+    Matrix,
+    held,
+    independent,
+    is_natural,
+    linearised,
+    numbers,
+    place_of,
+)
 from freebody.equations.modes import Root
 from freebody.equations.solve import TooLarge
 from freebody.equations.stability import Stability
@@ -21,7 +31,7 @@ from freebody.equations.substitutions import Substitutions, substitutions_of
 from freebody.equations.topics.common import Asked, NotHere, document
 from freebody.equations.topics.stability_text import character
 from freebody.solve.instant import Instant
-from freebody.solve.perturbed_states import nearby
+from freebody.solve.perturbed_states import Closing, nearby
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.stability.equilibria import rest_near
 from freebody.symbolic.decimals import shown
@@ -36,6 +46,13 @@ _VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumera
 """The perturbations, their rates and accelerations."""
 _STANDS = 1e-9
 """Rate that is prescribed, over what it is at the usual rates of the mechanism, below which it is round-off of 0."""
+
+_BESIDE, _SEED = 1e-5, 5
+"""Size of perturbations, rad and m and these a second, that are taken to both sides of an equilibrium."""
+_ONE_SIDED = 1e-3
+"""Part of the change of accelerations that those on both sides may leave together; curvature leaves some 1e-5."""
+_ROUND_OFF = 1e-10
+"""Of accelerations, beside those that balance."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +93,7 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     subject = SymbolicState(mechanism.source(), rest, at_rest=True)
     _require_regular(subject)
     made, found, follow = _perturbations(subject, chosen)
+    _require_two_sided(subject, rest, found.coordinates, follow)
     said, stability, eigenvalues = character(subject, found, _symbols_of(subject)) if found.coordinates else ([], None, ())
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
@@ -120,6 +138,30 @@ def _require_regular(subject: SymbolicState) -> None:
         raise NotHere(
             "this configuration is singular: loops lose their independence, and linear equations do not describe what moves there; "
             "give a configuration beside it"
+        )
+
+
+def _require_two_sided(subject: SymbolicState, rest: State, free: Sequence[str], follow: Mapping[str, Sequence[Tree]]) -> None:
+    """Raises ``NotHere`` where a small perturbation and the opposite one do not accelerate oppositely: something closed bears to one
+    side only, or friction is at its limit. In numbers of the core."""
+    source, names = subject.source, subject.names
+    sizes = np.random.default_rng(_SEED).uniform(0.5, 1.0, len(free))
+    followed = dict(zip(follow, numbers(subject, list(follow.values())) @ sizes if follow else [], strict=True))
+    way = _BESIDE * np.array([{**dict(zip(free, sizes, strict=True)), **followed}.get(name, 0.0) for name in names])
+    closing, still = Closing(source, rest, source.free_bodies(rest)), source.instant(rest)
+    places = [closing.place(rest.q + sign * way) for sign in (1, -1)]
+    if any(q is None for q in places):
+        return
+    try:
+        by_place = [source.instant(replace(rest, q=q)).accelerations - still.accelerations for q in places if q is not None]
+        by_rate = [source.instant(replace(rest, u=sign * way)).accelerations - still.accelerations for sign in (1, -1)]
+    except MotionError as error:
+        raise NotHere(f"beside this equilibrium there is no motion: {error}") from None
+    change = max(np.abs(by_place).max(initial=0.0), np.abs(by_rate).max(initial=0.0), _ROUND_OFF * still.sizes[1])
+    if max(np.abs(sum(by_place)).max(initial=0.0), np.abs(sum(by_rate)).max(initial=0.0)) > _ONE_SIDED * change:
+        raise NotHere(
+            "small perturbations to one side of this equilibrium accelerate otherwise than those to the other, since something is closed "
+            "without a load or friction is at its limit, which no linear equations describe; give parameters or loads that decide it"
         )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Side, Words, listed
 from freebody.equations.linearization import Linearised, numbers
 from freebody.equations.modes import Modes, Root, first_order, modes, roots
-from freebody.equations.solve import Singular, TooLarge
+from freebody.equations.solve import Singular, TooLarge, Unconfirmed
 from freebody.equations.stability import Eigenvalue, Stability, characteristic, eigenvalues, factors, require_few, stability
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
@@ -49,7 +49,7 @@ def character(
             made.append(Paragraph(f"{str(error).capitalize()}."))
         stable, said = _stability(parts, subject, found, shifts, positive)
         made += said
-    except (TooLarge, Singular) as error:
+    except (TooLarge, Singular, Unconfirmed) as error:
         made.append(Paragraph(f"No more is given symbolically: {error}."))
     try:
         values = roots(first_order(*(numbers(subject, part) for part in (found.mass, found.damping, found.stiffness))))
