@@ -79,7 +79,7 @@ class Impact:
         """What happened, symbolically. Raises ``Singular`` where what is held then asks more than there are motions."""
         subject = ImpulsiveState.of(happened)
         try:
-            subject.table
+            _ = subject.table  # asks the core
         except MotionError as error:
             raise Singular(f"no equations are told for this impact, since with the rates before it {error.what}") from None
         return cls(subject)
