@@ -82,3 +82,11 @@ def test_derivatives_along_the_motion_are_the_limits_of_differences(model):
     limit, error = fine + (fine - coarse) / 3, np.abs(fine - coarse)
     most = np.abs(np.concatenate([limit[known], [0.0]])).max()
     assert (np.abs(exact - limit)[known] <= 1e-7 * most + error[known] + 1e-13 * size * fastest / STEP).all()
+
+
+def test_derivatives_that_are_not_finite_are_named():
+    """∂√θ/∂θ = 1/(2 √θ) is infinite at 0, where √θ is 0."""
+    now = fb.Mechanism.loads(PENDULUM.replace("theta: 0.7, rates: {theta: 1.3}", "theta: 0")).solve()
+    assert now["sqrt(theta)"] == 0
+    with pytest.raises(fb.NotFinite, match=r"no finite derivative by theta\b"):
+        now.derivatives("sqrt(theta)")

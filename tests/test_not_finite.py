@@ -24,13 +24,20 @@ X = "(s/(1 m))"
 EVERYWHERE = [f"sqrt(-1 - {X})", f"exp(1000 + {X})", f"acos(2 + {X})", f"exp(1000 + {X})/exp(900 + {X})"]
 AT_START = [f"1/{X}", f"ln{X}", f"{X}/{X}", f"sin{X}/{X}", f"-1/{X}", *EVERYWHERE]
 ONLY_WITHIN = [f"rms of exp(500 + {X})", f"integral of exp(709 + {X}/10)/(0.01 s)"]
+POLES = [f"1/({X} - 0.37)", f"1/({X} - 0.61)^2", f"tan(pi*{X}*0.83)"]
+"""Infinite at a moment between all that are kept."""
 ASKED = (
     [f"{text} @ start" for text in AT_START]
     + [f"{text} @ {moment}" for text in EVERYWHERE for moment in ("end", "half", "before half", "0.25 s")]
     + [f"{how} of {text}" for text in AT_START for how in ("max", "minima", "mean")]
     + ONLY_WITHIN
+    + [f"{how} of {text}" for text in POLES for how in ("mean", "integral", "rms")]
 )
-SOUND = {"where": ("s @ end", 1.0), "logarithm": (f"ln{X} @ half", np.log(0.5)), "root": (f"max of sqrt{X}", 1.0)}
+SOUND = {
+    "where": ("s @ end", 1.0),
+    "logarithm": (f"ln{X} @ half", np.log(0.5)),
+    "root": (f"max of sqrt{X}", 1.0),
+}
 """What has a value, of which some are without one elsewhere, by closed forms of s = t."""
 
 
@@ -80,3 +87,9 @@ def test_commands_print_the_sentence_and_no_infinity(tmp_path, monkeypatch, comm
         assert done.output.count("has no finite value" if as_json else "no finite") == 12
     if as_json:
         assert all(each["value"] is None for each in json.loads(done.stdout).get("report", {}).values())
+
+
+def test_what_is_infinite_at_a_moment_can_have_a_mean():
+    """∫ dx/√|x − a| from 0 to 1 is 2 (√a + √(1 − a))."""
+    found = mechanism({"q": f"mean of 1/sqrt(abs({X} - 0.37))"}).simulate().report["q"].value
+    assert found == pytest.approx(2 * (np.sqrt(0.37) + np.sqrt(0.63)), rel=1e-4)

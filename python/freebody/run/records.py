@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -26,6 +27,8 @@ _FOLLOWED = 1e-9
 """Part of its swing that the last coefficients of a polynomial may have which follows a signal."""
 _LEVEL = 1e-13
 """Part of the size of a signal that is round-off."""
+_CONVERGED = 1e-3
+"""Part of an integral that its error may be: at a kink less is left, over a pole all."""
 ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
@@ -226,7 +229,8 @@ def _largest(signal: Signal, start: float, end: float, rate: Signal | None) -> t
 
 
 def integral(signal: Signal, window: Window, rtol: float = 1e-11) -> float:
-    """The time integral over the window: adaptive Gauss–Kronrod (QUADPACK) on every step, since the signal is smooth within one."""
+    """The time integral over the window: adaptive Gauss–Kronrod (QUADPACK) on every step, since the signal is smooth within one; NaN
+    where it does not converge."""
     from scipy.integrate import quad
 
     least = rtol * float(np.abs(signal(window.samples(2))).mean())
@@ -236,7 +240,9 @@ def integral(signal: Signal, window: Window, rtol: float = 1e-11) -> float:
 
     # With full_output it gives what it has instead of a warning where a kink within a step costs it the last digits.
     steps = pairwise(window.edges.tolist())
-    return sum(quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)[0] for a, b in steps)
+    found = [quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)[:2] for a, b in steps]
+    values, errors = np.array(found).reshape(-1, 2).T
+    return float(values.sum()) if errors.sum() <= _CONVERGED * np.abs(values).sum() + least * window.length else math.nan
 
 
 def reduce(how: str, signal: Signal, window: Window, rate: Signal | None = None) -> list[tuple[float | None, float]]:

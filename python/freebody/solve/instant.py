@@ -239,14 +239,19 @@ class Instant:
         kept, and by each parameter, with the parameters that follow from it. What sticks, slides or is open stays so.
 
         Where loops close, coordinates and rates do not change alone: only sums of derivatives that belong to a motion of the
-        mechanism say how the value changes in it. Where the expression has no value it raises, as that does.
+        mechanism say how the value changes in it. Where the expression has no value it raises, as that does; where derivatives are
+        not finite ``NotFinite``, with their names.
         """
         names = self.core.coordinate_names
         by = ["t", *names, *(f"rate({name})" for name in names), *(p["name"] for p in self._metadata["parameters"])]
         found = self.core.derivatives([text], self.state)[0]
-        if not np.isfinite(found).all():
+        partial = dict(zip(by, found.tolist(), strict=True))
+        infinite = [name for name, value in partial.items() if np.isinf(value)]
+        # Where one is infinite others are only undecided, as 0 times it.
+        if infinite := infinite or [name for name, value in partial.items() if np.isnan(value)]:
             _ = self[text]  # which raises where it has no value
-        return dict(zip(by, found.tolist(), strict=True))
+            raise NotFinite(f"{text!r} has no finite derivative by {', '.join(infinite)} at t = {self.state.t:.6g} s")
+        return partial
 
     def _values(self, texts: list[str]) -> Array:
         return self.core.evaluate(texts, self.state)

@@ -3,6 +3,7 @@ simulated swings, and against closed forms."""
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -14,9 +15,10 @@ import freebody as fb
 from freebody.core import State
 from freebody.equations.linearization import Held, held, linearised, numbers, place_of
 from freebody.equations.topics import NotHere, topic
-from freebody.solve.equilibrium import rest_near
 from freebody.solve.symbolic_state import SymbolicState
+from freebody.stability.equilibria import rest_near
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import mul, number
 
 DAMPED = """
 forces:
@@ -293,3 +295,22 @@ initial: {theta: 0, at_rest: true}
 """
     said = topic(fb.Mechanism.loads(text), "linear").text()
     assert "Small perturbations decay if" in said and "k − m g l > 0" in said and "m l² θ̈ + c θ̇" in said
+
+
+@pytest.mark.parametrize("which", ["mass", "damping", "stiffness"])
+def test_wrong_linear_equations_are_refused(which, monkeypatch):
+    """What is printed is held against derivatives of the core: a derivation that errs by a part of a thousand in one matrix is found."""
+    module = sys.modules["freebody.equations.topics.linear"]
+    right = module.held
+
+    def wrong(*asked):
+        found = right(*asked)
+        matrix = getattr(found.equations, which)
+        off = [[mul(number(1.001), entry) for entry in row] for row in matrix]
+        return replace(found, equations=replace(found.equations, **{which: off}))
+
+    mechanism = fb.Mechanism.loads(SWING + DAMPED)
+    assert topic(mechanism, "linear").equations.coordinates
+    monkeypatch.setattr(module, "held", wrong)
+    with pytest.raises(NotHere, match="do not agree"):
+        topic(mechanism, "linear")

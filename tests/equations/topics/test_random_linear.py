@@ -72,6 +72,9 @@ def agree(source: CompiledModel, found: LinearEquations) -> None:
         nearest = min(left, key=lambda root: abs(root - value))
         left.remove(nearest)
         assert abs(nearest - value) < np.sqrt(AGREE) * np.abs(expected).max()  # a double eigenvalue has half of the digits
+    if told := found.stability:
+        holds = not told.never and (matrix([told.conditions], values) > 0).all()
+        assert holds == bool((expected.real < AGREE * np.abs(expected).max()).all()), told
 
 
 @every(map(str, range(200)), "seed", share=SHARE)

@@ -102,7 +102,8 @@ def _of_group(problem: Problem, group: Group, named: Sequence[VirtualMotion], co
     right = motions[:, 0] @ problem.systems[0].right[members].sum(axis=0)
     made, units = np.where(stays, work[:, 0], 0.0), np.where(sizes > 0, sizes, 1.0)
     return [
-        Candidate(group, tried[c], bits(np.flatnonzero(stays[c])), made[c], made[c] / units, right[c]) for c in np.flatnonzero(use)
+        Candidate(group, tried[c], bits(np.flatnonzero(stays[c])), made[c], made[c] / units, right[c])
+        for c in np.flatnonzero(use)
     ]
 
 

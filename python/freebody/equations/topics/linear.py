@@ -34,6 +34,7 @@ from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import Closing, nearby
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.stability.equilibria import rest_near
+from freebody.stability.state_space import state_space
 from freebody.symbolic.decimals import shown
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import bold, dotted
@@ -44,6 +45,8 @@ _BOLD = tuple(Written(sign, bold(symbol)) for sign, symbol in (("𝐌", "M"), ("
 """The matrices, apart from any symbols of a model."""
 _VECTOR = tuple(Written(sign, dotted(bold("x"), dots)) for dots, sign in enumerate(("𝐱", "𝐱\u0307", "𝐱\u0308")))
 """The perturbations, their rates and accelerations."""
+_AGREES = 1e-7
+"""Part of the largest entry by which linear equations at a place that Newton's method found may differ from exact derivatives."""
 _STANDS = 1e-9
 """Rate that is prescribed, over what it is at the usual rates of the mechanism, below which it is round-off of 0."""
 
@@ -94,6 +97,7 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     _require_regular(subject)
     made, found, follow = _perturbations(subject, chosen)
     _require_two_sided(subject, rest, found.coordinates, follow)
+    _require_agreement(subject, found, follow)
     said, stability, eigenvalues = character(subject, found, _symbols_of(subject)) if found.coordinates else ([], None, ())
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
@@ -163,6 +167,32 @@ def _require_two_sided(subject: SymbolicState, rest: State, free: Sequence[str],
             "small perturbations to one side of this equilibrium accelerate otherwise than those to the other, since something is closed "
             "without a load or friction is at its limit, which no linear equations describe; give parameters or loads that decide it"
         )
+
+
+def _require_agreement(subject: SymbolicState, found: Linearised, follow: Mapping[str, Sequence[Tree]]) -> None:
+    """Holds the printed equations against the exact derivatives of the core's accelerations, which share nothing with them. Raises
+    ``NotHere`` where they differ, or where there are none."""
+    names, units = list(found.coordinates), dict(zip(subject.names, subject.free.units(subject.coordinates), strict=True))
+    if not names:
+        return
+    try:
+        true = state_space(subject.source, subject.state, free=sorted(names, key=subject.names.index))
+    except ValueError as problem:
+        raise NotHere(f"linear equations cannot be held against the accelerations beside this equilibrium: {problem}") from None
+    n, order = len(names), [true.free.index(name) for name in names]
+    columns, of = [*order, *(n + i for i in order)], np.array([units[name] for name in names])
+    mass, damping, stiffness = (numbers(subject, matrix) for matrix in (found.mass, found.damping, found.stiffness))
+    own = -np.linalg.solve(mass, np.hstack([stiffness, damping]))
+    ways = numbers(subject, list(follow.values())).reshape(-1, n)
+    core = true.places[[true.coordinates.index(name) for name in follow]][:, order]
+    following = np.array([units[name] for name in follow])
+    for printed, exact, rows, by in (own, true.a[n:][order][:, columns], of, np.tile(of, 2)), (ways, core, following, of):
+        scaled = by / rows.reshape(-1, 1)
+        if not np.abs((printed - exact) * scaled).max(initial=0.0) <= _AGREES * max(1.0, np.abs(exact * scaled).max(initial=0.0)):
+            raise NotHere(
+                "the linear equations that were derived do not agree with the accelerations of the mechanism beside this equilibrium, "
+                "so they are not printed; `freebody.stability.state_space` gives them in numbers"
+            )
 
 
 def _perturbations(subject: SymbolicState, chosen: Substitutions) -> tuple[list[Block], Linearised, Mapping[str, Sequence[Tree]]]:
