@@ -92,3 +92,18 @@ def dead_point(case):
     for rate in (1.0, -1.0):
         way = case.instant("dead_point.yaml", rates={"theta": 1.0, "beta": rate})
         yield Answer(f"ẋ for θ̇ = 1, β̇ = {rate:g}", way["rate(x)"], "m/s", 0.1 * (rate - 1), "closed form: loop", 1e-13, scale=0.1)
+
+
+@ask("inverse dynamics of a turn at 20 rad/s: torque and every reaction, its work")
+def turned(case):
+    given = case.mechanism().inverse({"theta": {"is": "20 rad/s", "level": "velocity"}}, until=math.tau / 20, theta=0)
+    times, hand = np.array(ANGLES) / 20, [BY_HAND.forces(BY_HAND.motion(theta, 20.0, 0.0)) for theta in ANGLES]
+    value = given.evaluate("'motion of theta'.force", times)
+    yield Answer("torque at 0°, 30°, … 330°", value, "N·m", [f[0] for f in hand], HAND, 1e-10)
+    for i, pin in enumerate("OBC", start=1):
+        value = np.concatenate([given.evaluate(f"{pin}.F{axis}", times) for axis in "xy"])
+        check = np.array([f[i] for f in hand])
+        yield Answer(f"{pin}, x then y", value, "N", np.concatenate([check.real, check.imag]), HAND, 1e-10)
+    yield Answer("guide on the slider", given.evaluate("guide.Fn", times), "N", [f[4] for f in hand], HAND, 1e-10)
+    size = given.summary("'motion of theta'.power").greatest.value
+    yield Answer("work of the turn", given.work("motion of theta"), "J", 0.0, "conservation: energy comes back", 1e-10, size)
