@@ -91,9 +91,10 @@ initial: {ball.x: r*sin(b), ball.y: 0, rates: {ball.x: 0, ball.y: 1 m/s}}
 """
 
 
-def test_ten_thousand_bounces_in_a_circle():
+@pytest.mark.parametrize("count", [1000, pytest.param(10_000, marks=pytest.mark.long)])
+def test_bounces_in_a_circle(count):
     """Chords that meet the wall at β from its normal: each turns the place of impact by π − 2β and takes 2 cos β."""
-    beta, count = 0.37, 10_000
+    beta = 0.37
     run = motion(BILLIARD, 2 * math.cos(beta) * count)
     impacts = changes(run)
     assert {change.kind for change in impacts} == {"impact"} and len(impacts) == count
