@@ -44,7 +44,7 @@ class Linearised:
         """A of ż = A z with z = (x, ẋ). Raises ``TooLarge``, ``Singular``."""
         n = len(self.coordinates)
         columns = [[row[j] for row in matrix] for matrix in (self.stiffness, self.damping) for j in range(n)]
-        solved = [[negative(entry) for entry in solve(self.mass, column)] for column in columns]
+        solved = [[negative(entry) for entry in solve(self.mass, column, patience=0.0)] for column in columns]
         upper = [[ONE if j == n + i else ZERO for j in range(2 * n)] for i in range(n)]
         return upper + [[column[i] for column in solved] for i in range(n)]
 

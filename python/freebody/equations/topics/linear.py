@@ -50,10 +50,10 @@ _AGREES = 1e-7
 _STANDS = 1e-9
 """Rate that is prescribed, over what it is at the usual rates of the mechanism, below which it is round-off of 0."""
 
-_BESIDE, _SEED = 1e-5, 5
-"""Size of perturbations, rad and m and these a second, that are taken to both sides of an equilibrium."""
+_BESIDE, _NEARER, _SEED = 1e-5, 4.0, 5
+"""Size of perturbations, rad and m and these a second, that are taken to both sides of an equilibrium; nearer by this factor."""
 _ONE_SIDED = 1e-3
-"""Part of the change of accelerations that those on both sides may leave together; curvature leaves some 1e-5."""
+"""Part of the change of accelerations that those on both sides may leave together; where it is of curvature it falls with the size."""
 _ROUND_OFF = 1e-10
 """Of accelerations, beside those that balance."""
 
@@ -151,18 +151,24 @@ def _require_two_sided(subject: SymbolicState, rest: State, free: Sequence[str],
     source, names = subject.source, subject.names
     sizes = np.random.default_rng(_SEED).uniform(0.5, 1.0, len(free))
     followed = dict(zip(follow, numbers(subject, list(follow.values())) @ sizes if follow else [], strict=True))
-    way = _BESIDE * np.array([{**dict(zip(free, sizes, strict=True)), **followed}.get(name, 0.0) for name in names])
+    way = np.array([{**dict(zip(free, sizes, strict=True)), **followed}.get(name, 0.0) for name in names])
     closing, still = Closing(source, rest, source.free_bodies(rest)), source.instant(rest)
-    places = [closing.place(rest.q + sign * way) for sign in (1, -1)]
-    if any(q is None for q in places):
-        return
+
+    def together(h: float) -> tuple[float, float]:
+        """What accelerations to both sides leave together, and their largest change."""
+        places = [q for sign in (1, -1) if (q := closing.place(rest.q + sign * h * way)) is not None]
+        if len(places) < 2:
+            return 0.0, 0.0
+        beside = [replace(rest, q=q) for q in places] + [replace(rest, u=sign * h * way) for sign in (1, -1)]
+        by_place, back, by_rate, slower = (source.instant(state).accelerations - still.accelerations for state in beside)
+        change = max(*(np.abs(each).max(initial=0.0) for each in (by_place, back, by_rate, slower)), _ROUND_OFF * still.sizes[1])
+        return max(np.abs(by_place + back).max(initial=0.0), np.abs(by_rate + slower).max(initial=0.0)), change
+
     try:
-        by_place = [source.instant(replace(rest, q=q)).accelerations - still.accelerations for q in places if q is not None]
-        by_rate = [source.instant(replace(rest, u=sign * way)).accelerations - still.accelerations for sign in (1, -1)]
+        (far, _), (near, change) = together(_BESIDE), together(_BESIDE / _NEARER)
     except MotionError as error:
         raise NotHere(f"beside this equilibrium there is no motion: {error}") from None
-    change = max(np.abs(by_place).max(initial=0.0), np.abs(by_rate).max(initial=0.0), _ROUND_OFF * still.sizes[1])
-    if max(np.abs(sum(by_place)).max(initial=0.0), np.abs(sum(by_rate)).max(initial=0.0)) > _ONE_SIDED * change:
+    if near > _ONE_SIDED * change and near > far / _NEARER**1.5:  # curvature falls by the square
         raise NotHere(
             "small perturbations to one side of this equilibrium accelerate otherwise than those to the other, since something is closed "
             "without a load or friction is at its limit, which no linear equations describe; give parameters or loads that decide it"
