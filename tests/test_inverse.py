@@ -135,3 +135,12 @@ def test_a_pendulum_that_turns_steadily():
     assert y == pytest.approx(inwards * np.sin(w * t) - m * 9.81, abs=1e-8)
     assert moment == pytest.approx(-most * np.cos(w * t), abs=1e-8)
     assert found.evaluate("pin.Fx", t) == pytest.approx(-x, abs=1e-12)
+
+
+@pytest.mark.parametrize("law", ["max(0, t)", "if(t < 0, 0, t)", "abs(t)", "min(t, 9)"])
+def test_a_law_that_switches_just_at_the_start_is_on_the_side_to_which_it_goes(law):
+    model = fb.Mechanism("pendulum", gravity="none")
+    model.rod("bar", length=1, mass=1)
+    model.hinge("ground.O", "bar.start", coordinate="a")
+    model.motion("drive", "a", law)
+    assert model.simulate(1).evaluate("a", 0.7) == pytest.approx(0.7, rel=1e-12)

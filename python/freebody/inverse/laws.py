@@ -20,9 +20,9 @@ Law = float | str | Mapping[str, Any]
 
 def quintic(start: Any, end: Any, duration: Any, begin: Any = 0) -> str:
     """The law that leads from rest at one value to rest at another: s = 10τ³ − 15τ⁴ + 6τ⁵ with τ = (t − ``begin``)/``duration``,
-    without acceleration at either end; it is meant for the time between them. Values and times are numbers, quantities or expressions
-    of parameters. Craig, *Introduction to Robotics*, 7.3."""
-    part = f"((t - ({begin}))/({duration}))"
+    without acceleration at either end, at rest before and after. Values and times are numbers, quantities or expressions of
+    parameters. Craig, *Introduction to Robotics*, 7.3."""
+    part = f"min(1, max(0, (t - ({begin}))/({duration})))"
     return f"({start}) + (({end}) - ({start}))*({part}^3*(10 + {part}*(6*{part} - 15)))"
 
 

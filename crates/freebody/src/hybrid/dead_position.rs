@@ -8,6 +8,9 @@ use crate::mechanism::{Drive, Level, Mechanism};
 
 /// Independence of the closing rows below which a dead position may be near.
 const NEAR: f64 = 1e-2;
+/// Part of the time in which the mechanism moves its own length, after which a dead position is not near: beside one the
+/// independence is as the square root of that part.
+const SOON: f64 = 1e-2;
 /// Length of a segment of a taut string, over the characteristic length, below which it may be drawn in.
 const SHORT: f64 = 1e-3;
 /// Part of the time in which the mechanism moves its own length, over which a short segment is watched: short even beside
@@ -45,7 +48,7 @@ impl HybridSystem<'_> {
         let (m, n) = (self.workspace.m, self.workspace.m.freedom());
         let (dt, [now, next]) = self.independence_ahead(t, y);
         let left = now * now * dt / (now * now - next * next);
-        if !(left > 0.0 && left.is_finite()) {
+        if !(left > 0.0 && left * self.speed < SOON * self.workspace.length) {
             return Ok(());
         }
         let ahead = (0..n).map(|i| y[i] + BEYOND * left * y[n + i]).collect();

@@ -31,6 +31,9 @@ use crate::mechanism::Mechanism;
 use crate::mode::Mode;
 use crate::motion::{method, run, Method, Options};
 
+/// Part of a run after which a law that switches just at its start is on the side to which it goes.
+const MOMENT: f64 = 1e-9;
+
 /// What may be chosen about a simulation.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -119,7 +122,7 @@ pub fn simulate(
     system.rule = settings.impacts;
     system.jam_by_impact = settings.jam_by_impact;
     let mut y = system.pack(start.q, start.u);
-    system.freeze_branches(start.t, &y);
+    system.freeze_branches(start.t, &y, MOMENT * (until - start.t));
     system.set_scales(start.t, until, &y);
     crate::motion::System::project(&mut system, start.t, &mut y)?;
     system.begin(start, until, &mut y)?;

@@ -141,16 +141,21 @@ impl<'m> HybridSystem<'m> {
         self.workspace.place(mode, t, &y[..n], &y[n..2 * n]);
     }
 
-    /// Freezes every switch at the branch it has now.
-    pub fn freeze_branches(&mut self, t: f64, y: &[f64]) {
-        self.place(t, y);
-        let m = self.workspace.m;
+    /// Freezes every switch at the branch it has now; one that is just changing at that which it has a moment `ahead` (s).
+    pub fn freeze_branches(&mut self, t: f64, y: &[f64], ahead: f64) {
+        let (m, n) = (self.workspace.m, self.workspace.m.freedom());
+        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + ahead * y[n + i] } else { y[i] }).collect();
         for discontinuity in &m.discontinuities {
-            let value = self.switching(discontinuity);
-            if let Discontinuity::Switch(switch, _) = discontinuity {
-                self.mode.freeze(*switch, value >= 0.0);
+            let Discontinuity::Switch(switch, _) = discontinuity else { continue };
+            self.place(t, y);
+            let mut value = self.switching(discontinuity);
+            if value == 0.0 {
+                self.place(t + ahead, &later);
+                value = self.switching(discontinuity);
             }
+            self.mode.freeze(*switch, value >= 0.0);
         }
+        self.place(t, y);
     }
 
     /// Begins the first phase of the motion, in the present mode.
