@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 from test_multipliers import differences
 
 import freebody as fb
 from freebody.catalogue import find
+from freebody.model.errors import ModelProblem
 
 
 def wheel(file, **parameters):
@@ -56,3 +58,61 @@ def test_what_grazes_has_no_derivative_and_says_so():
     thrown = fb.Mechanism.loads(BALL.replace("top: {when: rate(ball.y)", "top: {when: (ball.x - 0.5)^3"))
     with pytest.raises(ValueError, match="grazes zero"):
         thrown.periodic({"h": "ball.y"}, section="top").step()
+
+
+SETTING = """
+freebody: 1
+parameters: {k: 4 N/m, c: 0.3 N*s/m, stiffness: 2*k, F: 0.1 N, v: 0 m/s, l: 1 m, s: 1 s, b: 0.1 N*s^3/m^3, m: 1 kg}
+gravity: none
+bodies: {cart: {shape: particle, mass: m}}
+joints: {rail: {type: slot, along: {through: ground.O, angle: 0 deg}, point: cart.centre, coordinate: x}}
+forces: {spring: {type: law, along: x, value: F - stiffness*x - c*rate(x)}}
+initial: {x: 1, rates: {x: v}}
+events:
+  middle: {when: x - 0.3, direction: falling, then: {set: {k: k*(1 + x/l - 0.5*rate(x)*s/l + t/s), F: 0.05*F*t/s}}}
+  late: {when: x + 0.2, direction: falling, then: {set: {c: b*rate(x)^2}}}
+  top: {when: rate(x), direction: rising, then: {set: {v: k*x*s/m}}}
+run: {until: 5}
+"""
+
+
+def test_parameters_that_events_set_are_carried_into_the_derivative():
+    """From the place, rate and time of an event, and from what they were; what follows from them follows; also at the section."""
+    cart = fb.Mechanism.loads(SETTING)
+    returns = {"k": "k", "c": "c", "F": "F", "x": "x", "v": "v"}
+    back = cart.periodic(returns, section="top")
+    slopes = back.step().slopes
+    assert slopes == pytest.approx(differences(back, back.start, 1e-4), abs=1e-8)
+    assert np.abs(slopes).max(axis=1).min() > 1e-3
+
+
+def test_starts_that_come_to_nothing_are_counted_and_bounds_are_read_with_their_units():
+    """Below ω² = 2 (mg/J) R (1 − cos (α − γ)) no spoke comes over the top: ω = 0.8 rad/s here, and starts are at 0.41, 0.81 and 1.2."""
+    rolling = wheel("model.yaml", k=6, slope="12 deg")
+    found = rolling.find_all({"omega": ("1 deg/s", 1.6)}, 2)
+    assert len(found) == 1 and found.starts == 3 and 0 < found.lost < 3
+    assert f"from {found.lost} of these Newton's method came to none" in found.sentence
+    for bounds, said in (({"omega": (3, 1)}, "from 3 to 1"), ({"omga": (1, 3)}, "`omga` is not among the unknowns")):
+        with pytest.raises(ModelProblem, match=said):
+            rolling.find_all(bounds)
+    with pytest.raises(ModelProblem, match="there is no parameter `slop`"):
+        rolling.boundary("slop", (0.1, 0.2))
+
+
+CUBIC = """
+freebody: 1
+parameters: {x0: 0.1 m, gain: 1 1/m^2}
+gravity: none
+bodies: {cart: {shape: particle, mass: 1 kg}}
+joints: {rail: {type: slot, along: {through: ground.O, angle: 0 deg}, point: cart.centre, coordinate: x}}
+initial: {x: x0, rates: {x: 0}}
+"""
+
+
+def test_a_small_miss_alone_is_no_motion_that_repeats_itself():
+    """Of x − x³ a start of 1e-5 misses itself by no more than round-off; steps of Newton's method go on to less."""
+    cart = fb.Mechanism.loads(CUBIC)
+    found = cart.periodic({"x": "x - gain*x^3"}, period=1).find({"x": 1e-5})
+    assert abs(found.values["x"]) < 7e-6
+    every = cart.periodic({"x0": "x"}, period=1).find({"x0": 0.2})
+    assert every.values["x0"] == 0.2 and every.multipliers == pytest.approx([1], abs=1e-12)

@@ -12,6 +12,8 @@ from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from freebody.periodic.boundary import Crossing
     from freebody.periodic.motion import PeriodicMotion
 
@@ -27,10 +29,10 @@ def periodic(
     horizon: Annotated[str | None, typer.Option(metavar="TIME", help="The longest time to come back in.")] = None,
     within: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME=LOW:HIGH", help="All within these bounds of what it starts with; repeatable."),
+        typer.Option(metavar="NAME=A..B", help="All within these bounds of what it starts with; repeatable."),
     ] = None,
     boundary: Annotated[
-        str | None, typer.Option(metavar="NAME=LOW:HIGH", help="Where multipliers reach the unit circle as a parameter changes.")
+        str | None, typer.Option(metavar="NAME=A..B", help="Where multipliers reach the unit circle as a parameter changes.")
     ] = None,
     changes: Changes = None,
     as_json: AsJson = False,
@@ -40,34 +42,34 @@ def periodic(
         pairs(returns) or None, section=section, period=period, **({"horizon": horizon} if horizon else {})
     )
     if boundary:
-        ((name, bounds),) = _bounds([boundary]).items()
+        ((name, bounds),) = _bounds([boundary], "--boundary").items()
         _show_crossings(name, asked.boundary(name, bounds), as_json)
     else:
-        _show_motions(asked.find_all(_bounds(within)) if within else [asked.find()], as_json)
+        _show_motions(asked.find_all(_bounds(within, "--within")) if within else [asked.find()], as_json)
 
 
-def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
+def _bounds(texts: list[str], option: str) -> dict[str, tuple[str, str]]:
     found = {}
     for name, text in pairs(texts).items():
-        low, _, high = text.partition(":")
-        try:
-            found[name] = (float(low), float(high))
-        except ValueError:
-            raise UserError(f"'{name}={text}' is not NAME=LOW:HIGH", "write it like 'omega=0.5:3', in SI units") from None
+        low, dots, high = text.partition("..")
+        if not dots:
+            raise UserError(f"{option} {name}={text}: between which values?", f"write it like {option} 'omega=0.5..3'")
+        found[name] = (low.strip(), high.strip())
     return found
 
 
-def _show_motions(found: list[PeriodicMotion], as_json: bool) -> None:
+def _show_motions(found: Sequence[PeriodicMotion], as_json: bool) -> None:
     from rich.console import Console
 
+    from freebody.periodic.motion import PeriodicMotions
     from freebody.solve.rich_tables import table
 
+    sought = found.sentence if isinstance(found, PeriodicMotions) else "Newton's method from the start of the model"
     if as_json:
-        print_json([_motion(each) for each in found])
+        print_json({"looked": sought, "motions": [_motion(each) for each in found]})
         return
     console = Console(highlight=False, soft_wrap=True)
-    if not found:
-        console.print("no motion that repeats itself was found within these bounds")
+    console.print(f"{sought}\n")
     for each in found:
         console.print(table("starts with", ["name", "value [SI]"], list(each.values.items())))
         console.print(f"comes back after {each.period:.10g} s, {'stable' if each.stable else 'not stable'}\n")

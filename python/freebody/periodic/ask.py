@@ -11,11 +11,12 @@ import scipy.linalg
 
 from freebody.core import Array, CompiledModel, State, quote
 from freebody.model.errors import ModelProblem
-from freebody.model.start import parameter_values
+from freebody.model.names import suggestion
+from freebody.model.start import parameter_values, quantity
 from freebody.periodic import boundary, motion
 from freebody.periodic.boundary import Crossing
 from freebody.periodic.limit import Limit, limit
-from freebody.periodic.motion import PeriodicMotion
+from freebody.periodic.motion import PeriodicMotion, PeriodicMotions
 from freebody.periodic.return_map import RTOL, Return, ReturnMap
 
 if TYPE_CHECKING:
@@ -49,19 +50,25 @@ class Periodic:
         ``NoPeriodicMotion``."""
         return motion.find(self.map, self._from(values), **changes)
 
-    def find_all(self, within: Mapping[str, tuple[float, float]], starts: int = 32, **changes: Any) -> list[PeriodicMotion]:
-        """The periodic motions with unknowns within bounds to which Newton's method comes from ``starts`` points spread over them."""
+    def find_all(self, within: Mapping[str, tuple[Any, Any]], starts: int = 32, **changes: Any) -> PeriodicMotions:
+        """The periodic motions with unknowns within bounds to which Newton's method comes from at least ``starts`` points spread over
+        them, with the number of points from which it comes to none."""
+        self._from(dict.fromkeys(within, 0.0))
         if missing := [name for name in self.map.unknowns if name not in within]:
             raise ModelProblem(f"`{missing[0]}` has no bounds", "give (lowest, highest) for every unknown")
-        return motion.find_all(self.map, [within[name] for name in self.map.unknowns], starts, **changes)[0]
+        bounds = [self._range(name, within[name]) for name in self.map.unknowns]
+        return motion.find_all(self.map, bounds, starts, **changes)
 
-    def boundary(self, parameter: str, within: tuple[float, float], samples: int = 24, **changes: Any) -> list[Crossing]:
+    def boundary(self, parameter: str, within: tuple[Any, Any], samples: int = 24, **changes: Any) -> list[Crossing]:
         """All values of a parameter within bounds at which a multiplier of the periodic motion comes to the unit circle; see
         ``freebody.periodic.boundary.crossings``."""
-        return boundary.crossings(self.map, parameter, within, self.start, samples, **changes)
+        known = [each["name"] for each in self.map.mechanism.compile().metadata["parameters"]]
+        if parameter not in known:
+            raise ModelProblem(f"there is no parameter `{parameter}`", suggestion(parameter, known, "parameters"))
+        return boundary.crossings(self.map, parameter, self._range(parameter, within), self.start, samples, **changes)
 
     def boundary_curve(
-        self, parameter: str, within: tuple[float, float], along: str, values: Sequence[float], samples: int = 24, **changes: Any
+        self, parameter: str, within: tuple[Any, Any], along: str, values: Sequence[float], samples: int = 24, **changes: Any
     ) -> list[Crossing]:
         """The same for each of the ``values`` of another parameter, ``along``: the boundary in the plane of both."""
         return [each for value in values for each in self.boundary(parameter, within, samples, **changes, **{along: value})]
@@ -74,6 +81,17 @@ class Periodic:
         if unknown := [name for name in values or {} if name not in self.map.unknowns]:
             raise ModelProblem(f"`{unknown[0]}` is not among the unknowns", f"they are {', '.join(self.map.unknowns)}")
         return np.array([(values or {}).get(name, own) for name, own in zip(self.map.unknowns, self.start, strict=True)])
+
+    def _range(self, name: str, within: tuple[Any, Any]) -> tuple[float, float]:
+        """Bounds in SI, from numbers or quantities like ``"30 deg"``. Raises ``ModelProblem`` where they are none."""
+        metadata = self.map.mechanism.compile().metadata
+        units = {each["name"]: each["unit"] for each in metadata["parameters"]}
+        for each in metadata["coordinates"]:
+            units |= {quote(each["name"]): each["dimension"], f"rate({quote(each['name'])})": f"{each['dimension']}/s"}
+        low, high = (quantity(name, x, units.get(name, "")) for x in within)
+        if not low < high:
+            raise ModelProblem(f"`{name}` is sought from {low:g} to {high:g}", "give the lowest and then the highest")
+        return low, high
 
 
 def periodic(

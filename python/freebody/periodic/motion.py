@@ -19,7 +19,11 @@ _STEPS = 40
 _FOUND = 1e-12
 """Step of Newton's method, over the sizes of the unknowns on the way, below which a fixed point is found."""
 _ROUND_OFF = 1e-15
-"""Part of these sizes by which a motion that repeats itself misses its start by round-off; at a multiplier 1 steps are large."""
+"""Part of these sizes by which a motion that repeats itself misses its start by round-off."""
+_NEUTRAL = 1e-10
+"""Singular value of the derivative less the identity, in these sizes, along which a whole family of motions repeats itself."""
+_HALF = 0.5
+"""Part of the step before to which one must come while Newton's method converges, however slowly."""
 _CLOSED = 1e-10
 """Part of these sizes by which the motion may miss its start."""
 _SHORTEST = 2.0**-10
@@ -36,7 +40,9 @@ class NoPeriodicMotion(ValueError):
 class PeriodicMotion:
     """A motion that repeats itself: the ``values`` of the unknowns with which it starts, its ``period`` (s), the derivative of the
     return map there, ``slopes`` (k, k), and its ``multipliers`` (k,), largest first: the factors by which perturbations grow
-    over a period. ``checks`` say how it was verified: how far it misses its start and the checks of the derivative (``Return``)."""
+    over a period. ``checks`` say how it was verified: how far it misses its start, the next step of Newton's method, which is how far
+    the values are known (along a multiplier 1 they are open), both over the sizes of the unknowns, and the checks of the
+    derivative (``Return``)."""
 
     values: Mapping[str, float]
     period: float
@@ -56,18 +62,40 @@ class PeriodicMotion:
         return np.log(self.multipliers) / self.period
 
 
+@dataclass(frozen=True)
+class PeriodicMotions(Sequence[PeriodicMotion]):
+    """Those that were found within bounds, in order of the first unknown; of ``starts`` Newton's method came to none from ``lost``."""
+
+    motions: tuple[PeriodicMotion, ...]
+    starts: int
+    lost: int
+
+    def __getitem__(self, i: Any) -> Any:
+        return self.motions[i]
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    @property
+    def sentence(self) -> str:
+        """How many there are, from how many starts, and from how many Newton's method came to none."""
+        found = f"{len(self)} motion{'s' * (len(self) != 1)} that repeat{'s' * (len(self) == 1)}"
+        return f"{found} within these bounds, from {self.starts} starts; from {self.lost} of these Newton's method came to none"
+
+
 def find(returns: ReturnMap, start: Sequence[float] | Array, **others: Any) -> PeriodicMotion:
     """The periodic motion to which Newton's method comes from a start. Raises ``NoPeriodicMotion``."""
-    values = np.asarray(start, float)
+    values, before = np.asarray(start, float), np.inf
     try:
         here = returns(values, **others)
         for _ in range(_STEPS):
-            step = np.linalg.lstsq(here.slopes - np.eye(len(values)), values - here.values, rcond=None)[0]
-            size = np.maximum(here.scales, np.abs(values))
-            miss = _miss(here, values)
-            if miss <= _ROUND_OFF or (miss <= _FOUND and (np.abs(step) <= _FOUND * size).all()):
-                return _periodic(returns, values, here)
+            size, miss = _sizes(here, values), _miss(here, values)
+            step = _step(here, values, size, _NEUTRAL if miss <= _FOUND else 0.0)
+            length = float(np.abs(step / size).max())
+            if miss <= _FOUND and (length <= _FOUND or (miss <= _ROUND_OFF and length > _HALF * before)):
+                return _periodic(returns, values, here, length)
             values, here = _shortened(returns, values, here, step, others)
+            before = length
     except (NoReturn, NotDifferentiable, MotionError) as error:
         raise NoPeriodicMotion(f"{_at(returns, values)}: {error}") from error
     raise NoPeriodicMotion(f"Newton's method did not settle, last at {_at(returns, values)}; try a start nearer to the motion")
@@ -94,28 +122,39 @@ def _shortened(returns: ReturnMap, values: Array, here: Return, step: Array, oth
     raise NoReturn("no shorter step comes nearer to a motion that repeats itself")
 
 
-def _miss(returned: Return, values: Array) -> float:
+def _step(here: Return, values: Array, size: Array, neutral: float) -> Array:
+    """The step of Newton's method; none along singular values of the derivative less the identity up to ``neutral``."""
+    left, singular, right = np.linalg.svd((here.slopes - np.eye(len(values))) * size / size[:, None])
+    inverse = np.divide(1.0, singular, out=np.zeros_like(singular), where=singular > neutral)
+    return size * (right.T @ (inverse * (left.T @ ((values - here.values) / size))))
+
+
+def _sizes(returned: Return, values: Array) -> Array:
+    """Of the unknowns on the way, 1 where they have none."""
     size = np.maximum(returned.scales, np.abs(values))
-    return float((np.abs(returned.values - values) / np.where(size > 0, size, 1.0)).max())
+    return np.where(size > 0, size, 1.0)
+
+
+def _miss(returned: Return, values: Array) -> float:
+    return float((np.abs(returned.values - values) / _sizes(returned, values)).max())
 
 
 def _at(returns: ReturnMap, values: Array) -> str:
     return ", ".join(f"{name} = {value:g}" for name, value in zip(returns.unknowns, values, strict=True))
 
 
-def _periodic(returns: ReturnMap, values: Array, returned: Return) -> PeriodicMotion:
+def _periodic(returns: ReturnMap, values: Array, returned: Return, step: float) -> PeriodicMotion:
     if (miss := _miss(returned, values)) > _CLOSED:
         raise NoReturn(f"the motion misses its start by {miss:.1e} of its size")
     multipliers = by_size(np.linalg.eigvals(returned.slopes))
     named = dict(zip(returns.unknowns, values.tolist(), strict=True))
-    return PeriodicMotion(named, returned.time, returned.slopes, multipliers, {"return": miss, **returned.checks}, returned)
+    checks = {"return": miss, "next step": step, **returned.checks}
+    return PeriodicMotion(named, returned.time, returned.slopes, multipliers, checks, returned)
 
 
-def find_all(
-    returns: ReturnMap, within: Sequence[tuple[float, float]], starts: int = 32, **others: Any
-) -> tuple[list[PeriodicMotion], int]:
-    """The periodic motions within bounds of the unknowns to which Newton's method comes from ``starts`` points spread evenly over
-    them (Sobol), in order of the first unknown; and from how many of the points it came to none."""
+def find_all(returns: ReturnMap, within: Sequence[tuple[float, float]], starts: int = 32, **others: Any) -> PeriodicMotions:
+    """The periodic motions within bounds of the unknowns to which Newton's method comes from at least ``starts`` points spread evenly
+    over them (Sobol)."""
     low, high = np.array(within, float).T
     found: list[PeriodicMotion] = []
     lost = 0
@@ -130,4 +169,4 @@ def find_all(
         apart = (np.abs(values - np.array(list(known.values.values()))) / (high - low) for known in found)
         if ((low <= values) & (values <= high)).all() and all(each.max() > _SAME for each in apart):
             found.append(motion)
-    return sorted(found, key=lambda each: next(iter(each.values.values()))), lost
+    return PeriodicMotions(tuple(sorted(found, key=lambda each: next(iter(each.values.values())))), len(points), lost)

@@ -134,5 +134,5 @@ class ReturnMap:
             if stop < end:
                 perturbation = Moment(run, field, stop).passed(perturbation)
         ahead = field(Moment(run, field, end).before)
-        checks["along the motion"] = float(np.abs(perturbation.state[:, -1] - ahead).max() / np.abs(ahead).max())
+        checks["along the motion"] = float(np.abs(perturbation.state[:, -1] - ahead).max() / (np.abs(ahead).max() or 1.0))
         return perturbation, checks

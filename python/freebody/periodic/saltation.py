@@ -73,6 +73,18 @@ class Moment:
             found = [f"{quote(name)}.{_READINGS[change.kind]}" for change in lost for name in change.of]
         return found
 
+    @cached_property
+    def assignments(self) -> dict[str, str]:
+        """The parameters that events set then, with what they are set to."""
+        happened = {event.name for event in self.run.events if event.t == self.t}
+        events = [event for event in self.run.source.spec["events"] if event["name"] in happened]
+        sets = [action["set"] for event in events for action in event["then"] if "set" in action]
+        if len(sets) > 1:
+            names = ", ".join(dict.fromkeys(name for each in sets for name in each))
+            several = f"at t = {self.t:g} s {names} are set by several actions"
+            raise NotDifferentiable(f"{several}, through which no perturbation is followed")
+        return {name: text for each in sets for name, text in each.items()}
+
     def _fastest(self, guards: list[str]) -> Array:
         """The largest mean rates of expressions over the steps up to then."""
         steps = self.run.motion.steps
@@ -110,6 +122,7 @@ class Moment:
         state = perturbation.state + np.outer(self.field(self.before), shift)
         others = perturbation.others.copy()
         others[0] += shift
+        others = self._set(state, others)
         for i, change in self.changes.items():
             if change.impulses:
                 of = self.run.motion.impact_derivatives(i)
@@ -118,12 +131,27 @@ class Moment:
                 )
         return Perturbation(state, others), shift
 
+    def _set(self, state: Array, others: Array) -> Array:
+        """The changes of the clock and parameters after events have set some, by those of the state where they happen."""
+        if not self.assignments:
+            return others
+        n, source = len(self.before.q), self.run.source
+        names = [parameter["name"] for parameter in source.metadata["parameters"]]
+        of = source.derivatives(list(self.assignments.values()), self.before)
+        changed = others.copy()
+        changed[[1 + names.index(name) for name in self.assignments]] = (
+            of[:, 1 : 1 + 2 * n] @ state + np.delete(of, np.s_[1 : 1 + 2 * n], axis=1) @ others
+        )
+        return changed
+
     def passed(self, perturbation: Perturbation) -> Perturbation:
         """The perturbation after the moment, at a fixed time."""
-        if not self.is_jump():
+        if not (self.is_jump() or self.assignments):
             return perturbation
         there, shift = self.through(perturbation)
-        return Perturbation(there.state - np.outer(self.field(self.after), shift), perturbation.others)
+        others = there.others.copy()
+        others[0] -= shift
+        return Perturbation(there.state - np.outer(self.field(self.after), shift), others)
 
     def is_jump(self) -> bool:
         """Whether rates or accelerations jump."""
