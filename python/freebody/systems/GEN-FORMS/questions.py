@@ -1,0 +1,111 @@
+"""Clever, brute force, most brute force: every system of the catalogue in three ways.
+
+A body has three balances, a particle two: c in all. With n coordinates of the tree, of which loops, motions and contacts leave f free, brute
+force has c + (n − f) equations, as many as accelerations and forces; most brute force 2c − f, as every joint stands as a constraint. What
+is redundant adds a force. A clever set has f equations without reactions; where loops leave none, those of the tree hold what is passed
+where the loops are cut, n − f components.
+"""
+
+from functools import cache
+
+import numpy as np
+
+from freebody.catalogue import Answer, ask, systems
+from freebody.equations.derivation.brute import brute
+from freebody.equations.derivation.constrained import constrained
+from freebody.equations.derivation.minimal import minimal
+from freebody.equations.topics.lagrange import equations as lagrange
+from freebody.solve.symbolic_state import SymbolicState
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import Add, Sym
+
+COUNT = "count: balances, and what rank leaves free"
+MOMENT = {"19.3.2": {"at": 0.1}}
+"""Where the start is singular: there the strings have no free length."""
+
+
+@cache
+def every(case):
+    """The systems that have models of their own: mechanism and symbolic state at the start."""
+    mechanisms = [(each.id, case.mechanism(f"../{each.id}/model.yaml")) for each in systems() if each.models]
+    return [(name, m, SymbolicState(m.source(), m.moment(**MOMENT.get(name, {}))[0])) for name, m in mechanisms]
+
+
+def free(subject):
+    """Accelerations that loops, motions and contacts leave free, and those they hold, by rank at a state near by."""
+    rows = np.array([list(row.coefficients.values()) for row in subject.neighbours[-1].rows])
+    held = np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max()) if rows.size else 0
+    return len(subject.names) - held, held
+
+
+def redundant(subject):
+    return len(subject.source.instant(subject.state).rank.self_stress)
+
+
+def numbers(subject):
+    """The numbers of all symbols, with the places of bodies, which are coordinates of most brute force."""
+    found = dict(subject.values)
+    for body in subject.free.bodies.values():
+        for dots, (x, y) in enumerate((body.G, body.v, body.a)):
+            found |= {Sym(f"x_{body.name}", dots): x, Sym(f"y_{body.name}", dots): y}
+        found |= {Sym(f"phi_{body.name}", dots): x for dots, x in enumerate((body.angle, body.omega, body.alpha))}
+    return found
+
+
+def solved(system, subject):
+    """The unknowns of A x = b with the numbers of the state, and the same as the core has them: accelerations, then forces if they are
+    determinate."""
+    values = numbers(subject)
+    matrix = [[float(evaluate(x, values, subject.tables)) for x in row] for row in system.matrix]
+    right = [float(evaluate(x, values, subject.tables)) for x in system.right]
+    told = [i for i, x in enumerate(system.unknowns) if x.dots or not redundant(subject)]
+    return np.linalg.lstsq(np.array(matrix), np.array(right), rcond=1e-12)[0][told], np.array(
+        [values[x] for x in system.unknowns]
+    )[told]
+
+
+@ask("brute force and most brute force: equations and unknowns of each")
+def counts(case):
+    for name, _, subject in every(case):
+        bodies = sum(2 if body.particle else 3 for body in subject.free.bodies.values())
+        forms, (left, held), more = (brute(subject), constrained(subject)[0]), free(subject), redundant(subject)
+        value = [len(side) for form in forms for side in (form.system.matrix, form.system.unknowns)]
+        check = [bodies + held, bodies + held + more, 2 * bodies - left + more, 2 * bodies - left + more]
+        yield Answer(name, value, "", check, COUNT, 0.0)
+
+
+@ask("clever: as many equations as accelerations, and no reaction in them")
+def clever(case):
+    for name, mechanism, subject in every(case):
+        form = mechanism.minimal_form(**MOMENT.get(name, {}))
+        if not form.least:
+            yield Answer(name, len(form.equations), "", free(subject)[0] + len(form.frictional), COUNT, 0.0)
+
+
+@ask("no clever set: reactions that cannot be kept out of balances; equations of virtual power without any")
+def unavoidable(case):
+    for name, mechanism, subject in every(case):
+        form = mechanism.minimal_form(**MOMENT.get(name, {}))
+        if form.least:
+            left, held = free(subject)
+            stay = ", ".join(x.name for x in minimal(subject).system.unknowns if not x.dots)
+            yield Answer(f"{name}: {stay}", form.least, "", held, "closed form: components where the loops are cut", 0.0)
+            yield Answer(f"{name}: by virtual power", form.virtual, "", left, COUNT, 0.0)
+
+
+@ask("agreement: each form solved for accelerations and forces, beside the numbers of the core")
+def agreement(case):
+    for name, _, subject in every(case):
+        case.instant(f"../{name}/model.yaml", **MOMENT.get(name, {}))
+        for word, form in (("clever", minimal(subject)), ("brute", brute(subject)), ("most brute", constrained(subject)[0])):
+            value, check = solved(form.system, subject)
+            yield Answer(f"{name}: {word}", value, "SI", check, "other route: articulated bodies, in numbers", 1e-11, scale=1.0)
+
+
+@ask("Lagrange's equations give the same motion: what the accelerations of the balances leave of them")
+def by_lagrange(case):
+    for name, _, subject in every(case):
+        terms = [each.residual.terms if isinstance(each.residual, Add) else (each.residual,) for each in lagrange(subject)[2]]
+        sizes = [[float(evaluate(term, subject.values, subject.tables)) for term in row] for row in terms]
+        size = max([1.0, *(abs(x) for row in sizes for x in row)])
+        yield Answer(name, [sum(row) for row in sizes], "N, N·m", 0.0, "balances", 1e-12, scale=size)
