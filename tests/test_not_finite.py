@@ -24,8 +24,8 @@ X = "(s/(1 m))"
 EVERYWHERE = [f"sqrt(-1 - {X})", f"exp(1000 + {X})", f"acos(2 + {X})", f"exp(1000 + {X})/exp(900 + {X})"]
 AT_START = [f"1/{X}", f"ln{X}", f"{X}/{X}", f"sin{X}/{X}", f"-1/{X}", *EVERYWHERE]
 ONLY_WITHIN = [f"rms of exp(500 + {X})", f"integral of exp(709 + {X}/10)/(0.01 s)"]
-POLES = [f"1/({X} - 0.37)", f"1/({X} - 0.61)^2", f"tan(pi*{X}*0.83)"]
-"""Infinite at a moment between all that are kept."""
+POLES = [f"1/({X} - 0.37)", f"1/({X} - 0.61)^2", f"tan(pi*{X}*0.83)", f"tan(pi*{X}*0.8)", f"1/({X} - 0.5)"]
+"""Infinite at a moment between all that are kept, at a halving of these, and where a step ends."""
 ASKED = (
     [f"{text} @ start" for text in AT_START]
     + [f"{text} @ {moment}" for text in EVERYWHERE for moment in ("end", "half", "before half", "0.25 s")]

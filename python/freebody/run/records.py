@@ -29,6 +29,8 @@ _LEVEL = 1e-13
 """Part of the size of a signal that is round-off."""
 _CONVERGED = 1e-3
 """Part of an integral that its error may be: at a kink less is left, over a pole all."""
+_UNEVEN = 0.38196601125010515
+"""Part of a step at which it is cut to integrate it again: no halving comes to it."""
 ENTRIES = ("parameter changes", "impacts", "balance")
 """Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
@@ -230,19 +232,37 @@ def _largest(signal: Signal, start: float, end: float, rate: Signal | None) -> t
 
 def integral(signal: Signal, window: Window, rtol: float = 1e-11) -> float:
     """The time integral over the window: adaptive Gauss–Kronrod (QUADPACK) on every step, since the signal is smooth within one; NaN
-    where it does not converge."""
+    where it does not converge, or not to the same from other parts of a step."""
     from scipy.integrate import quad
 
     least = rtol * float(np.abs(signal(window.samples(2))).mean())
+    if not math.isfinite(least):
+        return math.nan
 
     def value(t: float) -> float:
         return float(signal(np.array([t]))[0])
 
-    # With full_output it gives what it has instead of a warning where a kink within a step costs it the last digits.
-    steps = pairwise(window.edges.tolist())
-    found = [quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)[:2] for a, b in steps]
-    values, errors = np.array(found).reshape(-1, 2).T
+    def over(a: float, b: float) -> tuple[float, float]:
+        # With full_output it gives what it has instead of a warning where a kink within a step costs it the last digits.
+        found, error, told, *_ = quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)
+        if told["last"] == 1:
+            return found, error
+        # Extrapolation from halves makes a number of a pole that they come to.
+        if _is_pole(value, a, b - a) or _is_pole(value, b, a - b):
+            return found, math.inf
+        amid = a + _UNEVEN * (b - a)
+        again = quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=100, points=[amid], full_output=True)[0]
+        apart = abs(again - found)
+        return found, error if apart <= _CONVERGED * abs(found) + least * (b - a) else math.inf
+
+    values, errors = np.array([over(a, b) for a, b in pairwise(window.edges.tolist())]).T
     return float(values.sum()) if errors.sum() <= _CONVERGED * np.abs(values).sum() + least * window.length else math.nan
+
+
+def _is_pole(value: Callable[[float], float], end: float, length: float) -> bool:
+    """Whether the integral diverges at an end of a step: what is within a distance of it does not vanish with that."""
+    far, near = (abs(value(end + part * length)) * part for part in (2.0**-12, 2.0**-24))
+    return near > far / 2 > 0
 
 
 def reduce(how: str, signal: Signal, window: Window, rate: Signal | None = None) -> list[tuple[float | None, float]]:
