@@ -10,7 +10,7 @@ from freebody.model import syntax
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.tree import Fn, walk
 
-_SWITCHES = frozenset(["abs", "sign", "step", "min", "max", "clamp", "if"])
+_SWITCHES = frozenset(["abs", "sign", "step", "min", "max", "clamp", "mod", "if"])
 _COMPARED = frozenset(["<", "<=", ">", ">=", "==", "!=", "and", "or", "not"])
 _LIMITS = {"contacts": "opens and closes", "strings": "goes slack", "stops": "opens and closes"}
 _LAWS = ("forces", "motions", "joints", "gauges")

@@ -158,9 +158,14 @@ class Builder:
         self.put("gauges", name, expression)
         return Expression(spell(name))
 
-    def table(self, name: str, x: Any, y: Any, interpolation: str = "linear") -> str:
-        """A function given by points, called in expressions as ``name(x)``."""
-        self.put("tables", name, {"x": x, "y": y, "interpolation": interpolation})
+    def table(
+        self, name: str, x: Any, y: Any, interpolation: str = "linear", periodic: bool = False, file: str | None = None
+    ) -> str:
+        """A function given by points, called in expressions as ``name(x)``; ``interpolation`` is ``linear``, ``pchip`` or ``spline``.
+
+        In a CSV ``file``, ``x`` and ``y`` are its columns, ``{"column": "angle", "unit": "deg"}``."""
+        given = {"interpolation": interpolation} | _given({"periodic": periodic or None, "file": file})
+        self.put("tables", name, {"x": x, "y": y} | given)
         return name
 
     def state(self, name: str, rate: Any, start: Any = 0) -> str:

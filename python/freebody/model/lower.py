@@ -14,7 +14,7 @@ import numpy as np
 from freebody.core import CompiledModel, ModelError, MotionError, ReportItem, Spec, State, cards
 from freebody.symbolic.dimensions import TIME
 
-from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, table_friction, units
+from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, table_friction, tables, units
 from .errors import ModelFileError, ModelProblem, Path, Problem, Where
 from .outlines import Outlines
 from .schema import Model, StateVariable
@@ -175,14 +175,7 @@ def _values(write: Writer) -> None:
             written["unit"] = dimension.unit() if dimension else ""
         spec["parameters"].append(written)
     for name, table in model.tables.items():
-        path: Path = ("tables", name)
-        x, y = (_numbers(write, (*path, axis), getattr(table, axis)) for axis in "xy")
-        if len(x) != len(y) or len(x) < 2:
-            what = f"the table has {len(x)} arguments and {len(y)} values"
-            write.scope.complain(path, what, "it needs two points or more")
-        elif rows := [i for i in range(1, len(x)) if x[i] <= x[i - 1]]:
-            write.scope.complain((*path, "x", rows[0]), "the arguments of a table must grow", "put its points in order")
-        spec["tables"].append({"name": write.prefix + name, "x": x, "y": y, "interpolation": table.interpolation})
+        spec["tables"].append(tables.written(write, name, table))
     for name, text in model.gauges.items():
         spec["gauges"].append({"name": write.prefix + name, "value": write.expression(("gauges", name), text)})
         write.meanings.values[write.prefix + name] = ("gauge", write.dimension(text))
@@ -199,14 +192,6 @@ def _state(write: Writer, name: str, state: StateVariable) -> Spec:
         dimension = of_rate.times(TIME, 1)
     write.meanings.values[write.prefix + name] = ("state", dimension)
     return {"name": write.prefix + name, "start": start, "rate": rate, "unit": dimension.unit() if dimension else ""}
-
-
-def _numbers(write: Writer, path: Path, values: list[Any]) -> list[float]:
-    found: list[float] = []
-    for i, value in enumerate(values):
-        with write.scope.noting((*path, i)):
-            found.append(write.scope.parameters.number(value))
-    return found
 
 
 # -- joints, forces, motions

@@ -165,12 +165,37 @@ class Body(Marked, Shaped):
         return self
 
 
-class Table(Section):
-    """A function given by points; outside them the end value holds."""
+class Column(Section):
+    """A column of a CSV file."""
 
-    x: list[Number]
-    y: list[Number]
-    interpolation: Literal["linear", "pchip"] = "linear"
+    column: Name = Field(description="Its name in the first line of the file.")
+    unit: str = Field("", description="The unit of its numbers; SI by default.")
+
+
+Points = one_of(
+    "these are no numbers", "write a list, or `{column: name, unit: mm}` of a file", pair=list[Number], mapping=Column
+)
+
+
+class Table(Section):
+    """A function given by points; outside them the end value holds, or it is periodic."""
+
+    x: Points = Field(description="Arguments, which grow.")
+    y: Points = Field(description="Values.")
+    file: Name = Field(None, description="A CSV file, relative to this one, whose columns `x` and `y` name.")
+    interpolation: Literal["linear", "pchip", "spline"] = "linear"
+    periodic: bool = Field(False, description="Whether the values come again with the span of the arguments.")
+
+    @model_validator(mode="after")
+    def _has_its_file(self) -> Table:
+        columns = isinstance(self.x, Column) + isinstance(self.y, Column)
+        if columns and self.file is None:
+            raise refuse("a column needs the file that holds it", "add `file:` with the name of a CSV file")
+        if self.file is not None and columns < 2:
+            raise refuse(
+                "the points of this table stand in a file", "name its columns, `x: {column: angle, unit: deg}`, `y` likewise"
+            )
+        return self
 
 
 class StateVariable(Section):

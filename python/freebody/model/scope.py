@@ -40,7 +40,7 @@ class Places(Protocol):
 
 @dataclass
 class Folder:
-    """Where parts are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far,
+    """Where parts and the files of tables are looked for: relative to ``here``, never outside ``root``; ``opened`` leads here, ``parts`` are all so far,
     and ``size`` what they have made; a file is ``read`` once."""
 
     here: FilePath
@@ -91,6 +91,7 @@ class Scope:
     places: Places
     parameters: Parameters
     problems: list[Problem]
+    folder: Folder
     origin: dict[Path, Path] = field(default_factory=dict)
     parts: dict[str, Scope] = field(default_factory=dict)
 
@@ -136,8 +137,8 @@ def open_scope(
     model: Model, places: Places, folder: Folder, problems: list[Problem], prefix: str = "", overruled: Overruled | None = None
 ) -> Scope:
     """The model in use. What is wrong goes to ``problems``; the scope is then as complete as can be."""
-    parameters, model, origin = _written_out(model, places, problems, overruled or {}, folder.size)
-    scope = Scope(prefix, model, places, parameters, problems, origin)
+    parameters, model, origin = _written_out(model, places, problems, overruled or {}, folder)
+    scope = Scope(prefix, model, places, parameters, problems, folder, origin)
     for name, fault in parameters.faults.items():
         with scope.noting(("parameters", name)):
             raise fault
@@ -147,16 +148,16 @@ def open_scope(
 
 
 def _written_out(
-    model: Model, places: Places, problems: list[Problem], overruled: Overruled, size: Size
+    model: Model, places: Places, problems: list[Problem], overruled: Overruled, folder: Folder
 ) -> tuple[Parameters, Model, dict[Path, Path]]:
     data, parameters = model.written(), Parameters(model.parameters, overruled)
     if not repeats(data):
         return parameters, model, {}
-    scope = Scope("", model, places, parameters, problems)
+    scope = Scope("", model, places, parameters, problems, folder)
     with scope.noting(()):
-        given = Expansion(parameters.whole, scope, size).of(data.get("parameters", {}), ("parameters",), ("parameters",))
+        given = Expansion(parameters.whole, scope, folder.size).of(data.get("parameters", {}), ("parameters",), ("parameters",))
         parameters = Parameters(given, overruled)
-        expansion = Expansion(parameters.whole, scope, size)
+        expansion = Expansion(parameters.whole, scope, folder.size)
         written = expansion.of(data | {"parameters": given})
         try:
             return parameters, Model.model_validate(written), expansion.origin

@@ -180,6 +180,7 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     "sign": lambda x: float((x > 0) - (x < 0)),
     "step": lambda x: float(x >= 0),
     "clamp": lambda x, low, high: min(max(x, low), high),
+    "mod": lambda a, b: a - b * math.floor(a / b),
     "^": math.pow, "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
     "and": lambda a, b: bool(a) and bool(b), "or": lambda a, b: bool(a) or bool(b), "not": operator.not_,
 }  # fmt: skip

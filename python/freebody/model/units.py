@@ -174,7 +174,7 @@ def quantity(text: str) -> Quantity | None:
         if len(_PIECE.findall(written)) == 1:
             raise
         return None
-    return Quantity(_rounded(found[1], size), dimension, written)
+    return Quantity(rounded(found[1], size), dimension, written)
 
 
 class Rewritten(NamedTuple):
@@ -204,7 +204,7 @@ def rewrite(text: str, known: Callable[[str], bool] = lambda _: False) -> Rewrit
             hint = f"write `{before}({shown})` with the unit inside, or name the number under `parameters`"
             raise ModelProblem(f"`{before}{shown}` can be read in two ways", hint)
         numbers.append(read and read.dimension)
-        out.append(repr(_rounded(number, read.size)) if read else number)
+        out.append(repr(rounded(number, read.size)) if read else number)
         at = end
     return Rewritten("".join(out) + text[at:], numbers)
 
@@ -244,8 +244,10 @@ def convert(text: str) -> tuple[float, Dimension]:
     return float(size), dimension
 
 
-def _rounded(number: str, size: Fraction) -> float:
-    """The product, rounded once; numbers of absurd exponents take the ordinary way. Raises ``ModelProblem``."""
+def rounded(number: str, size: Fraction) -> float:
+    """The number of a text times the size of its unit, rounded once; numbers of absurd exponents take the ordinary way.
+
+    Raises ``ModelProblem``, and ``ValueError`` where the text is no number."""
     value = float(number.replace(" ", ""))
     if math.isinf(value * float(size)):
         raise ModelProblem(f"`{number}` is too large a number", "the largest is 1.79e308")

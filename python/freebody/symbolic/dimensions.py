@@ -119,7 +119,7 @@ Known: TypeAlias = Dimension | None
 """A dimension; None fits any."""
 Shape: TypeAlias = Known | list[list[Known]]
 """Of a number or vector one dimension, of a matrix one for each entry."""
-ALIKE = {"abs", "hypot", "min", "max", "clamp", "atan2", "sign", "step"}
+ALIKE = {"abs", "hypot", "min", "max", "clamp", "mod", "atan2", "sign", "step"}
 """Functions whose arguments have one dimension, whichever it is."""
 _DENOMINATOR = 12  # largest of an exponent: x^0.333 is a cube root
 

@@ -127,7 +127,7 @@ impl Builder<'_> {
             let path = format!("tables.{}", t.name);
             let how = Interpolation::named(&t.interpolation)
                 .map_err(|m| CompileError::from(format!("{path}.interpolation"), m))?;
-            let table = Table::new(&t.x, &t.y, how).map_err(|m| CompileError::from(&path, m))?;
+            let table = Table::new(&t.x, &t.y, how, t.periodic).map_err(|m| CompileError::from(&path, m))?;
             self.m.tables.push(table);
             self.m.table_names.push(t.name.clone());
             self.names.tables.insert(t.name.clone(), i);

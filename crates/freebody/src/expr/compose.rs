@@ -94,6 +94,14 @@ impl<L: Clone + PartialEq> Expr<L> {
             _ => self.join(other, |a, b| Op::Max { a, b, kink: discontinuity }),
         }
     }
+    /// What is left of it by whole multiples of another, from 0 up to that; `kink` names the switch.
+    pub fn modulo(self, other: Self, discontinuity: usize) -> Self {
+        match (self.literal(), other.literal()) {
+            (_, Some(0.0)) => Self::constant(f64::NAN),
+            (Some(a), Some(b)) => Self::constant(a - b * (a / b).floor()),
+            _ => self.join(other, |a, b| Op::Modulo { a, b, kink: discontinuity }),
+        }
+    }
     /// The value of a table at this argument.
     pub fn lookup(self, table: usize) -> Self {
         self.extend(|of| Op::Table(table, of))

@@ -2,7 +2,7 @@
 
 use super::function::power;
 use super::tree::{Condition, Expr, Op};
-use crate::scalar::Scalar;
+use crate::scalar::{real, Scalar};
 
 /// Where the values of leaves `L` come from, as numbers `S`.
 ///
@@ -42,7 +42,7 @@ impl<L> Expr<L> {
     /// expression has no such switch, or where the switch is undefined and cannot matter.
     ///
     /// It is x for `abs(x)` and `sign(x)`, a − b for `min(a, b)` and `max(a, b)`, b − a for `a < b`,
-    /// `a <= b`, `b > a` and `b >= a`.
+    /// `a <= b`, `b > a` and `b >= a`, sin(πa/b) for `mod(a, b)`.
     pub fn switch<E: Env<f64, L> + ?Sized>(&self, discontinuity: usize, env: &E) -> f64 {
         match self.ops.iter().position(|op| op.discontinuity() == Some(discontinuity)) {
             Some(i) => self.with_values(i, env, |values| self.ops[i].switching(values)),
@@ -114,6 +114,7 @@ impl<L> Op<L> {
             Op::Abs { of, .. } => S::select(self.branch(v, env), v[of], -v[of]),
             Op::Min { a, b, .. } => S::select(self.branch(v, env), v[b], v[a]),
             Op::Max { a, b, .. } => S::select(self.branch(v, env), v[a], v[b]),
+            Op::Modulo { a, b, .. } => v[a] - v[b].scale(self.multiple(v[a].value() / v[b].value(), env)),
             Op::Less { .. } | Op::LessEqual { .. } => number(self.branch(v, env)),
             Op::Equal(a, b) => number(v[a].value() == v[b].value()),
             Op::And(a, b) => number(truth(v[a]) && truth(v[b])),
@@ -136,12 +137,24 @@ impl<L> Op<L> {
         })
     }
 
+    /// The whole number below a ratio; of a frozen modulus that of the frozen parity whose interval is nearest.
+    fn multiple<S: Scalar, E: Env<S, L> + ?Sized>(&self, ratio: f64, env: &E) -> f64 {
+        match self.discontinuity().and_then(|discontinuity| env.branch(discontinuity)) {
+            Some(even) => {
+                let odd = if even { 0.0 } else { 1.0 };
+                2.0 * (0.5 * (ratio - 0.5 - odd)).round() + odd
+            }
+            None => ratio.floor(),
+        }
+    }
+
     /// The switching function; NaN when it is no switch.
     fn switching<S: Scalar>(&self, v: &[S]) -> f64 {
         match *self {
             Op::Abs { of, .. } | Op::Sign { of, .. } => v[of].value(),
             Op::Min { a, b, .. } | Op::Max { a, b, .. } => v[a].value() - v[b].value(),
             Op::Less { a, b, .. } | Op::LessEqual { a, b, .. } => v[b].value() - v[a].value(),
+            Op::Modulo { a, b, .. } => real::sin_pi(v[a].value() / v[b].value()),
             _ => f64::NAN,
         }
     }

@@ -17,7 +17,7 @@
 //!
 //! # Switches
 //!
-//! `abs`, `sign`, `min`, `max`, `<`, `<=`, `>` and `>=` are switches: each owns an identifier, its
+//! `abs`, `sign`, `min`, `max`, `mod`, `<`, `<=`, `>` and `>=` are switches: each owns an identifier, its
 //! *discontinuity*, and a switching function whose sign tells the arm. An environment may freeze the arm, so
 //! that an integrator sees smooth functions only and finds the discontinuities as zeros of [`Expr::switch`].
 
@@ -30,6 +30,7 @@ mod nearest;
 mod parse;
 mod print;
 mod resolve;
+mod slopes;
 mod table;
 #[cfg(test)]
 mod tests;

@@ -100,6 +100,7 @@ impl<L> Op<L> {
             Op::Sign { of, .. } => (format!("sign({})", plain(of)), Bond::Operand),
             Op::Min { a, b, .. } => call("min", a, b),
             Op::Max { a, b, .. } => call("max", a, b),
+            Op::Modulo { a, b, .. } => call("mod", a, b),
             Op::Less { a, b, .. } => (infix(a, Bond::Sum, " < ", b, Bond::Sum), Bond::Condition),
             Op::LessEqual { a, b, .. } => (infix(a, Bond::Sum, " <= ", b, Bond::Sum), Bond::Condition),
             Op::Equal(a, b) => (infix(a, Bond::Sum, " == ", b, Bond::Sum), Bond::Condition),

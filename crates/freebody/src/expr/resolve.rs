@@ -8,10 +8,10 @@ use super::{nearest, Ast, Condition, Expr, ExprError, Kind, Message, Operator};
 pub const MAX_OPERATIONS: usize = 100_000;
 
 /// The functions that every expression knows. `step(x)` is 1 where x > 0, else 0; `clamp(x, a, b)`
-/// is x kept between a and b; `min` and `max` take two arguments or more.
-pub const FUNCTIONS: [&str; 23] = [
+/// is x kept between a and b; `min` and `max` take two arguments or more; `mod(a, b)` is a − b floor(a/b).
+pub const FUNCTIONS: [&str; 24] = [
     "sqrt", "exp", "ln", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "atan2", "hypot", "abs",
-    "sign", "step", "min", "max", "clamp", "if", "rate", "accel",
+    "sign", "step", "min", "max", "clamp", "mod", "if", "rate", "accel",
 ];
 
 /// What the names in an expression mean.
@@ -165,9 +165,13 @@ where
             let x = Expr::resolve(&arguments[0], scope)?;
             of_one(ast, name, x, scope)
         }),
-        "atan2" | "hypot" => arity(ast, name, arguments, 2, || {
+        "atan2" | "hypot" | "mod" => arity(ast, name, arguments, 2, || {
             let (a, b) = (Expr::resolve(&arguments[0], scope)?, Expr::resolve(&arguments[1], scope)?);
-            Ok(if name == "atan2" { a.atan2(b) } else { a.hypot(b) })
+            Ok(match name {
+                "atan2" => a.atan2(b),
+                "hypot" => a.hypot(b),
+                _ => a.modulo(b, scope.discontinuity()),
+            })
         }),
         "min" | "max" => extreme(ast, name, arguments, scope),
         "clamp" => arity(ast, name, arguments, 3, || {

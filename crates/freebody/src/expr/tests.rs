@@ -80,7 +80,7 @@ impl<S: Scalar> Env<Jet<S>, char> for MotionView<'_, S> {
 
 fn ramp<S: Scalar>(table: usize, x: S) -> S {
     assert_eq!(table, 7);
-    Table::new(&[-2.0, 0.0, 2.0], &[0.0, 1.0, 5.0], Interpolation::Linear).unwrap().eval(x)
+    Table::new(&[-2.0, 0.0, 2.0], &[0.0, 1.0, 5.0], Interpolation::Linear, false).unwrap().eval(x)
 }
 
 fn resolve(text: &str) -> Result<Expr<char>, ExprError> {
@@ -129,7 +129,7 @@ fn texts() -> impl Strategy<Value = String> {
             (two.clone(), prop::sample::select(vec!["+", "-", "*", "/", " ** "]))
                 .prop_map(|((a, b), s)| format!("({a}){s}({b})")),
             (two.clone(), prop::sample::select(vec!["+", "-", "*", "/"])).prop_map(|((a, b), s)| format!("{a}{s}{b}")),
-            (two, prop::sample::select(vec!["min", "max", "atan2", "hypot"]))
+            (two, prop::sample::select(vec!["min", "max", "atan2", "hypot", "mod"]))
                 .prop_map(|((a, b), f)| format!("{f}({a}, {b})")),
             (inner.clone(), prop::sample::select(vec!["sin", "tanh", "abs", "sign", "step", "ramp", "double"]))
                 .prop_map(|(a, f)| format!("{f}({a})")),
@@ -165,6 +165,7 @@ proptest! {
             "2^x", "x^x", "abs(x - 0.5)", "sign(x - 0.5)*x", "min(x, 1 - x)", "max(x, 1 - x)", "clamp(x, 0.3, 0.7)*x",
             "if(x < 0.5, x^2, 3*x)", "if(x < 0.3 or x >= 0.6 and not x > 0.8, x^2, 3*x)", "step(x - 0.5)*x", "ramp(x - 0.5)",
             "rate(x^3)", "accel(sin(x))", "rate(abs(x - 0.5)*x)", "x/(x + y)", "-x^2", "max(0, x - 0.5)^1.5",
+            "mod(x + 0.5, 1)*x",
         ];
         // Central differences need a neighbourhood without discontinuities.
         prop_assume!([0.3, 0.5, 0.6, 0.7, 0.8].iter().all(|discontinuity| (x - discontinuity).abs() > 1e-4));
@@ -211,6 +212,8 @@ fn precedence_is_that_of_mathematics() {
         ("min(4, 2, 3)", 2.0),
         ("clamp(5, 0, 2)", 2.0),
         ("step(0) + step(1)", 1.0),
+        ("mod(7.5, 2)", 1.5),
+        ("mod(-1, 3) + mod(5, -3)", 1.0),
         ("sign(0)", 0.0),
         ("ramp(1)", 3.0),
         ("double(4)", 8.0),
@@ -231,6 +234,8 @@ fn meanings_are_checked_where_they_stand() {
         ("if(x, 1, 2)", 3..4, "a condition is needed", "x > 0"),
         ("2*(x < y)", 3..8, "a number is needed", "if("),
         ("accel(2 + rate(x))", 0..18, "time derivative", "rate"),
+        ("mod(x)", 0..6, "takes 2 arguments, not 1", ""),
+        ("mod(x, 0)", 0..9, "undefined", "division by 0"),
         ("x + 1/0", 6..7, "infinite", "division by 0"),
         ("min(x)", 0..6, "two arguments", ""),
     ] {
@@ -279,6 +284,22 @@ fn frozen_arms_go_on_smoothly() {
                 assert_eq!(slope(&expr, x, Some(arm)), rate, "{text} at {x}");
             }
         }
+    }
+}
+
+#[test]
+fn a_frozen_modulus_goes_on_smoothly_across_both_its_jumps() {
+    let expr = resolve("mod(x, z)").unwrap();
+    let at = |x: f64, arm| expr.eval(&At { values: [x, -1.3, 2.0], arm });
+    for (x, even) in [(4.0, true), (5.9, true), (6.0, false), (-1.9, false), (-2.1, true)] {
+        let here = at(x, None);
+        assert_eq!(at(x, Some(even)), here, "at {x}");
+        for step in [-0.05, 0.05] {
+            assert!((at(x + step, Some(even)) - here - step).abs() < 1e-15, "at {x} + {step}");
+        }
+        assert_eq!(slope(&expr, x, Some(even)), 1.0);
+        let switch = expr.switch(1, &free([x, -1.3, 2.0]));
+        assert!(switch == 0.0 && x % 2.0 == 0.0 || (switch > 0.0) == even, "at {x}");
     }
 }
 

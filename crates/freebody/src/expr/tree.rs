@@ -49,6 +49,12 @@ pub(super) enum Op<L> {
         b: usize,
         kink: usize,
     },
+    /// a − n b, with the whole number n that goes into a/b.
+    Modulo {
+        a: usize,
+        b: usize,
+        kink: usize,
+    },
     Less {
         a: usize,
         b: usize,
@@ -80,6 +86,7 @@ impl<L> Op<L> {
         match *self {
             Op::Abs { kink: discontinuity, .. } | Op::Sign { kink: discontinuity, .. } => Some(discontinuity),
             Op::Min { kink: discontinuity, .. } | Op::Max { kink: discontinuity, .. } => Some(discontinuity),
+            Op::Modulo { kink: discontinuity, .. } => Some(discontinuity),
             Op::Less { kink: discontinuity, .. } | Op::LessEqual { kink: discontinuity, .. } => Some(discontinuity),
             _ => None,
         }
@@ -111,6 +118,7 @@ impl<L> Op<L> {
             Sign { of, kink: discontinuity } => Sign { of: to(of), kink: discontinuity },
             Min { a, b, kink: discontinuity } => Min { a: to(a), b: to(b), kink: discontinuity },
             Max { a, b, kink: discontinuity } => Max { a: to(a), b: to(b), kink: discontinuity },
+            Modulo { a, b, kink: discontinuity } => Modulo { a: to(a), b: to(b), kink: discontinuity },
             Less { a, b, kink: discontinuity } => Less { a: to(a), b: to(b), kink: discontinuity },
             LessEqual { a, b, kink: discontinuity } => LessEqual { a: to(a), b: to(b), kink: discontinuity },
             Equal(a, b) => Equal(to(a), to(b)),

@@ -175,7 +175,7 @@ impl<'m> HybridSystem<'m> {
         let at = self.workspace.at();
         match discontinuity {
             Discontinuity::Switch(switch, law) | Discontinuity::Bend(switch, law) => law.switch(*switch, &State(at)),
-            Discontinuity::Knot(_, argument, x) => argument.eval::<f64, _>(&State(at)) - x,
+            Discontinuity::Knot(table, argument, x) => at.m.tables[*table].beyond(argument.eval(&State(at)), *x),
         }
     }
 

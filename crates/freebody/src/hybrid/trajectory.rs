@@ -258,7 +258,11 @@ impl Trajectory {
     /// As [`Trajectory::sample`].
     pub fn tables_left(&self, m: &Mechanism) -> Result<Vec<(usize, f64)>, DynamicsError> {
         let lookups = m.discontinuities.iter().filter_map(|discontinuity| match discontinuity {
-            Discontinuity::Knot(table, argument, x) if *x == m.tables[*table].span()[0] => Some((*table, argument)),
+            Discontinuity::Knot(table, argument, x)
+                if m.tables[*table].span().is_some_and(|[first, _]| *x == first) =>
+            {
+                Some((*table, argument))
+            }
             _ => None,
         });
         let (tables, arguments): (Vec<usize>, Vec<&ModelExpr>) = lookups.unzip();
@@ -268,7 +272,7 @@ impl Trajectory {
         let middles: Vec<f64> = self.steps.windows(2).map(|step| 0.5 * (step[0] + step[1])).collect();
         let (rows, mut left) = (self.evaluate(m, &arguments, &middles)?, vec![]);
         for (k, &table) in tables.iter().enumerate() {
-            let [first, last] = m.tables[table].span();
+            let Some([first, last]) = m.tables[table].span() else { continue };
             let beyond = rows.iter().position(|row| row[k] < first || row[k] > last);
             left.extend(beyond.map(|step| (table, self.steps[step])));
         }

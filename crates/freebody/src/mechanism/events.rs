@@ -9,7 +9,7 @@ use crate::gauges::{ModelExpr, ModelVariable};
 pub enum Discontinuity {
     /// A switch of a law, by its identifier; its arm is frozen between the discontinuities.
     Switch(usize, ModelExpr),
-    /// A table, and its argument at one of its points.
+    /// A table, and its argument at one of its points; of a periodic table also at what repeats it.
     Knot(usize, ModelExpr, f64),
     /// A switch in the description of the curve of a joint, by its identifier; its arm is never frozen.
     Bend(usize, ModelExpr),

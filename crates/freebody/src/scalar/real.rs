@@ -34,6 +34,13 @@ fn careful(x: f64) -> (f64, f64) {
     libm::sincos(x)
 }
 
+/// sin(πx), exactly 0 at whole numbers.
+pub fn sin_pi(x: f64) -> f64 {
+    let near = x - 2.0 * (0.5 * x).round();
+    let folded = if near.abs() > 0.5 { near.signum() - near } else { near };
+    sin_cos(std::f64::consts::PI * folded).0
+}
+
 /// Natural exponential.
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
@@ -173,6 +180,16 @@ mod tests {
         for x in [0.0, -0.0, 5e-324, -1e-300, 1e-9] {
             let (s, c) = sin_cos(x);
             assert_eq!((s.to_bits(), c), (f64::to_bits(x), 1.0));
+        }
+    }
+
+    #[test]
+    fn the_sine_of_whole_half_turns_vanishes() {
+        for n in -1001_i32..1001 {
+            let half_turns = f64::from(n);
+            assert_eq!(sin_pi(half_turns), 0.0);
+            let sign = if n.rem_euclid(2) == 0 { 1.0 } else { -1.0 };
+            assert!((sin_pi(half_turns + 0.3) - sign * sin_cos(0.3 * std::f64::consts::PI).0).abs() < 1e-12);
         }
     }
 

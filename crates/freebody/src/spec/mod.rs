@@ -83,8 +83,11 @@ pub struct Table {
     pub x: Vec<f64>,
     /// Values, one for each argument.
     pub y: Vec<f64>,
-    /// How to read between the points: `linear` or `pchip`. Outside, the end value holds.
+    /// How to read between the points: `linear`, `pchip` or `spline`.
     pub interpolation: String,
+    /// Whether the values come again with the span of the arguments; otherwise the end value holds outside.
+    #[serde(default)]
+    pub periodic: bool,
 }
 
 /// A rigid body or a particle.
