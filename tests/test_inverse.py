@@ -144,3 +144,24 @@ def test_a_law_that_switches_just_at_the_start_is_on_the_side_to_which_it_goes(l
     model.hinge("ground.O", "bar.start", coordinate="a")
     model.motion("drive", "a", law)
     assert model.simulate(1).evaluate("a", 0.7) == pytest.approx(0.7, rel=1e-12)
+
+
+HIP = """
+freebody: 1
+bodies: {trunk: {shape: rod, length: 0.5, mass: 2}, left: {shape: rod, length: 0.4, mass: 1}, right: {shape: rod, length: 0.4, mass: 1}}
+joints:
+  neck: {type: hinge, of: [ground.O, trunk.end], coordinate: a}
+  hip: {type: hinge, of: [trunk.start, left.start, right.start]}
+initial: {a: -0.4, hip.left.angle: 0.3, hip.right.angle: -0.2, at_rest: true}
+"""
+
+
+def test_coordinates_of_a_pin_of_three_bodies_have_their_names_everywhere():
+    """What keeps a leg at rest carries its weight beside the hip: −m g l/2 cos of its angle from the x axis."""
+    model = fb.Mechanism.loads(HIP)
+    found = model.inverse("rest")
+    for leg, angle in (("left", -0.1), ("right", -0.6)):
+        assert found.evaluate(f"hip.{leg}.angle", 0.5) == pytest.approx(angle + 0.4, abs=1e-12)
+        assert found.evaluate(f"'motion of hip {leg} angle'.force", 0.0) == pytest.approx(9.81 * 0.2 * np.cos(angle), rel=1e-12)
+    with pytest.raises(fb.ModelFileError, match=r"`hip\.angle`"):
+        model.simulate(until=0.1, **{"hip.angle": 0})

@@ -196,6 +196,8 @@ def coordinate_names(name: str, joint: Any) -> list[tuple[str, cards.Coordinate]
     """The coordinates of a joint with their cards; those without a name of their own are ``joint.angle`` and the like."""
     card = cards.joints()[joint.type]
     named = [c if isinstance(c, str) else c.name for c in elements.coordinates(joint)]
-    own = named + [f"{name}.{c.name}" for c in card.coordinates][len(named) :]
-    # More names than the card has coordinates: a pin of several bodies repeats them.
+    # A pin of several bodies is one of each with the first, named after the other body.
+    others = (getattr(joint, "of", None) or [])[1:]
+    owners = [name] if len(others) < 2 else [f"{name}.{point.rpartition('.')[0]}" for point in others]
+    own = named + [f"{owner}.{c.name}" for owner in owners for c in card.coordinates][len(named) :]
     return list(zip(own, cycle(card.coordinates), strict=False))
