@@ -8,6 +8,9 @@ rod's point Q under P, the motion relative to the rod and Coriolis' term must ad
 import numpy as np
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.answers import formula
+from freebody.document.blocks import Equation, Vector
+from freebody.equations.topics import topic
 
 L, R, MASS, W1, W2, START = 2.0, 0.5, 0.5, 3.0, 5.0, np.radians(30)
 OA, AP = L * np.array([np.cos(START), np.sin(START)]), R * np.array([np.cos(START), -np.sin(START)])
@@ -51,6 +54,25 @@ def force(case):
     yield Answer("acceleration of P", whole, "m/s²", ACCELERATION, "closed form: place differentiated twice", 1e-13)
     yield Answer(
         "net force on P", pair(now, "rim.F{}"), "N", MASS * ACCELERATION, "closed form: place differentiated twice", 1e-13
+    )
+
+
+@ask("point by point: the named terms against the place differentiated twice, and what the printed acceleration differs by")
+def account(case):
+    """Along OA only −ω1²; along AP the three parts −ω1² − ω2² + 2 ω1 ω2 are −(ω1 − ω2)²."""
+    document = topic(case.mechanism(), "frame", point="wheel.P", body="rod")
+    vectors = [each for each in document.blocks if isinstance(each, Equation) and isinstance(each.right, Vector)]
+    parts = {each.left.text: {unit: tree for tree, unit in each.right.components} for each in vectors}
+    for word, check in {"a_relative": "-r*rate(phi)^2", "a_coriolis": "2*r*rate(theta)*rate(phi)"}.items():
+        label, tree = f"{word} along AP", parts[word]["λ_wheel"]
+        yield formula(label, tree, check, "closed form: circle, and 2 ω1 k × v_rel", document.letters)
+    both = {"λ_rod": "-l*w1^2", "λ_wheel": "-r*(w1 - w2)^2"}
+    for unit, check in both.items():
+        yield formula(f"a along {unit}", parts["a"][unit], check, "closed form: place differentiated twice", document.letters)
+    printed = np.array([-17.83, -3.63])
+    less = printed - pair(case.instant(), "a{}(wheel.P)")
+    yield Answer(
+        "printed acceleration of P less this", less, "m/s²", printed - ACCELERATION, "closed form: differentiated", 1e-12
     )
 
 

@@ -5,9 +5,17 @@ angular momentum hold only T and the force at D: bars BC and DC about B, DC abou
 forces follow from linear momentum. See ``_linkages.py``.
 """
 
+import numpy as np
+
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.answers import formula
+from freebody.document.blocks import Equation
 from freebody.equations import Sym
+from freebody.equations.topics import topic
+from freebody.solve.symbolic_state import SymbolicState
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import linear_in
+from freebody.symbolic.tree import minus
 from freebody.systems._linkages import FourBar, nearest_turn
 
 CASES = {"first case": (1, 1.1, 4.0, 0.0), "second case": (-1, 2.6, -3.0, 5.0)}
@@ -73,6 +81,24 @@ def forces(case):
                 "closed form: balances, bar by bar",
                 1e-11,
             )
+
+
+@ask("T and the force at D by three balances that hold nothing else: whole about A, BCD about B, CD about C")
+def three_balances(case):
+    unknown = [Sym(name) for name in ("drive.force", "D.Fx", "D.Fy")]
+    for name, (side, theta, rate, turning) in CASES.items():
+        now, bars, hand = given(case, name)
+        mechanism = case.mechanism("driven.yaml", side=side, theta0=theta, w0=rate, a0=turning)
+        values, rows = SymbolicState(mechanism.source(), now.state).values, []
+        for about, bodies in (("ground.A", "ab bc dc"), ("bc.start", "bc dc"), ("dc.end", "dc")):
+            document = topic(mechanism, "moment", about=about, bodies=bodies.split())
+            balance = next(each for each in document.blocks if isinstance(each, Equation) and str(each.name).startswith("So "))
+            linear = linear_in(minus(balance.left, balance.right), unknown)
+            rest = [evaluate(linear.rest, values)]
+            rows.append([evaluate(linear.coefficients[x], values) if x in linear.coefficients else 0.0 for x in unknown] + rest)
+        value = np.linalg.solve(np.array(rows)[:, :3], -np.array(rows)[:, 3])
+        torque, *_, at_d = bars.forces(hand)
+        yield Answer(f"T, D_x, D_y, {name}", value, "N·m, N", [torque, at_d.real, at_d.imag], "closed form: by hand", 1e-11)
 
 
 @ask("symbolically:  the torque, with the ratios of rates k = dβ/dθ, dφ/dθ and c = β̈, φ̈ for θ̈ = 0")
