@@ -1,34 +1,50 @@
 """Unwanted vibration of a nominally rigid slider-crank.
 
-About the crank at θ and the straight rod at β the loop leaves δθ and the bend δ free: with y of the slider at 0 the halves of the rod turn by
-g δθ ∓ δ/2, g = −r cos θ/(l cos β). From the velocities of the mass centres come M = Re Σ m v̄ vᵀ + Σ I ω ωᵀ, and K = diag(k_shaft, k_rod).
+About the crank at θ and the straight rod at β the loop leaves δθ and the bend δ free. From the velocities of the mass centres, complex, come
+M = Re Σ m v̄ vᵀ + Σ I ω ωᵀ, and K = diag(k_shaft, k_rod). A rotor that turns steadily feels the torque of the shaft.
 """
 
 from cmath import exp
-from math import asin, cos, pi, radians, sin
+from math import asin, cos, pi, radians, sin, tan, tau
 
 import numpy as np
 from scipy.linalg import eigh
+from scipy.optimize import minimize_scalar
 
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.reference import motion
+from freebody.inverse import steady
 
 R, L, M1, M2, M3, THETA = 0.1, 0.3, 1.0, 2.0, 1.5, radians(60)
 HAND = "closed form: masses and stiffnesses by hand"
 
 
+def mechanics(theta, bend=0.0, rates=(0.0, 0.0)):
+    """Masses by (θ, δ), kg m², and what the velocities take along them. The halves of the rod turn to γ ∓ δ/2 with
+    r sin θ + l cos(δ/2) sin γ = 0, the slider's height."""
+    rates, c, s = np.array(rates), cos(bend / 2), sin(bend / 2)
+    mean = -asin(R * sin(theta) / (L * c))
+    slope = np.array([-R * cos(theta) / (L * c * cos(mean)), tan(mean) * s / c / 2])
+    (turn, bending), spin = rates, slope @ rates
+    curved = R * sin(theta) * turn**2 + L * (sin(mean) * c * (spin**2 + bending**2 / 4) + cos(mean) * s * spin * bending)
+    curved /= L * c * cos(mean)
+    turns = np.array([[1, 0], slope - [0, 0.5], slope + [0, 0.5]])
+    bars = [R * exp(1j * theta), L / 2 * exp(1j * (mean - bend / 2)), L / 2 * exp(1j * (mean + bend / 2))]
+    centripetal = [bar * (1j * w - (row @ rates) ** 2) for bar, row, w in zip(bars, turns, (0, curved, curved), strict=True)]
+    pin, middle, end = np.cumsum([1j * bar * row for bar, row in zip(bars, turns, strict=True)], axis=0)
+    first, second, third = np.cumsum(centripetal)
+    places = [(M1, pin / 2, first / 2), (M2 / 2, (pin + middle) / 2, (first + second) / 2)]
+    places += [(M2 / 2, (middle + end) / 2, (second + third) / 2), (M3, end, third)]
+    inertias = [M1 * R**2 / 12, *[M2 / 2 * (L / 2) ** 2 / 12] * 2]
+    moved = sum(m * np.outer(v.conj(), v).real for m, v, _ in places)
+    moved = moved + sum(i * np.outer(w, w) for i, w in zip(inertias, turns, strict=True))
+    taken = sum(m * (v.conj() * a).real for m, v, a in places)
+    return moved, taken + curved * sum(i * w for i, w in zip(inertias[1:], turns[1:], strict=True))
+
+
 def mass():
     """By (δθ, δ), kg m²."""
-    beta = -asin(R * sin(THETA) / L)
-    g = -R * cos(THETA) / (L * cos(beta))
-    turns = np.array([[1, 0], [g, -0.5], [g, 0.5]])
-    arm, half = 1j * R * exp(1j * THETA), 1j * L / 2 * exp(1j * beta)
-    pin = arm * turns[0]
-    middle = pin + half * turns[1]
-    end = middle + half * turns[2]
-    places = [(M1, pin / 2), (M2 / 2, (pin + middle) / 2), (M2 / 2, (middle + end) / 2), (M3, end)]
-    inertias = [M1 * R**2 / 12, *[M2 / 2 * (L / 2) ** 2 / 12] * 2]
-    moved = sum(m * (np.outer(v.real, v.real) + np.outer(v.imag, v.imag)) for m, v in places)
-    return moved + sum(i * np.outer(w, w) for i, w in zip(inertias, turns, strict=True))
+    return mechanics(THETA)[0]
 
 
 @ask("Frequencies and shapes")
@@ -59,3 +75,50 @@ def stiffening(case):
     short = [case.mechanism(k_rod=k).stability()[0].modes[0].frequency / rigid - 1 for k in (1e5, 1e6, 1e7)]
     check = [np.sqrt(eigh(np.diag([500.0, k]), m)[0][0]) / (2 * pi) / rigid - 1 for k in (1e5, 1e6, 1e7)]
     yield Answer("lowest frequency over that of a rigid rod, less 1", short, "", check, HAND, 1e-5)
+
+
+def extremes(torque, around, span):
+    """The greatest and the least torque, near times of both."""
+    found = (
+        minimize_scalar(
+            lambda t, sign=sign: -sign * torque(t), bounds=(t - span, t + span), method="bounded", options={"xatol": 1e-9}
+        )
+        for sign, t in zip((1, -1), around, strict=True)
+    )
+    return [torque(one.x) for one in found]
+
+
+@ask("Torque ripple with the rotor at 20 rad/s: rigid")
+def rigid_ripple(case):
+    """Shaft and rod hold the crank at the rotor's speed: the torque is what the velocities take."""
+    given = case.mechanism(k_shaft=0).inverse({"theta": steady("20 rad/s"), "bend": steady(0)}, until=tau / 20)
+
+    def torque(t):
+        return mechanics(THETA + 20 * t, 0.0, (20.0, 0.0))[1][0]
+
+    times = np.arange(1, 9) * tau / 160
+    value = given.evaluate("'motion of theta'.force", times)
+    yield Answer("torque, eighths of a turn on from 60°", value, "N·m", [torque(t) for t in times], HAND, 1e-10)
+    said = given.summary("'motion of theta'.force")
+    check = extremes(torque, (said.greatest.t, said.least.t), 0.01)
+    yield Answer("greatest and least", [said.greatest.value, said.least.value], "N·m", check, HAND, 1e-10)
+
+
+@ask("Torque ripple with the rotor at 20 rad/s: elastic, 1 N·m·s/rad across each spring")
+def elastic_ripple(case):
+    """Two turns leave 2e-4 of how it began."""
+
+    def rates(t, y):
+        moved, taken = mechanics(y[0], y[1], y[2:])
+        twist = THETA + 20 * t - y[0]
+        force = np.array([500 * twist + 20 - y[2], -20e3 * y[1] - y[3]])
+        return [*y[2:], *np.linalg.solve(moved, force - taken)]
+
+    times = 2 * tau / 20 + np.arange(1, 65) * tau / 1280
+    run = case.run(parameters={"w": 20, "c": 1}, until=3 * tau / 20, method="dop853", rtol=1e-11)
+    torque, states = run.evaluate("drive.force", times), motion(rates, [THETA, 0, 20, 0], times)
+    check = np.array([500 * (THETA + 20 * t - y[0]) + 20 - y[2] for t, y in zip(times, states, strict=True)])
+    against = "other route: Lagrange's equations, integrated by SciPy"
+    yield Answer("torque of the third turn, eighths of a turn on from 60°", torque[7::8], "N·m", check[7::8], against, 1e-8)
+    extreme = [torque.max(), torque.min()]
+    yield Answer("greatest and least of 64 places in it", extreme, "N·m", [check.max(), check.min()], against, 1e-8)
