@@ -37,10 +37,12 @@ def stability(
     import numpy as np
     from rich.console import Console
 
+    from freebody.stability import modes
     from freebody.stability.answers import response_table
-    from freebody.stability.modes import gains
 
     mechanism, near = opened(model, changes), pairs(at)
+    if along and (bounds or inputs or outputs or response or poles or output):
+        raise UserError("--along follows curves and gives nothing else", "ask for the rest without it, or with --set at one value")
     if along:
         name, *within = _range(along, "--along")
         found: Any = mechanism.equilibria_along(name, tuple(within), **near)
@@ -49,23 +51,30 @@ def stability(
         found = mechanism.stability(bounds=limits, inputs=inputs or (), outputs=outputs or (), **near)
     asked: list[Any] = []
     stated = found.to_json()
-    for rest in () if along else found:
+    for rest, plain in () if along else zip(found, stated["equilibria"], strict=True):
         if response:
             low, high = _numbers(response.split(".."), "--response", "write two frequencies in Hz, like --response 0.1..20")
-            asked.append(response_table(rest, np.geomspace(low, high, 25)))
+            frequencies = np.geomspace(low, high, 25)
+            asked.append(response_table(rest, frequencies))
+            values = modes.response(rest.space, frequencies).view(float).reshape(25, len(rest.space.outputs), -1, 2)
+            plain["response"] = [
+                {"frequency": f, "values": each} for f, each in zip(frequencies.tolist(), values.tolist(), strict=True)
+            ]
         if poles:
             wanted = _numbers(poles.split(","), "--poles", "write as many as there are states, like --poles='-1,-2'", complex)
-            found_gains = gains(rest.space, wanted)
+            found_gains = modes.gains(rest.space, wanted)
             asked.append(_gain_table(rest.space, found_gains))
-            stated["gains"] = found_gains.tolist()
-    if as_json:
-        print_json(stated)
-    else:
-        Console().print(found, *asked)
+            plain["gains"] = found_gains.tolist()
+    made = []
     if output:
         from freebody.views.modes import draw_modes
 
-        written(draw_modes(found[0], output))
+        made.append(draw_modes(found[0], output))
+    if as_json:
+        print_json(stated | {"files": [str(path) for path in made]} if made else stated)
+        return
+    Console().print(found, *asked)
+    written(*made)
 
 
 def _range(text: str, option: str) -> tuple[str, ...]:

@@ -13,7 +13,7 @@ from freebody.core import State
 from freebody.model.start import quantity
 from freebody.solve.rich_tables import PlainText, captured, table
 from freebody.stability import modes
-from freebody.stability.continuation import Curve, follow
+from freebody.stability.continuation import STEPS, Curve, follow
 from freebody.stability.equilibria import Equilibrium, equilibria, equilibrium
 
 if TYPE_CHECKING:
@@ -64,11 +64,19 @@ class Stability(PlainText):
 
 @dataclass(frozen=True)
 class Curves(PlainText):
-    """Curves of equilibria along a ``parameter`` of a ``unit``."""
+    """Curves of equilibria along a ``parameter`` of a ``unit``; ``left``: how many branch points wait from which none was followed."""
 
     parameter: str
     unit: str
     curves: tuple[Curve, ...]
+    left: int = 0
+
+    @property
+    def missing(self) -> list[str]:
+        """What was not followed, in sentences."""
+        cut = [f"curve {i} goes on: {STEPS} steps were made" for i, curve in enumerate(self.curves, 1) if curve.is_cut]
+        more = f"{len(self.curves)} curves were followed; at {self.left} more branch points others may begin"
+        return cut + [more] * (self.left > 0)
 
     def __str__(self) -> str:
         return captured(self, 100)
@@ -85,12 +93,15 @@ class Curves(PlainText):
             special = [(each.kind, each.value, *each.state.q.tolist()) for each in curve.special]
             if special:
                 yield table("special points", ["", head, *names], special, [head, *names])
+        yield from self.missing
 
     def to_json(self) -> list[dict[str, Any]]:
         """For scripts, SI."""
         return [
             {
                 "parameter": self.parameter,
+                "is_cut": curve.is_cut,
+                "left": self.left,
                 "values": curve.values.tolist(),
                 "coordinates": [rest.coordinates for rest in curve.equilibria],
                 "stability": [rest.stability for rest in curve.equilibria],
@@ -119,13 +130,23 @@ def stability(
     if wrong := [name for name in bounds if name not in units]:
         raise ValueError(f"no coordinate is called {wrong[0]!r}; there are {', '.join(units)}")
     within = {name: tuple(quantity(name, x, units[name]) for x in pair) for name, pair in bounds.items()}
-    all_found = equilibria(source, state, within, inputs, outputs)
+    _require_order(within)
+    all_found, singular = equilibria(source, state, within, inputs, outputs)
     said = ", ".join(f"{name} from {low:g} to {high:g} {units[name]}" for name, (low, high) in within.items())
+    places = (", ".join(f"{n} = {x:g}" for n, x in zip(units, rest.q.tolist(), strict=True)) for rest in singular)
+    left = "".join(f"\nNot judged, since this configuration is singular: {place}." for place in places)
     if not all_found:
-        raise NoEquilibrium(f"no equilibrium was found with {said}; look in wider bounds, or begin nearer to one")
+        raise NoEquilibrium(f"no equilibrium was found with {said}; look in wider bounds, or begin nearer to one{left}")
     how = "Newton's method from starts that fill the bounds"
     how += ", and between any two where the acceleration changes its sign" if len(within) == 1 else ""
-    return Stability(tuple(all_found), f"{len(all_found)} with {said}: {how}; two routes find accelerations of 0.")
+    return Stability(tuple(all_found), f"{len(all_found)} with {said}: {how}; two routes find accelerations of 0.{left}")
+
+
+def _require_order(within: Mapping[str, tuple[float, float]]) -> None:
+    """Raises ``ValueError`` for bounds of which the first is the greater."""
+    if wrong := [name for name, (low, high) in within.items() if not low < high]:
+        low, high = within[wrong[0]]
+        raise ValueError(f"{wrong[0]} from {low:g} to {high:g}: give the lower bound first")
 
 
 def curves(mechanism: Builder, state: State, parameter: str, within: tuple[Any, Any], changes: Mapping[str, Any]) -> Curves:
@@ -135,6 +156,10 @@ def curves(mechanism: Builder, state: State, parameter: str, within: tuple[Any, 
     if parameter not in known:
         raise ValueError(f"no parameter is called {parameter!r}; there are {', '.join(known) or 'none'}")
     low, high = (quantity(parameter, x, known[parameter]) for x in within)
+    _require_order({parameter: (low, high)})
+    here = float(state.p[list(known).index(parameter)])
+    if not low <= here <= high:
+        raise ValueError(f"{parameter} is {here:g} at the start, outside {low:g} to {high:g}: begin within, with {parameter}={low:g}")
     if (first := equilibrium(source, state)) is None:
         raise NoEquilibrium("no equilibrium was found from the start; give coordinates near one")
     others = {name: value for name, value in changes.items() if name in known}
@@ -142,7 +167,8 @@ def curves(mechanism: Builder, state: State, parameter: str, within: tuple[Any, 
     def bind(value: float) -> Any:
         return mechanism.initial_state({**others, parameter: value})["p"]
 
-    return Curves(parameter, known[parameter], tuple(follow(source, first.state, parameter, (low, high), bind)))
+    found, left = follow(source, first.state, parameter, (low, high), bind)
+    return Curves(parameter, known[parameter], tuple(found), left)
 
 
 def response_table(rest: Equilibrium, frequencies: ArrayLike) -> Any:

@@ -18,7 +18,7 @@ from freebody.stability.state_space import SingularConfiguration, by_parameter, 
 
 # Along a curve angles are in rad, lengths in parts of the size of the mechanism, the parameter in parts of its range.
 _STEP, _SHORTEST = 0.03, 1e-6
-_STEPS, _CURVES = 1000, 12
+STEPS, _CURVES = 1000, 12
 _CORRECTIONS, _CLOSE = 8, 1e-11
 _BEND = 0.9
 """Cosine between the directions at both ends of a step, below which it is halved."""
@@ -38,11 +38,13 @@ class Special:
 
 @dataclass(frozen=True)
 class Curve:
-    """Places of rest in the order of a curve, with the ``values`` of the parameter (SI) and ``special`` points."""
+    """Places of rest in the order of a curve, with the ``values`` of the parameter (SI) and ``special`` points. ``is_cut``: it goes on
+    beyond the steps that were made."""
 
     values: Array
     equilibria: tuple[Equilibrium, ...]
     special: tuple[Special, ...]
+    is_cut: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,10 +61,10 @@ class _Point:
 
 def follow(
     source: CompiledModel, first: State, parameter: str, within: tuple[float, float], bind: Callable[[float], Array]
-) -> list[Curve]:
+) -> tuple[list[Curve], int]:
     """The curves of places of rest through the place of rest ``first`` and through the branch points on them, while the parameter is
     ``within`` its range; ``bind`` gives all parameters for a value of it. A curve also ends where loops do not close or lose their
-    independence. Raises ``ValueError`` where ``first`` is singular."""
+    independence. With them the number of branch points that are left. Raises ``ValueError`` where ``first`` is singular."""
     route = _Route(source, first, parameter, within, bind)
     curves: list[Curve] = []
     followed: list[list[_Point]] = []
@@ -75,14 +77,15 @@ def follow(
             continue
         points = [*(p for p, _ in reversed(back)), start, *(p for p, _ in on)]
         special = [found for _, found in [*reversed(back), *on] if found is not None]
+        is_cut = any(len(side) >= STEPS for side in (back, on))
         followed.append(points)
         judged_points = tuple(each for p in points if (each := route.judged(p.state)) is not None)
-        curves.append(Curve(np.array([each.state.p[route.which] for each in judged_points]), judged_points, tuple(special)))
+        curves.append(Curve(np.array([each.state.p[route.which] for each in judged_points]), judged_points, tuple(special), is_cut))
         for point in (route.crossing(each.state, points) for each in special if each.kind == "branch point"):
             if all(np.abs(point.place - place).max() > _ON * _STEP for place in crossed):
                 crossed.append(point.place)
                 waiting.append(point)
-    return curves
+    return curves, len(waiting)
 
 
 class _Route:
@@ -145,7 +148,7 @@ class _Route:
         """The points from a start on, each with what is special between it and the one before."""
         found: list[tuple[_Point, Special | None]] = []
         here, step = start, _STEP
-        while len(found) < _STEPS:
+        while len(found) < STEPS:
             there = self.corrected(here, step)
             if there is None or there.along @ here.along < _BEND:
                 step /= 2

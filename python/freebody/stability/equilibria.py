@@ -77,9 +77,10 @@ def equilibria(
     bounds: Mapping[str, tuple[float, float]],
     inputs: Sequence[str] = (),
     outputs: Sequence[str] = (),
-) -> list[Equilibrium]:
+) -> tuple[list[Equilibrium], list[State]]:
     """All places of rest that are found where coordinates are within ``bounds``, in their order: by Newton's method from starts that
-    fill the bounds, and between any two of these, of a mechanism of one freedom, between which the acceleration changes its sign."""
+    fill the bounds, and between any two of these, of a mechanism of one freedom, between which the acceleration changes its sign; and those that are singular, of which no linear equations say whether they
+    are stable."""
     names, units = _named(source, state)
     if wrong := [name for name in bounds if name not in names]:
         raise ValueError(f"no coordinate is called {wrong[0]!r}; there are {', '.join(names)}")
@@ -90,13 +91,14 @@ def equilibria(
         if inside and all(np.abs((rest.q - other.q) / units).max() > _SAME for other in found):
             found.append(rest)
     found.sort(key=lambda rest: tuple(np.round(rest.q[[names.index(name) for name in bounds]], 9)))
-    judged = []
+    judged: list[Equilibrium | None] = []
+    singular: list[State] = []
     for rest in found:
         try:
             judged.append(equilibrium(source, rest, inputs, outputs))
         except SingularConfiguration:
-            continue
-    return [each for each in judged if each is not None]
+            singular.append(rest)
+    return [each for each in judged if each is not None], singular
 
 
 def is_moving(source: CompiledModel, state: State) -> bool:

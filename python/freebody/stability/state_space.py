@@ -65,7 +65,8 @@ def state_space(
 ) -> StateSpace:
     """The linear equations of perturbations of a state; what is in place, touches, sticks and slides goes on to do so.
 
-    ``inputs`` are parameters that move neither parts nor what is prescribed: of forces, of controllers, of prescribed accelerations.
+    ``inputs`` are parameters that move neither parts nor what is prescribed: of forces, of controllers, of prescribed accelerations;
+    a mass only at rest, since along a motion what is added or lost has a momentum of its own.
     ``outputs`` are any expressions. ``free`` are the independent coordinates, by default those that the others follow most slowly.
     Raises ``ValueError`` for inputs that are none, coordinates that are not independent and what has no derivatives,
     ``SingularConfiguration``, and what solving an instant raises."""
@@ -74,6 +75,8 @@ def state_space(
     columns, own = ([1 + 2 * n + _parameter(source, name) for name in each] for each in (inputs, source.metadata["states"]))
     free, moving, places, rates = _perturbations(source, state, rows, own, free and [names.index(name) for name in free])
     accelerations, parts = [f"accel({quote(name)})" for name in names], _places_of_bodies(source, state) if inputs else []
+    if inputs and (moved := [x for x, by in zip(inputs, source.derivatives(["kinetic()"], state)[0, columns], strict=True) if by]):
+        raise ValueError(f"{moved[0]} is no input along a motion: its change is one of mass, whose momentum is not known")
     texts = [*accelerations, *(f"rate({quote(name)})" for name in source.metadata["states"]), *outputs, *parts]
     found, of_places = np.split(source.derivatives(texts, state), [len(texts) - len(parts)])
     if not np.isfinite(found).all():
