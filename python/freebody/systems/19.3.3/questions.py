@@ -58,6 +58,26 @@ def angular_momentum(case):
             yield Answer(f"{what}, {file}", values, "N·m·s", [start] * len(TIMES), "conservation", 1e-10)
 
 
+@ask("(e, h) Conservation follows from the equations of motion: (c, f) from (a), (d, g) from (b)")
+def consequences(case):
+    """Each rate is a sum of the equations of motion times lengths or speeds, whatever the motion: the two sides are
+    the same by themselves. With a wrong sign they are so in the true motion only, or not at all."""
+    lines = {
+        "(a) ⇒ (c)": ("model.yaml", "d/dt (m (x ẏ − y ẋ)) = x (m ÿ + k y) {} y (m ẍ + k x)", "−+"),
+        "(b) ⇒ (d)": ("polar.yaml", "d/dt (m r^2 φ̇) = m r (r φ̈ {} 2 ṙ φ̇)", "+−"),
+        "(a) ⇒ (f)": ("model.yaml", "d/dt (m (ẋ^2 + ẏ^2)/2 + k (x^2 + y^2)/2) = ẋ (m ẍ + k x) {} ẏ (m ÿ + k y)", "+−"),
+        "(b) ⇒ (g)": (
+            "polar.yaml",
+            "d/dt (m (ṙ^2 + r^2 φ̇^2)/2 + k r^2/2) = ṙ (m (r̈ − r φ̇^2) + k r) {} m r φ̇ (r φ̈ + 2 ṙ φ̇)",
+            "+−",
+        ),
+    }
+    for label, (file, line, signs) in lines.items():
+        verdicts = [case.mechanism(file).check(line.format(sign)) for sign in signs]
+        value = [float(verdict.ok and "the same by themselves" in verdict.reason) for verdict in verdicts]
+        yield Answer(f"{label}: follows (1) or not (0)", value, "", [1, 0], "closed form: derivative of a product", 0.0)
+
+
 @ask("(f–h) Energy at 1, 2, 5, 10 s")
 def energy(case):
     """½m v² + ½k r² keeps its first value."""
