@@ -162,3 +162,16 @@ def test_wrong_words_are_answered(asked, vary, says):
 def test_what_has_no_value_anywhere_is_refused():
     with pytest.raises(ValueError, match="lands did not happen"):
         throw().find("range", 1, vary="v", within=(5, 6), angle=1.0, until=0.01)
+
+
+def test_where_two_runs_part_no_root_is_lost_and_none_has_digits(monkeypatch):
+    from freebody.find.response import Response
+    from freebody.solve.figures import Known
+
+    known = Response.known
+    monkeypatch.setattr(Response, "known", lambda self, x: Known(float(known(self, x)), math.inf, 1.0))
+    found = throw().find("range", "10 m", vary="angle", within=("5 deg", "85 deg"))
+    flat = math.asin(10 * G / 144) / 2
+    assert found.values == pytest.approx([flat, math.pi / 2 - flat], rel=1e-9)
+    assert all(root.where.error == math.inf and root.where.digits == 0 for root in found.roots)
+    assert "0.3747" not in found.sentence and "1.196" not in found.sentence, found.sentence

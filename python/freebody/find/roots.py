@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import groupby, pairwise
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 from freebody.find.curve import Break, Curve
@@ -185,7 +186,9 @@ def _roots(respond: Response, curve: Curve, goal: float) -> Iterator[Root]:
                 found += _at_extreme(respond, before, amid, after, goal)
     last = None
     for root in sorted(found, key=lambda root: root.where):
-        if last is None or float(root.where) - last > 2 * root.where.error + 1e-12 * (curve.end - curve.start):
+        # Where two runs part, a place has an infinite error; that makes it no other's double.
+        apart = 2 * root.where.error if isfinite(root.where.error) else 0.0
+        if last is None or float(root.where) - last > apart + 1e-12 * (curve.end - curve.start):
             yield root
         last = float(root.where)
 
