@@ -15,6 +15,8 @@ from .state import Array
 
 GROUND = "ground"
 _DRIVEN = ("motion", "coupling", "lock", "force")
+_VANISHES = 1e-9
+"""Part of the size of the mechanism below which what changes a row of lengths is round-off."""
 Pair = tuple[float, float]
 
 
@@ -168,9 +170,11 @@ class FreeBodies:
         return float(max(np.abs(u / units).max(initial=0.0), np.sqrt(max(falls.max(initial=0.0), own))) or 1.0)
 
     def row_sizes(self, coordinates: Sequence[Mapping[str, Any]]) -> Array:
-        """What each row changes by while the coordinates do by what they are measured by, (k,)."""
-        units = self.units(coordinates)
-        return np.array([sum(abs(row.coefficients[c["name"]]) * x for c, x in zip(coordinates, units, strict=True)) for row in self.rows])
+        """What each row is measured by, (k,): what it changes by while the coordinates do by what they are measured by; the size of
+        the mechanism at a dead position, where nothing changes it."""
+        table = [[row.coefficients[c["name"]] for c in coordinates] for row in self.rows]
+        sizes = np.abs(np.reshape(table, (-1, len(coordinates)))) @ self.units(coordinates)
+        return np.where(sizes > _VANISHES * self.extent, sizes, self.extent)
 
     def on(self, *group: str) -> tuple[Load, ...]:
         """The loads on the diagram of a body, or of a group of bodies cut free together: those inside the group are left out."""

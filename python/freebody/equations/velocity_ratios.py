@@ -12,6 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
+from freebody.core import Array
 from freebody.document.blocks import Block, Equation, Paragraph, Words, Written, equations
 from freebody.equations.solve import TooLarge, coefficients, solve
 from freebody.solve.symbolic_state import SymbolicState
@@ -29,7 +30,7 @@ MOST_TOGETHER = 3
 _SHORT = 2
 """Operations up to which a ratio has no symbol of its own."""
 _NOTHING = 1e-9
-"""Factor of a coordinate, by what that is measured by and of the largest in the row, below which a row does not give it."""
+"""Factor of a coordinate, by what that and the row are measured by, below which the row does not give it."""
 
 
 @dataclass
@@ -70,8 +71,11 @@ def ratios(subject: SymbolicState, put: Put, free: str) -> Ratios:
     found = Ratios(free, rates={free: ONE}, rests={free: ZERO})
     rows = [Linear({x: put(c) for x, c in row.linear.coefficients.items()}, put(row.linear.rest))
             for row in subject.rows if row.kind != "motion"]  # fmt: skip
+    sizes = subject.free.row_sizes(subject.coordinates)
+    held = [size for row, size in zip(subject.rows, sizes, strict=True) if row.kind != "motion"]
+    table = np.array([_factors(subject, row) / size for row, size in zip(rows, held, strict=True)])
     while unknown := [name for name in names if name not in found.rates]:
-        _tell(found, subject, *_block(rows, unknown, subject))
+        _tell(found, subject, *_block(rows, unknown, table[:, [names.index(name) for name in unknown]]))
     _sum_up(found, subject, put)
     for row in subject.rows:
         if row.kind == "motion":  # what it takes: J z̈ less the other loads
@@ -92,11 +96,14 @@ def driven(subject: SymbolicState) -> str | None:
     return next(iter(motions[0].linear.coefficients)).name if motions else None
 
 
-def _block(rows: Sequence[Linear], unknown: Sequence[str], subject: SymbolicState) -> tuple[list[Linear], list[str]]:
-    """The fewest rows that give as many coordinates, with these."""
-    units = dict(zip(subject.names, subject.free.units(subject.coordinates), strict=True))
-    table = [[evaluate(row.coefficients.get(Sym(n, 2), ZERO), subject.values) * units[n] for n in subject.names] for row in rows]
-    sizes = np.array([[row[subject.names.index(n)] / (max(map(abs, row)) or 1.0) for n in unknown] for row in table], float)
+def _factors(subject: SymbolicState, row: Linear) -> Array:
+    """What a row changes by while each coordinate does by what it is measured by, (n,)."""
+    factors = [evaluate(row.coefficients.get(Sym(name, 2), ZERO), subject.values) for name in subject.names]
+    return np.array(factors, float) * subject.free.units(subject.coordinates)
+
+
+def _block(rows: Sequence[Linear], unknown: Sequence[str], sizes: Array) -> tuple[list[Linear], list[str]]:
+    """The fewest rows that give as many coordinates, with these; ``sizes`` are their factors in the rows, over those of the rows."""
     for count in range(1, MOST_TOGETHER + 1):
         for chosen in combinations(range(len(rows)), count):
             held = [i for i in range(len(unknown)) if np.abs(sizes[list(chosen), i]).max() > _NOTHING]

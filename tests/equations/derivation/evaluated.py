@@ -13,7 +13,7 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Add, Sym, Tree
 
-STEP = 2e-3
+STEP = 1e-3
 """By how much angles go on, rad, and lengths, m, in the step of a difference: one of fourth order is then good to 1e-11 of what is
 smooth, and round-off leaves less than that."""
 
