@@ -26,7 +26,20 @@ AT_RUN_TIME = {
     "no_equilibrium": "initial:",
     "spin_without_inertia": "crank:",
 }
-COMMANDS = ["run", "solve", "validate", "animate", "compare", "certify", "systems", "code", "find", "stability", "schema", "version"]
+COMMANDS = [
+    "run",
+    "solve",
+    "validate",
+    "animate",
+    "compare",
+    "certify",
+    "systems",
+    "code",
+    "find",
+    "stability",
+    "schema",
+    "version",
+]
 
 
 def test_help_names_every_command(command):
@@ -102,9 +115,10 @@ initial: {theta: 30 deg}
 run: {until: 1 ms}
 """)
     places = [f"x = {0.075 * np.sqrt(0.75) + side * np.sqrt(0.2**2 - 0.0375**2):.6f}" for side in (-1, 1)]
-    for words in (["solve"], ["validate"], ["run", "--no-report"]):
-        shown = command(words[0], str(path), *words[1:]).stdout
-        taken, other = (next(line for line in shown.splitlines() if line.startswith(word)) for word in ("taken", "another"))
+    for called in (["solve"], ["validate"], ["run", "--no-report"]):
+        shown = command(called[0], str(path), *called[1:]).stdout
+        words = ("assembled: theta", "other assembly: ")
+        taken, other = (next(line for line in shown.splitlines() if line.startswith(word)) for word in words)
         assert sorted(place for place in places for line in (taken, other) if place in line) == sorted(places)
     solved = json.loads(command("solve", str(path), "--json").stdout)
     assert len(solved["assembly"]) == 2 and f"x = {solved['state']['x']:.6f}" in solved["assembly"][0]

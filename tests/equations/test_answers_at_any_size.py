@@ -83,9 +83,7 @@ def test_impacts_are_the_same(text, scales):
 
 @pytest.mark.parametrize("scales", SCALES)
 def test_small_perturbations_grow_with_the_pace(scales):
-    known, found = (
-        linear(Asked(m, m.start()[0]), x=0, phi=-np.pi / 2) for m in (mechanism(CART), mechanism(CART, scales))
-    )
+    known, found = (linear(Asked(m, m.start()[0]), x=0, phi=-np.pi / 2) for m in (mechanism(CART), mechanism(CART, scales)))
     assert found.stability == known.stability
     roots = [[root.value for root in each.eigenvalues] for each in (found, known)]
     np.testing.assert_allclose(np.multiply(roots[0], scales[2]), roots[1], rtol=1e-9, atol=1e-9)

@@ -164,7 +164,7 @@ TEXTS = {
     for name, text in list(globals().items())
     if isinstance(text, str) and text.startswith("\n") and name.isupper()
 }
-CATALOGUE = {"19.3.22/model", "19.3.22/latch", "19.3.30/model", "19.3.30/hinged", "19.3.30/slippery", "GEN-STEP/model",
+CATALOGUE = {"19.3.22/model", "19.3.22/latch", "19.3.30/model", "19.3.30/hinged", "19.3.30/slippery", "GEN-STEP/model", "GEN-WALK/model", "GEN-WALK/compass",
              "GEN-STEP/floor"}  # fmt: skip
 """The models of the catalogue whose runs have an impact."""
 ALL = sorted(set(TEXTS) - {"disk"} | CATALOGUE)
