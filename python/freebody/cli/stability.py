@@ -42,7 +42,9 @@ def stability(
 
     mechanism, near = opened(model, changes), pairs(at)
     if along and (bounds or inputs or outputs or response or poles or output):
-        raise UserError("--along follows curves and gives nothing else", "ask for the rest without it, or with --set at one value")
+        raise UserError(
+            "--along follows curves and gives nothing else", "ask for the rest without it, or with --set at one value"
+        )
     if along:
         name, *within = _range(along, "--along")
         found: Any = mechanism.equilibria_along(name, tuple(within), **near)

@@ -159,7 +159,9 @@ def curves(mechanism: Builder, state: State, parameter: str, within: tuple[Any, 
     _require_order({parameter: (low, high)})
     here = float(state.p[list(known).index(parameter)])
     if not low <= here <= high:
-        raise ValueError(f"{parameter} is {here:g} at the start, outside {low:g} to {high:g}: begin within, with {parameter}={low:g}")
+        raise ValueError(
+            f"{parameter} is {here:g} at the start, outside {low:g} to {high:g}: begin within, with {parameter}={low:g}"
+        )
     if (first := equilibrium(source, state)) is None:
         raise NoEquilibrium("no equilibrium was found from the start; give coordinates near one")
     others = {name: value for name, value in changes.items() if name in known}

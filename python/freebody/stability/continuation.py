@@ -80,7 +80,9 @@ def follow(
         is_cut = any(len(side) >= STEPS for side in (back, on))
         followed.append(points)
         judged_points = tuple(each for p in points if (each := route.judged(p.state)) is not None)
-        curves.append(Curve(np.array([each.state.p[route.which] for each in judged_points]), judged_points, tuple(special), is_cut))
+        curves.append(
+            Curve(np.array([each.state.p[route.which] for each in judged_points]), judged_points, tuple(special), is_cut)
+        )
         for point in (route.crossing(each.state, points) for each in special if each.kind == "branch point"):
             if all(np.abs(point.place - place).max() > _ON * _STEP for place in crossed):
                 crossed.append(point.place)

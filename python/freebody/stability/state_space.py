@@ -75,7 +75,9 @@ def state_space(
     columns, own = ([1 + 2 * n + _parameter(source, name) for name in each] for each in (inputs, source.metadata["states"]))
     free, moving, places, rates = _perturbations(source, state, rows, own, free and [names.index(name) for name in free])
     accelerations, parts = [f"accel({quote(name)})" for name in names], _places_of_bodies(source, state) if inputs else []
-    if inputs and (moved := [x for x, by in zip(inputs, source.derivatives(["kinetic()"], state)[0, columns], strict=True) if by]):
+    if inputs and (
+        moved := [x for x, by in zip(inputs, source.derivatives(["kinetic()"], state)[0, columns], strict=True) if by]
+    ):
         raise ValueError(f"{moved[0]} is no input along a motion: its change is one of mass, whose momentum is not known")
     texts = [*accelerations, *(f"rate({quote(name)})" for name in source.metadata["states"]), *outputs, *parts]
     found, of_places = np.split(source.derivatives(texts, state), [len(texts) - len(parts)])
