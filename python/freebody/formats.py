@@ -59,7 +59,7 @@ class Formats(dict[str, T]):
 
     def __str__(self) -> str:
         *others, last = self
-        return f"{', '.join(others)} or {last}"
+        return f"{', '.join(others)} or {last}" if others else last
 
     def of(self, path: Path) -> T:
         """That of a file. Raises ``ValueError``."""

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 _ROUND_OFF = 1e-13
 """Coordinate, rad or m, that is printed as 0."""
+_ABREAST = 3
+"""Shapes beside one another, so that no figure is cut on a narrow terminal."""
 
 
 class NoEquilibrium(ValueError):
@@ -55,7 +57,7 @@ class Stability(PlainText):
             yield f"\n{title}; {rest.why}\n"
             places = [(n, x if abs(x) > _ROUND_OFF else 0.0, units[n]) for n, x in rest.coordinates.items()]
             yield table("", ["coordinate", "value", "unit"], places)
-            yield mode_table(rest)
+            yield from mode_tables(rest)
 
     def to_json(self) -> dict[str, Any]:
         """For scripts, SI."""
@@ -185,14 +187,16 @@ def response_table(rest: Equilibrium, frequencies: ArrayLike) -> Any:
     return table("frequency response", ["f [Hz]", "output", "input", "amplitude, SI", "phase [deg]"], rows)
 
 
-def mode_table(rest: Equilibrium) -> Any:
-    """Frequencies, damping ratios and shapes: amplitude and phase of each coordinate."""
-    names = rest.space.coordinates
-    rows = [
-        (f"{i}", mode.eigenvalue.real, mode.eigenvalue.imag, mode.frequency, mode.damping, *map(_phasor, mode.shape.values()))
-        for i, mode in enumerate(rest.modes, 1)
-    ]
-    return table("modes", ["", "Re λ [1/s]", "Im λ [1/s]", "frequency [Hz]", "damping ratio", *names], rows)
+def mode_tables(rest: Equilibrium) -> Iterator[Any]:
+    """Frequencies and damping ratios; and the shapes: amplitude and phase of each coordinate."""
+    modes = list(enumerate(rest.modes, 1))
+    rows = [(f"{i}", each.eigenvalue.real, each.eigenvalue.imag, each.frequency, each.damping) for i, each in modes]
+    yield table("modes", ["", "Re λ [1/s]", "Im λ [1/s]", "frequency [Hz]", "damping ratio"], rows)
+    for first in range(0, len(modes), _ABREAST):
+        abreast = modes[first : first + _ABREAST]
+        shapes = [(name, *(_phasor(each.shape[name]) for _, each in abreast)) for name in rest.space.coordinates]
+        heads = [f"mode {i}" for i, _ in abreast]
+        yield table("" if first else "shapes", ["", *heads], shapes, heads)
 
 
 def _phasor(amplitude: complex) -> str:
@@ -202,7 +206,7 @@ def _phasor(amplitude: complex) -> str:
         return "0"
     if abs(amplitude.imag) < 1e-6 * size:
         return f"{amplitude.real:.4g}"
-    return f"{size:.4g} ∠ {angle:.1f}°"
+    return f"{size:.3g} ∠ {angle:.0f}°"
 
 
 def _told(curve: Curve) -> list[tuple[float, Equilibrium]]:

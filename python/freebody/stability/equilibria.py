@@ -7,8 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.stats import qmc
 
 from freebody.core import Array, CompiledModel, MotionError, State, quote
 from freebody.solve.instant import Instant
@@ -160,6 +158,8 @@ def newton_step(source: CompiledModel, state: State) -> tuple[Array, Array]:
 
 def _starts(source: CompiledModel, state: State, bounds: Mapping[str, tuple[float, float]]) -> Iterator[State]:
     """States on closed loops that fill the bounds, and of one freedom those near which the acceleration changes its sign."""
+    from scipy.optimize import brentq  # equations load without it, which takes half a second
+
     low, high = (np.array([pair[i] for pair in bounds.values()]) for i in (0, 1))
     names = source.coordinate_names
     if len(bounds) == 1:
@@ -167,6 +167,8 @@ def _starts(source: CompiledModel, state: State, bounds: Mapping[str, tuple[floa
     elif len(bounds) == 2:
         parts = np.stack(np.meshgrid(*[np.linspace(0, 1, _ALONG_TWO + 1)] * 2), axis=-1).reshape(-1, 2)
     else:
+        from scipy.stats import qmc
+
         parts = qmc.Halton(len(bounds), scramble=False).random(_STARTS)
 
     def at(values: Array) -> State:

@@ -8,7 +8,6 @@ from math import pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.signal import place_poles
 
 from freebody.core import Array
 from freebody.stability.state_space import StateSpace
@@ -85,6 +84,8 @@ def gains(space: StateSpace, poles: Sequence[complex]) -> Array:
         raise ValueError(
             f"{', '.join(space.inputs) or 'no input'} cannot place the poles: some of the motion does not answer to it"
         )
+    from scipy.signal import place_poles  # it takes half a second
+
     placed = place_poles(space.a, space.b, np.asarray(poles))
     found = np.sort_complex(np.linalg.eigvals(space.a - space.b @ placed.gain_matrix))
     asked = np.sort_complex(np.asarray(poles, complex))
