@@ -173,7 +173,7 @@ class FreeBodies:
         """What each row is measured by, (k,): what it changes by while the coordinates do by what they are measured by; the size of
         the mechanism at a dead position, where nothing changes it."""
         table = [[row.coefficients[c["name"]] for c in coordinates] for row in self.rows]
-        sizes = np.abs(np.reshape(table, (-1, len(coordinates)))) @ self.units(coordinates)
+        sizes = np.abs(np.reshape(table, (len(table), len(coordinates)))) @ self.units(coordinates)
         return np.where(sizes > _VANISHES * self.extent, sizes, self.extent)
 
     def on(self, *group: str) -> tuple[Load, ...]:

@@ -73,7 +73,7 @@ def ratios(subject: SymbolicState, put: Put, free: str) -> Ratios:
             for row in subject.rows if row.kind != "motion"]  # fmt: skip
     sizes = subject.free.row_sizes(subject.coordinates)
     held = [size for row, size in zip(subject.rows, sizes, strict=True) if row.kind != "motion"]
-    table = np.array([_factors(subject, row) / size for row, size in zip(rows, held, strict=True)])
+    table = np.array([_factors(subject, row) / size for row, size in zip(rows, held, strict=True)]).reshape(len(rows), len(names))
     while unknown := [name for name in names if name not in found.rates]:
         _tell(found, subject, *_block(rows, unknown, table[:, [names.index(name) for name in unknown]]))
     _sum_up(found, subject, put)

@@ -7,8 +7,8 @@ use crate::mechanism::Mechanism;
 use crate::plane::{Twist, Vec2};
 use serde_json::{json, Map, Value};
 
-/// Part of a load's force times the characteristic length below which its couple is round-off.
-const NO_COUPLE: f64 = 1e-12;
+/// Part of the largest force of a load below which another is round-off; and times the characteristic length a couple.
+const ROUND_OFF: f64 = 1e-12;
 
 /// Bodies, loads with their sizes, and what joints and motions ask of the accelerations, at the state of the workspace;
 /// what is closed without load and could carry one is held, with a force of 0.
@@ -90,7 +90,8 @@ fn load_data(workspace: &Workspace<'_>, load: &Load<f64>, (value, determinate): 
     let m = workspace.m;
     let (kind, name, path) = described(m, load);
     let axis = if let Origin::Pin(_, axis) = load.origin { Some(["x", "y"][axis]) } else { None };
-    let parts: Vec<Value> = load.parts.iter().map(|p| part(workspace, p)).collect();
+    let largest = load.parts.iter().map(|p| p.force.norm()).fold(0.0, f64::max);
+    let parts: Vec<Value> = load.parts.iter().map(|p| part(workspace, p, largest)).collect();
     let follows = match load.size {
         Size::Follows(of, ratio) => json!({"load": of, "ratio": ratio}),
         _ => Value::Null,
@@ -102,17 +103,19 @@ fn load_data(workspace: &Workspace<'_>, load: &Load<f64>, (value, determinate): 
     })
 }
 
-/// A part, its couple taken up by the place of the force where there is one, round-off left out.
-fn part(workspace: &Workspace<'_>, p: &Part<f64>) -> Value {
-    let size = p.force.norm();
+/// A part of a load whose `largest` force is known, its couple taken up by the place of the force where there is one, round-off
+/// left out.
+fn part(workspace: &Workspace<'_>, p: &Part<f64>, largest: f64) -> Value {
+    let force = if p.force.norm() > ROUND_OFF * largest { p.force } else { Vec2::zero() };
+    let size = force.norm();
     let (mut point, mut couple) = (p.point, p.couple);
-    if couple.abs() <= NO_COUPLE * size * workspace.length {
+    if couple.abs() <= ROUND_OFF * largest * workspace.length {
         couple = 0.0;
     } else if size > 0.0 {
-        point = p.point + p.force.perp() * (-couple / (size * size));
+        point = p.point + force.perp() * (-couple / (size * size));
         couple = 0.0;
     }
-    json!({"body": workspace.m.bodies[p.body].name, "point": xy(point), "force": xy(p.force), "couple": couple})
+    json!({"body": workspace.m.bodies[p.body].name, "point": xy(point), "force": xy(force), "couple": couple})
 }
 
 /// Kind, name and place in the model of a load.

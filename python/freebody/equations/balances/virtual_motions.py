@@ -167,13 +167,11 @@ def touching(free: FreeBodies) -> list[str]:
 
 def _directions(problem: Problem, load: int) -> Array | None:
     """Unit direction of the force of a load at every state (ns, 2); None if it has no force, or several, as a cable over pulleys."""
-    parts = np.array([[part.force for part in system.free.loads[load].on] for system in problem.systems])
-    if not parts.size:
+    forces = [[part.force for part in system.free.loads[load].on] for system in problem.systems]
+    if not all(on and all(map(any, on)) for on in forces):
         return None
-    size = np.linalg.norm(parts, axis=2, keepdims=True)
-    if size.min() == 0:
-        return None
-    units = parts / size
+    parts = np.array(forces)
+    units = parts / np.linalg.norm(parts, axis=2, keepdims=True)
     last = units[:, -1]
     across = units[:, :, 0] * last[:, None, 1] - units[:, :, 1] * last[:, None, 0]
     return last if np.abs(across).max() < ONE_LINE else None

@@ -23,8 +23,8 @@ _EM = 10.0  # pt, of a formula below a diagram
 _EN = 0.42  # em, of a column of text, much of which is small
 _LEAST = 12.0  # em of a line
 _ON_AXIS = 1e-9  # component of a unit direction across an axis, below which it is round-off
-_SPACE = re.compile(r"(\\text\{[^}]*\})|(?<=[\w})]) (?=[\w\\(])")
-"""Between factors; words keep theirs."""
+_SPACE = re.compile(r"(\\text\{[^}]*\}|\\d+ot )|(?<=[\w})]) (?=[\w\\(])")
+"""Between factors; words, and dots above what follows, keep theirs."""
 _PLAIN = re.compile(r"[^\W\d]\w*")
 _Parts: TypeAlias = tuple[Tree, Tree, Tree]
 """What a load gives to the balances of a body: along x, along y, about its mass centre."""
