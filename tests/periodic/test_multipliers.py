@@ -96,6 +96,7 @@ def test_a_periodic_response_is_found_with_its_multipliers():
     assert found.stable and max(found.checks.values()) < 1e-10
 
 
+@pytest.mark.long
 def test_without_friction_multipliers_come_in_pairs():
     """A Hamiltonian system: with μ also 1/μ (Arnold, *Mathematical Methods of Classical Mechanics*, §42)."""
     hanging = fb.Mechanism.loads(DRIVEN)

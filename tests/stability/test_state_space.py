@@ -50,7 +50,14 @@ def test_perturbations_are_limits_of_differences_on_closed_loops(model):
 
 
 @pytest.mark.parametrize(
-    "model", ["GEN-CHAIN/two_bars", "S19.21/model", "GEN-SLIDER/model", "GEN-CAR/driveshaft", "EX-ARM/relative"]
+    "model",
+    [
+        "GEN-CHAIN/two_bars",
+        "S19.21/model",
+        "GEN-SLIDER/model",
+        pytest.param("GEN-CAR/driveshaft", marks=pytest.mark.long),
+        "EX-ARM/relative",
+    ],
 )
 def test_perturbations_of_a_motion_grow_as_its_linear_equations_say(model):
     """ẋ = A(t) x along the motion, against differences of motions from starts beside each other: trees, loops, rolling."""

@@ -58,7 +58,9 @@ def balanced(kinetic: Tree, potential: Tree, subject: SymbolicState) -> tuple[fl
         parts = [(part, bodies[part.body]) for part in load.on if part.body in bodies]
         given.append((load, [load.value * np.dot(part.wrench(body.G), (*body.v, body.omega)) for part, body in parts]))
     rounding = POWER * max([1.0, *(abs(x) for _, powers in given for x in powers)])
-    stored = [x for load, x in given if load.kind == "weight" or (load.kind == "force" and conservative[load.name])]
+    elastic = ("spring", "torsion_spring")  # beside a damper, too
+    stored = [x for load, x in given
+              if load.kind == "weight" or (load.kind == "force" and (conservative[load.name] or load.card.name in elastic))]  # fmt: skip
     rates = rate(kinetic, subject), rate(potential, subject)
     assert rates[0] == pytest.approx(sum(sum(x) for _, x in given), abs=rounding)
     assert rates[1] == pytest.approx(-sum(map(sum, stored)), abs=rounding)
