@@ -14,7 +14,7 @@ from freebody.equations.topics.impulse_momentum import jumps
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.tree import replace
 
-LONG = {"four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
+LONG = {"GEN-WALK/model", "four_bar", "GEN-STEP/floor", "GEN-STEP/model"}
 """Too long to be solved symbolically."""
 REDUNDANT = {"plate"}
 """Friction on two feet at once is more than it takes."""
