@@ -19,7 +19,7 @@ MAY_USE = {
     "run": CORE | {"model", "solve", "impact"},
     "find": SOLVED,
     "stability": SOLVED,
-    "periodic": CORE | {"model", "run"},
+    "periodic": SOLVED | {"document", "equations"},
     "inverse": SOLVED,
     "views": SOLVED | {"document", "stability"},
     "codegen": CORE | {"model", "solve", "document"},

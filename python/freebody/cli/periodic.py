@@ -34,6 +34,7 @@ def periodic(
     boundary: Annotated[
         str | None, typer.Option(metavar="NAME=A..B", help="Where multipliers reach the unit circle as a parameter changes.")
     ] = None,
+    symbolic: Annotated[bool, typer.Option("--symbolic", help="The map in symbols, where it is short.")] = False,
     changes: Changes = None,
     as_json: AsJson = False,
 ) -> None:
@@ -41,7 +42,10 @@ def periodic(
     asked = opened(model, changes).periodic(
         pairs(returns) or None, section=section, period=period, **({"horizon": horizon} if horizon else {})
     )
-    if boundary:
+    if symbolic:
+        found = asked.symbolic()
+        print(found.json() if as_json else found.text())
+    elif boundary:
         ((name, bounds),) = _bounds([boundary], "--boundary").items()
         _show_crossings(name, asked.boundary(name, bounds), as_json)
     else:

@@ -21,6 +21,7 @@ from freebody.periodic.return_map import RTOL, Return, ReturnMap
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
+    from freebody.periodic.symbolic_map import SymbolicMap
 
 _INDEPENDENT = 1e-9
 """Part of the largest singular value of the rows below which one follows from the others."""
@@ -76,6 +77,13 @@ class Periodic:
     def limit(self, parameter: str, first: float, values: Mapping[str, float] | None = None, **changes: Any) -> Limit:
         """The periodic motion as a parameter tends to 0 from ``first``, with its error; see ``freebody.periodic.limit``."""
         return limit(self.map, parameter, first, self._from(values), **changes)
+
+    def symbolic(self, values: Mapping[str, float] | None = None) -> SymbolicMap:
+        """The map in symbols, of one unknown and one freedom; held against numbers near the start, or near ``values``. Raises
+        ``NoSymbolicMap``; see ``freebody.periodic.symbolic_map``."""
+        from freebody.periodic.symbolic_map import symbolic_map
+
+        return symbolic_map(self.map, float(self._from(values)[0]))
 
     def _from(self, values: Mapping[str, float] | None) -> Array:
         if unknown := [name for name in values or {} if name not in self.map.unknowns]:
