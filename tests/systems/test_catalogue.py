@@ -2,13 +2,15 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from store import MODELS, every, mechanism
 
 from freebody import catalogue
 from freebody.catalogue import Answer, Asked, Question, ask
-from freebody.catalogue.show import figures, show_asked, show_summary
+from freebody.catalogue.sentences import checks, folded, found, sentence
+from freebody.catalogue.show import show_asked, show_summary
 from freebody.solve.figures import Known
 
 
@@ -23,7 +25,7 @@ def test_every_answer_agrees(identity):
         if not a.ok
     ]
     assert not wrong, "\n".join(wrong)
-    assert all(q.answers for q in asked if q.label != "energy ledger"), "a question without an answer"
+    assert all(q.answers for q in asked if "energy ledger" not in q.label), "a question without an answer"
 
 
 def test_every_system_has_a_main_model_unless_it_asks_about_others():
@@ -61,23 +63,57 @@ def test_a_failure_does_not_hide_what_came_before_it():
 def test_json_has_what_a_script_needs():
     rows = catalogue.rows({"X": [Asked("q", [Answer("a", [1.0, 2.0], "m", [1.0, 2.0], "closed form")], "stopped")]})
     assert rows[0] == {
-        "system": "X", "question": "q", "label": "a", "value": [1.0, 2.0], "unit": "m", "check": [1.0, 2.0],
+        "system": "X", "question": "q", "sentence": "a = 1, 2 m", "label": "a", "variant": "", "value": [1.0, 2.0], "unit": "m", "check": [1.0, 2.0],
         "against": "closed form", "digits": 16.0, "tolerance": 1e-10, "ok": True, "independent": True,
     }  # fmt: skip
     assert rows[1] == {"system": "X", "question": "q", "failure": "stopped"}
 
 
 def test_figures_are_printed_with_the_digits_that_agree_and_hold():
-    assert figures(Answer("", [1.0] * 6, check=1.0), True) == "1, 1, 1, 1, 1, 1"
-    assert figures(Answer("", [1.0] * 6, check=1.0)) == "1, 1, 1, 1, … (6; --full)"
-    assert figures(Answer("", [1.23456789, 1e-17], check=[1.234568, 0.0])) == "1.234568, 0"
-    assert figures(Answer("", [Known(1.23456789, 3e-3, 1.0), 2.0], check=[1.23456789, 2.0])) == "1.23, 2"
+    assert found(Answer("", range(8), "m", check=range(8))) == "0, 1, 2, 3, 4, 5, … m (8 in all)"
+    assert found(Answer("", range(8), "m", check=range(8)), full=True) == "0, 1, 2, 3, 4, 5, 6, 7 m"
+    assert found(Answer("", [1.0] * 3, "m", check=1.0)) == "1 m", "what stays the same is told once"
+    assert found(Answer("", [1.23456789, 1e-17], check=[1.234568, 0.0])) == "1.234568, 0"
+    assert found(Answer("", [Known(1.23456789, 3e-3, 1.0), 2.0], check=[1.23456789, 2.0])) == "1.23, 2"
+    assert found(Answer("", [True, False], check=[True, False])) == "yes, no"
+
+
+def test_an_answer_is_a_sentence():
+    spin = Answer("θ̇", 2.5, "rad/s", check=2.5, against="closed form")
+    assert sentence(spin) == "θ̇ = 2.5 rad/s"
+    assert sentence(replace(spin, label="spin when flat")) == "spin when flat: 2.5 rad/s"
+    assert sentence(replace(spin, said="√(3 g/l)")) == "θ̇ = √(3 g/l)"
+    assert sentence(replace(spin, says="It falls flat at {}.")) == "It falls flat at 2.5 rad/s."
+    both = replace(spin, value=[2.5, 3.0], check=[2.5, 3.0])
+    assert sentence(replace(both, says="From {} to {}.")) == "From 2.5 rad/s to 3 rad/s."
+    assert folded("g = 10", [spin]) == "g = 10: 2.5 rad/s"
+    assert folded("g = 10", [spin, both]) == "g = 10: θ̇ = 2.5 rad/s; θ̇ = 2.5, 3 rad/s"
+
+
+def test_the_small_print_says_what_agrees_and_what_does_not():
+    right = Answer("a", 1.0, check=1.0, against="closed form")
+    assert checks([right]) == "checked: closed form, 16 digits"
+    assert checks([right, right]) == "checked: closed form, at least 16 digits"
+    assert checks([replace(right, value=2.0)]) == "disagrees: a: closed form: 1, not 2"
+    assert checks([replace(right, check=math.nan)]) == "not checked: a"
+
+
+def test_variants_fold_to_a_line_each(capsys):
+    asked = Asked(
+        "How fast?", [Answer("v", x, "m/s", check=x, against="energy", variant=g) for g, x in (("", 1.0), ("g = 10", 2.0))]
+    )
+    show_asked(asked)
+    assert capsys.readouterr().out.splitlines() == [
+        "How fast?", "  v = 1 m/s", "    checked: energy, 16 digits", "  g = 10: 2 m/s", "    checked: energy, 16 digits", "",
+    ]  # fmt: skip
+    show_asked(asked, full=True)
+    assert "  g = 10:\n  v = 2 m/s\n" in capsys.readouterr().out
 
 
 def test_what_is_held_against_the_same_run_is_no_independent_answer(capsys):
     kept = Answer("energy", 1.0, check=1.0, against="energy put in", own=True)
     show_asked(Asked("q", [kept]))
-    assert "the same run: energy put in" in capsys.readouterr().out
+    assert "of the same run, no check: energy put in" in capsys.readouterr().out
     show_summary({"X": [Asked("q", [kept, Answer("a", 1.0, check=1.0)])]})
     assert re.search(r"X +1 +1 ", capsys.readouterr().out)
 

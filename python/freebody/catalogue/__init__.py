@@ -13,6 +13,7 @@ from typing import Any
 from freebody.catalogue.answers import Answer, Asked, Question, ask
 from freebody.catalogue.case import Case
 from freebody.catalogue.checks import FREE_QUESTIONS
+from freebody.catalogue.sentences import sentence
 from freebody.catalogue.system import System
 
 __all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "rows", "run", "systems"]
@@ -47,6 +48,6 @@ def rows(results: Mapping[str, list[Asked]]) -> list[dict[str, Any]]:
     for identity, asked in results.items():
         for question in asked:
             head = {"system": identity, "question": question.label}
-            made += [{**head, **answer.as_dict()} for answer in question.answers]
+            made += [{**head, "sentence": sentence(answer, full=True), **answer.as_dict()} for answer in question.answers]
             made += [{**head, "failure": question.failure}] if question.failure else []
     return made

@@ -35,7 +35,10 @@ class Answer:
     ``against`` says where ``check`` comes from. ``tolerance`` is relative to the largest figure of the row, or to
     ``scale`` where that is larger: give it where the true value may be 0. ``said``: the answer symbolically, of which the figures
     are values. ``own``: the check is of the same run, which shows that it is consistent, and not that it is right. Figures that are
-    ``Known`` have no more digits than hold.
+    ``Known`` have no more digits than hold; truth values are read as yes and no.
+
+    ``says``: the answer as a sentence, ``"The rod falls flat at {}."``, where ``{}`` is what was found: all the row with its unit,
+    or one figure each where there are more of them. ``variant``: what differs from the system as it is told, ``"g = 10"``.
     """
 
     label: str
@@ -47,6 +50,8 @@ class Answer:
     scale: float = 0.0
     said: str = ""
     own: bool = False
+    says: str = ""
+    variant: str = ""
 
     @property
     def error(self) -> float:
@@ -86,6 +91,7 @@ class Answer:
         """As plain data; NaN where a figure is missing."""
         return {
             "label": self.label,
+            "variant": self.variant,
             "value": np.asarray(self.value, float).tolist(),
             "unit": self.unit,
             "check": np.asarray(self.check, float).tolist(),

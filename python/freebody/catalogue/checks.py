@@ -25,31 +25,42 @@ def _routes(case: Case) -> Iterator[Answer]:
     for name, run in case.runs.items():
         times = np.linspace(run.edges[0], run.edges[-1], STATES_OF_A_RUN).tolist()
         asked.append((name, [partial(run.instant, t) for t in times]))
-    for name, states in asked:
-        accelerations, reactions, residuals = [0.0], [0.0], [0.0]
-        for solved in states:
-            one, *others = (solved(route) for route in ROUTES)
-            residuals += [one.residual, *(other.residual for other in others)]
-            for other in others:
-                gaps = one.apart(other)
-                accelerations.append(gaps[0])
-                reactions.append(gaps[1])
-        against = "the other two routes"
-        yield Answer(f"{name}: accelerations apart", max(accelerations), "", 0.0, against, 1e-10, 1.0)
-        yield Answer(f"{name}: reactions apart", max(reactions), "", 0.0, against, 1e-10, 1.0)
-        yield Answer(f"{name}: momentum left over", max(residuals), "", 0.0, "balance of every body", 1e-12, 1.0)
+    names, accelerations, reactions, residuals = [], [], [], []
+    for name, solved in ((name, solved) for name, states in asked for solved in states):
+        one, *others = (solved(route) for route in ROUTES)
+        gaps = [one.apart(other) for other in others]
+        names.append(name)
+        accelerations.append(max(gap[0] for gap in gaps))
+        reactions.append(max(gap[1] for gap in gaps))
+        residuals.append(max(each.residual for each in (one, *others)))
+    at = f"at {len(names)} states"
+    yield _greatest("Accelerations differ by {} at most, " + at, accelerations, names, "the other two routes", 1e-10)
+    yield _greatest("Reactions differ by {} at most, " + at, reactions, names, "the other two routes", 1e-10)
+    yield _greatest("Of momentum {} is left over at most, " + at, residuals, names, "balance of every body", 1e-12)
+
+
+def _greatest(says: str, left: list[float], names: list[str], against: str, tolerance: float, own: bool = False) -> Answer:
+    """The greatest of what should be nothing, and where it is."""
+    worst = int(np.argmax(left))
+    return Answer(names[worst], left[worst], "", 0.0, against, tolerance, 1.0, own=own, says=f"{says}.")
 
 
 def _ledgers(case: Case) -> Iterator[Answer]:
     """Kinetic + potential − works stays what it was, relative to the largest of them that comes and goes."""
-    for name, run in case.runs.items():
+    left = []
+    for run in case.runs.values():
         energy = run.energy
         at_rest = 1e-6 * np.abs(energy.potential).max()  # where nothing moves, round-off is all that comes and goes
         stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential), at_rest]
         size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
-        left = float(np.abs(energy.balance).max() / size) if size else 0.0
-        yield Answer(f"{name}: left over", left, "", 0.0, "energy stored − work done", 1e-9, 1.0, own=True)
+        left.append(float(np.abs(energy.balance).max() / size) if size else 0.0)
+    if left:
+        says = f"Of energy {{}} is left over at most, in {len(left)} motions"
+        yield _greatest(says, left, list(case.runs), "energy stored − work done", 1e-9, own=True)
 
 
-FREE_QUESTIONS = (Question("three routes to the same instant", _routes), Question("energy ledger", _ledgers))
+FREE_QUESTIONS = (
+    Question("Do three routes to the same instant agree?", _routes),
+    Question("Does the energy ledger balance?", _ledgers),
+)
 """Three routes, momentum balance, energy ledger."""

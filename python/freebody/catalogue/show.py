@@ -6,8 +6,9 @@ import csv
 import math
 from collections import Counter
 from collections.abc import Iterable
+from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import rich
@@ -16,16 +17,14 @@ from rich.table import Table
 from rich.text import Text
 
 from freebody.catalogue.answers import Answer, Asked
+from freebody.catalogue.sentences import checks, folded, sentence
 from freebody.catalogue.system import System
 from freebody.check.verdict import Kind
-from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
 
 if TYPE_CHECKING:
     from freebody.check.file import Judged
 
-_SHOWN = 4
-"""Figures of a long row that a table shows."""
 _UNEXPECTED = " (not as expected)"
 
 
@@ -37,15 +36,44 @@ def show_list(systems: Iterable[System]) -> None:
 
 
 def show_asked(asked: Asked, full: bool = False) -> None:
-    """One question with its answers; ``full``: with all figures of long rows."""
-    rows = []
+    """One question, what was found, and how it was checked in a small print. Variants are folded to a line each unless ``full``,
+    which also tells all figures of long rows."""
+    _line(asked.label, 0, "bold")
+    variants: dict[str, list[Answer]] = {}
     for answer in asked.answers:
-        digits = "missing" if math.isnan(answer.digits) else f"{answer.digits:.1f}"
-        cells = (answer.label, answer.said or figures(answer, full), answer.unit, digits, _source(answer))
-        rows.append([Text(cell, "" if answer.ok else "bold red") for cell in cells])
-    rich.print(table(asked.label, ("", "freebody", "unit", "digits", "agrees with"), rows, ("freebody", "digits"), edge=True))
+        variants.setdefault(answer.variant, []).append(answer)
+    _show_answers(variants.pop("", []), full)
+    for variant, answers in variants.items():
+        if full:
+            _line(f"{variant}:", 2, "italic")
+            _show_answers(answers, full)
+        else:
+            _line(folded(variant, answers), 2, _style(answers), overflow="ellipsis", no_wrap=True)
+    if variants and not full:
+        _line(checks([answer for answers in variants.values() for answer in answers]), 4, "dim")
     if asked.failure:
-        rich.print(Text(f"  failed: {asked.failure}\n", "bold red"))
+        _line(f"failed: {asked.failure}", 2, "bold red")
+    rich.print()
+
+
+def _show_answers(answers: Iterable[Answer], full: bool) -> None:
+    """Answers, and below those that were checked alike how they were."""
+    for _, alike in groupby(answers, lambda answer: (answer.against, answer.ok)):
+        group = list(alike)
+        for answer in group:
+            _line(sentence(answer, full), 2, _style([answer]))
+        _line(checks(group), 4, "dim" if group[0].ok else "bold red")
+
+
+def _style(answers: Iterable[Answer]) -> str:
+    return "" if all(answer.ok for answer in answers) else "bold red"
+
+
+def _line(text: str, indent: int, style: str, **how: Any) -> None:
+    console = rich.get_console()
+    for line in Text(text, style, **how).wrap(console, console.width - indent):
+        line.rstrip()
+        rich.print(Text(" " * indent) + line)
 
 
 def show_statements(system: System, judged: Iterable[Judged]) -> None:
@@ -98,31 +126,29 @@ def show_summary(results: dict[str, list[Asked]]) -> None:
     rich.print(table("", ("system", *counts, ""), rows, counts, edge=True))
 
 
-def figures(answer: Answer, full: bool = False) -> str:
-    """A figure, or the first of a long row or all of it, with the digits that hold."""
-    row = answer.known
-    shown = row if full or len(row) <= _SHOWN else row[:_SHOWN]
-    told = ", ".join(figure(x, 8) for x in shown)
-    return told if len(shown) == len(row) else f"{told}, … ({len(row)}; --full)"
-
-
 def write_csv(path: Path, results: dict[str, list[Asked]]) -> None:
     """A table with every figure of every answer beside its check, one a row."""
-    heads = ("system", "question", "answer", "place", "value", "unit", "check", "digits", "agrees with", "same run", "in letters")
+    heads = (
+        "system",
+        "question",
+        "variant",
+        "answer",
+        "place",
+        "value",
+        "unit",
+        "check",
+        "digits",
+        "agrees with",
+        "same run",
+        "in letters",
+    )
     with path.open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
         rows.writerow(heads)
         for identity, asked in ((identity, each) for identity, every in results.items() for each in every):
             for answer in asked.answers:
                 values, checks = np.broadcast_arrays(*(np.ravel(np.asarray(x, float)) for x in (answer.value, answer.check)))
+                head = (identity, asked.label, answer.variant, answer.label)
                 about = (f"{answer.digits:.1f}", answer.against, int(answer.own), answer.said)
                 for place, (value, check) in enumerate(zip(values.tolist(), checks.tolist(), strict=True), 1):
-                    rows.writerow((identity, asked.label, answer.label, place, repr(value), answer.unit, repr(check), *about))
-
-
-def _source(answer: Answer) -> str:
-    if answer.ok:
-        return f"the same run: {answer.against}" if answer.own else answer.against
-    value, check = np.broadcast_arrays(np.ravel(answer.value).astype(float), np.ravel(answer.check).astype(float))
-    worst = int(np.argmax(np.nan_to_num(np.abs(value - check), nan=np.inf)))
-    return f"{answer.against}: {check[worst]:.10g}, not {value[worst]:.10g}"
+                    rows.writerow((*head, place, repr(value), answer.unit, repr(check), *about))

@@ -17,7 +17,8 @@ from scipy.optimize import brentq
 from freebody.catalogue import Answer, ask, reference
 
 L, M, G, TILT = 1.8, 70.0, 9.81, 0.02
-MODELS = {"contact assumed": "assumed.yaml", "contact checked": "model.yaml"}
+MODELS = {"": "assumed.yaml", "the contact checked": "model.yaml"}
+"""Main: the contact is assumed."""
 
 
 def turning(theta, start):
@@ -44,43 +45,49 @@ def fall_time(start):
     return sqrt(L / (6 * G)) * quad(slope, 0, acosh(sin(pi / 4) / s), epsabs=0, epsrel=1e-13, limit=200)[0]
 
 
-@ask("(c) In symbols: one equation in the tilt θ")
+@ask("(c) What is one differential equation in θ, θ̇, θ̈, m, g, ℓ only, θ the tilt?")
 def symbolically(case):
     closed = "3*sin(theta)*(2*g - l*rate(theta)^2*cos(theta))/(l*(1 + 3*sin(theta)^2))"
     yield from case.symbolically({"theta": closed}, "closed form: balance of energy, differentiated", "assumed.yaml")
 
 
-@ask("(a) Path of the mass centre: straight down")
+@ask("(a) What path does the mass centre take?")
 def path(case):
     run = case.run()
     times = [0.5, 0.8, 1.0, run.events[-1].t]
     x = run.evaluate("x(rod.G)", times)
-    yield Answer("x at 0.5, 0.8, 1 s and flat", x, "m", [0.0] * 4, "conservation: no horizontal force", 1e-13, L)
+    says = "It falls straight down: at 0.5, 0.8, 1 s and flat it is {} beside its start."
+    yield Answer("x at 0.5, 0.8, 1 s and flat", x, "m", [0.0] * 4, "conservation: no horizontal force", 1e-13, L, says=says)
     y = run.evaluate("y(rod.G) - l/2*sin(angle(rod))", times)
-    yield Answer("y − (ℓ/2) cos θ then: the foot stays on the ice", y, "m", [0.0] * 4, "geometry", 1e-11, L)
+    says = "Its height is (ℓ/2) cos θ, to {}: the foot stays on the ice."
+    yield Answer("y − (ℓ/2) cos θ then", y, "m", [0.0] * 4, "geometry", 1e-11, L, says=says)
 
 
-@ask("(b) Angular velocity just before the rod lies flat")
+@ask("(b) How fast does the rod turn just before it lies flat, the contact assumed, then checked?")
 def flat(case):
     check = sqrt(3 * G * cos(TILT) / L)
     for of, file in MODELS.items():
         event = case.run(file).events[-1]
         spin = -case.run(file).evaluate("omega(rod)", event.t)
-        yield Answer(f"θ̇, {of}", spin, "rad/s", check, "conservation of energy", 1e-10)
-        yield Answer(f"time of the fall, {of}", event.t, "s", fall_time(TILT), "quadrature", 1e-10)
+        says = "The rod falls flat at {}."
+        yield Answer("θ̇ when flat", spin, "rad/s", check, "conservation of energy", 1e-10, says=says, variant=of)
+        says = "It has fallen for {}."
+        yield Answer("time of the fall", event.t, "s", fall_time(TILT), "quadrature", 1e-10, says=says, variant=of)
     found = case.mechanism().limit("-omega(rod) @ end", vary="tilt", towards=0.0, begin=0.05)
-    yield Answer("θ̇ as θ₀ → 0", found.value, "rad/s", sqrt(3 * G / L), "closed form: √(3g/ℓ)", 1e-9)
+    yield Answer("θ̇ when flat", found.value, "rad/s", sqrt(3 * G / L), "closed form: √(3g/ℓ)", 1e-9, variant="as θ₀ → 0")
 
 
-@ask("(b) Is the contact kept, and how hard does the ice push?")
+@ask("(b) Is the contact kept, how hard does the ice push, and where least?")
 def kept(case):
     run = case.run()
     least = run.report["least force of the ice"]
     c0 = cos(TILT)
     c = brentq(lambda c: 3 * c**3 - 9 * c0 * c**2 + 12 * c - 4 * c0, 0, 1, xtol=1e-15)
-    yield Answer("least force of the ice", least.value, "N", force(c, c0), "closed form: dN/dθ = 0", 1e-10)
+    against = "closed form: dN/dθ = 0"
+    says = "The contact is kept: the ice pushes with {} at least."
+    yield Answer("least force of the ice", least.value, "N", force(c, c0), against, 1e-10, says=says)
     tilt = pi / 2 - run.evaluate("angle(rod)", least.t)
-    yield Answer("tilt then", tilt, "rad", acos(c), "closed form: dN/dθ = 0", 1e-6)
+    yield Answer("tilt then", tilt, "rad", acos(c), against, 1e-6, says="The tilt then is {}.")
     times = [0.0, 0.5, 0.8, 1.0, run.events[-1].t]
     yield Answer(
         "gap over the ice at 0, 0.5, 0.8, 1 s and flat", run.evaluate("foot.gap", times), "m", [0.0] * 5, "N > 0", 1e-13, L
@@ -90,7 +97,7 @@ def kept(case):
     yield Answer("force at 0, 0.5, 0.8, 1 s and flat", run.evaluate("foot.N", times), "N", check, "closed form: N(θ)", 1e-9)
 
 
-@ask("(c) One equation in θ: θ̈ at four states")
+@ask("(c) What does that equation give at four states?")
 def one_equation(case):
     for tilt, rate in ((0.02, 0.0), (0.5, 1.0), (1.0, 2.0), (1.5, 4.0)):
         now = case.instant("assumed.yaml", theta=tilt, x=0.0, rates={"theta": rate})
@@ -99,13 +106,14 @@ def one_equation(case):
         )
 
 
-@ask("State at 1 s")
+@ask("How does the rod lie and move after 1 s?")
 def one_second(case):
     ((theta, rate),) = reference.motion(lambda t, y: [y[1], bend(*y)], [TILT, 0], [1.0])
     against = "other route: (c) integrated by SciPy"
     for of, file in MODELS.items():
         run = case.run(file)
         tilt, spin = pi / 2 - run.evaluate("angle(rod)", 1.0), -run.evaluate("omega(rod)", 1.0)
-        yield Answer(f"θ, {of}", tilt, "rad", theta, against, 1e-10)
-        yield Answer(f"θ̇, {of}", spin, "rad/s", rate, against, 1e-10)
-        yield Answer(f"height of the mass centre, {of}", run.evaluate("y(rod.G)", 1.0), "m", L / 2 * cos(theta), against, 1e-10)
+        height = run.evaluate("y(rod.G)", 1.0)
+        yield Answer("θ", tilt, "rad", theta, against, 1e-10, variant=of)
+        yield Answer("θ̇", spin, "rad/s", rate, against, 1e-10, variant=of)
+        yield Answer("height of the mass centre", height, "m", L / 2 * cos(theta), against, 1e-10, variant=of)

@@ -40,7 +40,7 @@ def rates(eps=1.0, gravity=0.0):
     return right
 
 
-@ask("symbolically:  the two equations")
+@ask("1. What are the equations of motion?")
 def symbolically(case):
     below = "(m*eps^2*(M + m*cos(theta)^2))"
     along = "(m*eps*rate(theta)^2*cos(theta) - k*x)"
@@ -52,7 +52,7 @@ def symbolically(case):
     yield from case.symbolically(closed, "closed form: two balances, solved by Cramer's rule")
 
 
-@ask("accelerations and arm force at one state")
+@ask("What are the accelerations and the force of the arm at θ = 1, θ̇ = 0.7, x = 0.4, ẋ = −0.3?")
 def instant(case):
     now = case.instant(theta=1, x=0.4, rates={"theta": 0.7, "x": -0.3})
     turn, slide = accelerations(1, 0.7, 0.4)
@@ -63,7 +63,7 @@ def instant(case):
     yield Answer("arm on load, along and across the arm", force, "N", check, "closed form: momentum of the load; T/ε", 1e-12)
 
 
-@ask("x(t) and θ(t) for 0–100 s")
+@ask("2. How do x and θ move for 100 s, and what work does T?")
 def hundred_seconds(case):
     run, times = case.run(), np.linspace(10, 100, 10)
     check = motion(rates(), [0, 0, 0, 0], times)
@@ -74,7 +74,7 @@ def hundred_seconds(case):
     yield Answer("work of the torque", run.evaluate("drive.work", times), "J", put_in, "closed form: T θ", 1e-8)
 
 
-@ask("is the spin captured by the resonance? windows up to 400 s")
+@ask("Is the spin captured by the resonance, up to 400 s?")
 def capture(case):
     """Captured, the mean spin of a window stays near √(k/(M + m)); free, it would grow as T t/(m ε²).
 
@@ -87,20 +87,25 @@ def capture(case):
     check = motion(rates(), [0, 0, 0, 0], times)
     true = np.diff(np.append(0.0, check[199::200, 0])) / 50
     mean = np.diff(run.evaluate("theta", edges)) / 50
-    yield Answer("mean θ̇ over 0–50, … 200–250 s", mean[:5], "rad/s", true, SCIPY, 1e-7)
-    yield Answer("the same over √(k/(M+m))", mean[:5] / NATURAL, "", true / NATURAL, SCIPY, 1e-7)
+    says = "Yes, until near 250 s: over 0–50, … 200–250 s the mean θ̇ is {}."
+    yield Answer("mean θ̇ over 0–50, … 200–250 s", mean[:5], "rad/s", true, SCIPY, 1e-7, says=says)
+    says = "Of √(k/(M + m)) that is {}."
+    yield Answer("the same over √(k/(M+m))", mean[:5] / NATURAL, "", true / NATURAL, SCIPY, 1e-7, says=says)
     bolted = TORQUE / LOAD * (edges[:5] + 25)
-    yield Answer("the same over the spin of a bolted motor", mean[:5] / bolted, "", true / bolted, SCIPY, 1e-7)
+    says = "Of the spin of a motor bolted down it is {}."
+    yield Answer("the same over the spin of a bolted motor", mean[:5] / bolted, "", true / bolted, SCIPY, 1e-7, says=says)
     places = run.evaluate("x", times)
     value, other = ([np.abs(x[i : i + 200]).max() for i in range(0, 1000, 200)] for x in (places, check[:, 1]))
     yield Answer("greatest |x| at quarters of a second over 0–50, … 200–250 s", value, "m", other, SCIPY, 1e-7)
     gained = np.diff(run.evaluate("energy()", edges)) / TORQUE / 50
     error = run.accuracy.at(expression("theta"), edges).error[1:, 0] / 50
     late = [Known(*each) for each in zip(mean[5:], error[5:], abs(mean[5:]), strict=True)]
-    yield Answer("mean θ̇ over 250–300, 300–350, 350–400 s", late, "rad/s", gained[5:], "energy gained over T", 1e-7, own=True)
+    says = "Later it is free: over 250–300, 300–350, 350–400 s the mean θ̇ is {}."
+    against = "energy gained over T"
+    yield Answer("mean θ̇ over 250–300, 300–350, 350–400 s", late, "rad/s", gained[5:], against, 1e-7, own=True, says=says)
 
 
-@ask("captured or not, for several ε: mean θ̇ over 50–100 s")
+@ask("Is the spin captured by the resonance over 50–100 s, with arms of 1, 0.5 and 0.1 m?")
 def captured(case):
     """Captured: nearer to √(k/(M + m)) than to the spin T t/(m ε²) of a bolted motor, in ratio."""
     for eps in (1.0, 0.5, 0.1):
@@ -110,9 +115,10 @@ def captured(case):
         bolted = TORQUE * 75 / (LOAD * eps**2)
         is_captured = abs(np.log(mean / NATURAL)) < abs(np.log(mean / bolted))
         of = "captured by the resonance" if is_captured else "not captured"
-        label = f"ε = {eps:g}, {of}: mean θ̇, {figure(mean / NATURAL, 3)} of √(k/(M+m)), {figure(mean / bolted, 3)} of a bolted motor's"
+        ratios = f"{figure(mean / NATURAL, 3)} of √(k/(M+m)), {figure(mean / bolted, 3)} of a bolted motor's"
+        says = f"With ε = {eps:g} m it is {of}: the mean θ̇ is {{}}, {ratios}."
         check = motion(rates(eps), [0, 0, 0, 0], [50.0, 100.0])[:, 0]
-        yield Answer(label, [mean], "rad/s", (check[1] - check[0]) / 50, SCIPY, 1e-7)
+        yield Answer(f"mean θ̇ over 50–100 s, ε = {eps:g}", [mean], "rad/s", (check[1] - check[0]) / 50, SCIPY, 1e-7, says=says)
 
 
 def _held(run, t):
@@ -121,17 +127,17 @@ def _held(run, t):
     return known.error[0, 0], known.size[0, 0]
 
 
-@ask("shorter arms")
+@ask("How do x and θ move with shorter arms?")
 def shorter(case):
     times = np.array([5.0, 10.0, 20.0])
     for eps in (0.5, 0.1):
         run = case.run(parameters={"eps": eps}, until=20)
         check = motion(rates(eps), [0, 0, 0, 0], times)
-        yield Answer(f"x at 5, 10, 20 s, ε = {eps}", run.evaluate("x", times), "m", check[:, 1], SCIPY, 1e-7)
-        yield Answer(f"θ at 5, 10, 20 s, ε = {eps}", run.evaluate("theta", times), "rad", check[:, 0], SCIPY, 1e-8)
+        yield Answer("x at 5, 10, 20 s", run.evaluate("x", times), "m", check[:, 1], SCIPY, 1e-7, variant=f"ε = {eps} m")
+        yield Answer("θ at 5, 10, 20 s", run.evaluate("theta", times), "rad", check[:, 0], SCIPY, 1e-8, variant=f"ε = {eps} m")
 
 
-@ask("variant: gravity in the plane")
+@ask("How do they move with gravity in the plane, −g j?")
 def heavy(case):
     run, times = case.run(parameters={"g": 9.81}, until=10), np.array([1.0, 2.0, 5.0, 10.0])
     check = motion(rates(gravity=9.81), [0, 0, 0, 0], times)
