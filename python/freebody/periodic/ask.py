@@ -118,8 +118,6 @@ def periodic(
             "say when the motion comes back: by `section` or by `period`", "a section is an event, contact or stop"
         )
     source = mechanism.compile()
-    if source.metadata["states"]:
-        raise ModelProblem("perturbations of states with rates of their own are not followed", "leave `states` out of the model")
     state, _ = mechanism.start(**changes)
     named = returns if isinstance(returns, Mapping) else {name: name for name in returns or independent(source, state)}
     _check_section(source, section)
@@ -133,13 +131,13 @@ def periodic(
 
 
 def independent(source: CompiledModel, state: State) -> list[str]:
-    """Coordinates that are free of one another and of prescribed motions, and then their rates."""
+    """Coordinates that are free of one another and of prescribed motions, then their rates, and the model's own states."""
     names, n = [quote(each["name"]) for each in source.metadata["coordinates"]], len(state.q)
     rows = np.array([row.value[1 : 1 + n] for row in source.row_derivatives(state) if row.value is not None]).reshape(-1, n)
     free = scipy.linalg.null_space(rows, rcond=_INDEPENDENT)
     _, _, order = scipy.linalg.qr(free.T, pivoting=True)
     chosen = [names[i] for i in sorted(order[: free.shape[1]])]
-    return [*chosen, *(f"rate({name})" for name in chosen)]
+    return [*chosen, *(f"rate({name})" for name in chosen), *source.metadata["states"]]
 
 
 def _check_section(source: CompiledModel, section: str | None) -> None:

@@ -63,16 +63,16 @@ class ReturnMap:
         """One return. Raises ``NoReturn`` and ``NotDifferentiable``; ``MotionError`` and ``ModelProblem`` for an impossible start."""
         field, run, end = self._run(np.asarray(values, float), others)
         perturbation, checks = self._carried(field, run, end, others)
-        source, n = run.source, len(run.start.q)
+        source = run.source
         there, shift = perturbation, np.zeros(perturbation.state.shape[1])
         state = run.motion.state(end)
         if self.section:
             there, shift = Moment(run, field, end).through(perturbation)
         else:
-            shift = source.derivatives([str(self.period)], run.start)[0, 1 + 2 * n :] @ perturbation.others[1:]
+            shift = field.split(source.derivatives([str(self.period)], run.start))[1][0] @ perturbation.others
             there = Perturbation(perturbation.state + np.outer(field(state), shift), perturbation.others)
-        of = source.derivatives(self.returns, state)
-        slopes = of[:, 1 : 1 + 2 * n] @ there.state + np.delete(of, np.s_[1 : 1 + 2 * n], axis=1) @ there.others
+        by_state, by_others = field.split(source.derivatives(self.returns, state))
+        slopes = by_state @ there.state + by_others @ there.others
         k = len(self.unknowns)
         steps = run.motion.steps
         largest = np.abs(run.motion.evaluate(self.returns, steps[steps < end])).max(axis=0)
@@ -97,7 +97,7 @@ class ReturnMap:
         end = until if self.period else self._section(run)
         if not run.outcome.ok and run.end.t < end:
             raise NoReturn(f"the motion ends at t = {run.end.t:g} s: {run.outcome.sentence}")
-        return VectorField(run.source, run.start), run, end
+        return VectorField(run), run, end
 
     def _section(self, run: Run) -> float:
         """When the section is first come to after the start."""
@@ -115,7 +115,7 @@ class ReturnMap:
     ) -> tuple[Perturbation, dict[str, float]]:
         """The perturbations by the unknowns just before the end, and, as the last column, that along the motion."""
         lowered = self.mechanism.lowered().start
-        state, by = start.slopes(run.source, lowered, run.start, self.unknowns, {**self.others, **others})
+        state, by = start.slopes(field, lowered, run.start, self.unknowns, {**self.others, **others})
         first = run.motion.state(run.motion.steps[0])
         along = np.eye(len(by), 1)
         perturbation = Perturbation(np.hstack([state, field(first)[:, None]]), np.hstack([by, along]))

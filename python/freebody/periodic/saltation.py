@@ -21,15 +21,15 @@ _SAME = 1e-7
 """Part of the largest shift of the moment by which guards that switch together may differ."""
 _CONTINUOUS = 1e-9
 """Part of the largest rate or acceleration by which these may differ on both sides of what is no jump."""
-_READINGS = {"lift-off": "N", "slack": "tension"}
+_READINGS = {"lift-off": "N", "slack": "tension", "stick": "slip", "reversal": "slip"}
 _IMPACTS = ("impact", "taut", "contact")
-_REFUSED = {"slip": "a contact begins to slide", "stick": "a contact ceases to slide", "reversal": "sliding turns back",
-            "rest": "infinitely many bounces come to an end", "reset": "rates are given at once"}  # fmt: skip
+_REFUSED = {"slip": "a joint begins to slide", "rest": "infinitely many bounces come to an end",
+            "reset": "rates are given at once"}  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Perturbation:
-    """Changes (2n, k) of coordinates and rates at a fixed time, and those of the clock and parameters (1 + np, k)."""
+    """Changes (2n + nz, k) of coordinates, rates and own states at a fixed time, and those of the clock and parameters (1 + np, k)."""
 
     state: Array
     others: Array
@@ -69,9 +69,17 @@ class Moment:
                 names = [name for name in change.of if name in limits and name not in engaged]
                 found += [f"{quote(name)}.{'slack' if limits[name] == 'string' else 'gap'}" for name in names]
         if not found:
-            lost = [change for change in self.changes.values() if change.kind in _READINGS]
-            found = [f"{quote(name)}.{_READINGS[change.kind]}" for change in lost for name in change.of]
+            lost = [(name, change.kind) for change in self.changes.values() for name in change.of if name in limits]
+            found = [f"{quote(name)}.{_READINGS[kind]}" for name, kind in lost if kind in _READINGS]
+            found += [self._cone(name) for name, kind in lost if kind == "slip"]
         return found
+
+    def _cone(self, contact: str) -> str:
+        """How far the friction of a contact that sticks is within Coulomb's cone, N."""
+        contacts = {each["name"]: each for each in self.run.source.spec["contacts"]}
+        each = contacts.get(contact) or contacts[contact.partition("[")[0]]
+        most = each["friction"] if each["static_friction"] is None else each["static_friction"]
+        return f"({most})*{quote(contact)}.N - abs({quote(contact)}.T)"
 
     @cached_property
     def assignments(self) -> dict[str, str]:
@@ -94,15 +102,14 @@ class Moment:
     def shift(self, perturbation: Perturbation) -> Array:
         """By how much the moment is later (k,). Raises ``NotDifferentiable`` for what grazes and for what only happens to switch
         at one time."""
-        guards, n = self.guards(), len(self.before.q)
+        guards = self.guards()
         if not guards:
             what = (
                 ", ".join(sorted({_REFUSED.get(change.kind, change.kind) for change in self.changes.values()})) or "a law jumps"
             )
             raise NotDifferentiable(f"at t = {self.t:g} s {what}, through which no perturbation is followed")
-        of, rates = self.run.source.derivatives(guards, self.before), self.field(self.before)
-        slopes, others = of[:, 1 : 1 + 2 * n], np.delete(of, np.s_[1 : 1 + 2 * n], axis=1)
-        speed = others[:, 0] + slopes @ rates
+        slopes, others = self.field.split(self.run.source.derivatives(guards, self.before))
+        speed = others[:, 0] + slopes @ self.field(self.before)
         if (grazing := np.flatnonzero(np.abs(speed) <= _GRAZING * self._fastest(guards))).size:
             name = guards[grazing[0]]
             raise NotDifferentiable(
@@ -122,27 +129,27 @@ class Moment:
         state = perturbation.state + np.outer(self.field(self.before), shift)
         others = perturbation.others.copy()
         others[0] += shift
-        others = self._set(state, others)
+        state, others = self._set(state, others)
         for i, change in self.changes.items():
             if change.impulses:
-                of = self.run.motion.impact_derivatives(i)
-                state = np.vstack(
-                    [state[:n], of[:, 1 : 1 + 2 * n] @ state + np.delete(of, np.s_[1 : 1 + 2 * n], axis=1) @ others]
-                )
+                by_state, by_others = self.field.split(self.run.motion.impact_derivatives(i))
+                state = np.vstack([state[:n], by_state @ state + by_others @ others, state[2 * n :]])
         return Perturbation(state, others), shift
 
-    def _set(self, state: Array, others: Array) -> Array:
-        """The changes of the clock and parameters after events have set some, by those of the state where they happen."""
+    def _set(self, state: Array, others: Array) -> tuple[Array, Array]:
+        """The changes of y, of the clock and of parameters after events have set parameters or own states."""
         if not self.assignments:
-            return others
-        n, source = len(self.before.q), self.run.source
-        names = [parameter["name"] for parameter in source.metadata["parameters"]]
-        of = source.derivatives(list(self.assignments.values()), self.before)
-        changed = others.copy()
-        changed[[1 + names.index(name) for name in self.assignments]] = (
-            of[:, 1 : 1 + 2 * n] @ state + np.delete(of, np.s_[1 : 1 + 2 * n], axis=1) @ others
-        )
-        return changed
+            return state, others
+        source, own = self.run.source, self.field.own
+        places = {each["name"]: i for i, each in enumerate(source.metadata["parameters"])}
+        by_state, by_others = self.field.split(source.derivatives(list(self.assignments.values()), self.before))
+        changed, set_state, set_others = by_state @ state + by_others @ others, state.copy(), others.copy()
+        for name, row in zip(self.assignments, changed, strict=True):
+            if (place := places[name]) in own:
+                set_state[2 * len(self.before.q) + own.index(place)] = row
+            else:
+                set_others[1 + place] = row
+        return set_state, set_others
 
     def passed(self, perturbation: Perturbation) -> Perturbation:
         """The perturbation after the moment, at a fixed time."""

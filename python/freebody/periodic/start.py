@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, State, quote
+from freebody.core import Array, State, quote
 from freebody.model.errors import ModelProblem
 
 if TYPE_CHECKING:
     from freebody.model.start import Start
+    from freebody.periodic.variation import VectorField
 
 _RATE = re.compile(r"rate\((.+)\)")
 _DEPENDENT = 1e-10
@@ -31,11 +32,11 @@ def changes(unknowns: Sequence[str], values: Array, others: Mapping[str, Any]) -
 
 
 def slopes(
-    source: CompiledModel, start: Start, state: State, unknowns: Sequence[str], others: Mapping[str, Any]
+    field: VectorField, start: Start, state: State, unknowns: Sequence[str], others: Mapping[str, Any]
 ) -> tuple[Array, Array]:
-    """Derivatives by the unknowns of coordinates and rates at the start (2n, k), and of parameters (1 + np, k; the first row,
-    of the clock, is 0). Raises ``ModelProblem`` where the start leaves something open."""
-    n, k = len(state.q), len(unknowns)
+    """Derivatives by the unknowns of coordinates, rates and own states at the start (2n + nz, k), and of parameters (1 + np, k; the
+    first row, of the clock, is 0). Raises ``ModelProblem`` where the start leaves something open."""
+    source, n, k = field.source, len(state.q), len(unknowns)
     parameters = [parameter["name"] for parameter in source.metadata["parameters"]]
     by = np.array([[float(name == unknown) for unknown in unknowns] for name in ["", *parameters]]).reshape(-1, k)
     stated = {quote(name): text for name, text in start.fixed.items()}
@@ -70,4 +71,6 @@ def slopes(
             f"the unknowns {', '.join(unknowns)} and `initial` do not say the whole start, the rates included, of {names}",
             "give what is missing in `initial` and its `rates`, or as an unknown",
         )
+    own = [1 + i for i in field.own]
+    found, by[own] = np.vstack([found, by[own]]), 0.0
     return found, by

@@ -8,10 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, State, Trajectory, quote
+from freebody.core import Array, State, Trajectory, quote
+
+if TYPE_CHECKING:
+    from freebody.run.simulation import Run
 
 _STAGES = 4
 _AGREE = 1e-11
@@ -24,32 +28,44 @@ class NotDifferentiable(ValueError):
 
 
 class VectorField:
-    """The motion as a system of first order, (q, u)' = (u, u̇(t, q, u, p)), and its derivatives. ``sizes`` (n,) are a radian or the
-    extent of the mechanism, by which changes of coordinates are compared."""
+    """The motion of a run as a system of first order, y = (q, u, z) with states z of the model's own, and its derivatives. ``sizes`` (n,)
+    are a radian or the extent of the mechanism, by which changes of coordinates are compared; ``own_sizes`` (nz,) the largest
+    values of the states on the way, 1 where they are none."""
 
-    def __init__(self, source: CompiledModel, state: State) -> None:
-        self.source = source
-        self.names = [quote(each["name"]) for each in source.metadata["coordinates"]]
-        self.accelerations = [f"accel({name})" for name in self.names]
-        extent = source.free_bodies(state).extent
+    def __init__(self, run: Run) -> None:
+        self.source = source = run.source
+        self.names, self.states = [quote(each) for each in source.coordinate_names], list(source.metadata["states"])
+        self.rates = [*(f"accel({name})" for name in self.names), *(f"rate({quote(name)})" for name in self.states)]
+        extent = source.free_bodies(run.start).extent
         self.sizes = np.array([1.0 if each["dimension"] == "rad" else extent for each in source.metadata["coordinates"]])
+        parameters = [each["name"] for each in source.metadata["parameters"]]
+        self.own = [parameters.index(name) for name in self.states]
+        largest = np.abs(run.motion.evaluate([quote(name) for name in self.states], run.motion.steps)).max(axis=0, initial=0.0)
+        self.own_sizes = np.where(largest > 0, largest, 1.0)
 
     def __call__(self, state: State) -> Array:
-        """Rates and accelerations (2n,)."""
-        return np.concatenate([state.u, self.source.evaluate(self.accelerations, state)])
+        """Rates of all of y (2n + nz,)."""
+        return np.concatenate([state.u, self.source.evaluate(self.rates, state)])
+
+    def split(self, of: Array) -> tuple[Array, Array]:
+        """Derivatives (k, 1 + 2n + np) as those by y (k, 2n + nz), and those by the clock and the parameters (k, 1 + np)."""
+        placed, own = np.s_[1 : 1 + 2 * len(self.names)], [1 + i for i in self.own]
+        others = np.delete(of, placed, axis=1)
+        by_state = np.hstack([of[:, placed], others[:, own]])
+        others[:, own] = 0.0
+        return by_state, others
 
     def slopes(self, state: State) -> tuple[Array, Array]:
-        """Derivatives of rates and accelerations by coordinates and rates (2n, 2n), and by time and parameters (2n, 1 + np)."""
-        n, of = len(state.q), self.source.derivatives(self.accelerations, state)
-        by_state, by_others = of[:, 1 : 1 + 2 * n], np.delete(of, np.s_[1 : 1 + 2 * n], axis=1)
-        upper = np.hstack([np.zeros((n, n)), np.eye(n)])
-        return np.vstack([upper, by_state]), np.vstack([np.zeros_like(by_others), by_others])
+        """Derivatives of these rates by y, and by the clock and the parameters."""
+        by_state, by_others = self.split(self.source.derivatives(self.rates, state))
+        n = len(self.names)
+        return np.vstack([np.eye(n, by_state.shape[1], n), by_state]), np.vstack([np.zeros((n, by_others.shape[1])), by_others])
 
 
 @dataclass(frozen=True)
 class Transition:
-    """How coordinates and rates at the end of a phase follow those at its start, Φ ``by_state`` (2n, 2n), and changes of the clock
-    and of parameters, ``by_others`` (2n, k). ``error``: by how much halved steps change a column, over its largest size;
+    """How y at the end of a phase follows y at its start, Φ ``by_state`` (ny, ny), and changes of the clock
+    and of parameters, ``by_others`` (ny, k). ``error``: by how much halved steps change a column, over its largest size;
     ``liouville``: by how much det Φ differs from exp ∫ tr A dt, relatively."""
 
     by_state: Array
@@ -61,7 +77,7 @@ class Transition:
 def transition(field: VectorField, motion: Trajectory, steps: Array, others: Array) -> Transition:
     """The transition of a smooth phase, whose ``steps`` are those of the run, for changes of ``others`` (1 + np, k). Raises
     ``NotDifferentiable`` where halving of the steps comes to no end."""
-    sizes = np.concatenate([field.sizes, field.sizes / (steps[-1] - steps[0])])[:, None]
+    sizes = np.concatenate([field.sizes, field.sizes / (steps[-1] - steps[0]), field.own_sizes])[:, None]
     coarse, _, _ = _collocated(field, motion, np.union1d(steps[::2], steps[-1:]), others)
     for _ in range(_HALVINGS):
         fine, largest, divergence = _collocated(field, motion, steps, others)
@@ -79,12 +95,17 @@ def _collocated(field: VectorField, motion: Trajectory, steps: Array, others: Ar
     """Φ and the response to the others side by side, the largest sizes of their entries on the way, and ∫ tr A dt."""
     inside = motion.state((steps[0] + steps[1]) / 2)
     times = steps[:-1, None] + np.diff(steps)[:, None] * _C
-    places = (each.reshape(*times.shape, -1) for each in motion.sample(times.ravel()))
-    size = 2 * len(inside.q)
+    own = motion.evaluate([quote(name) for name in field.states], times.ravel())
+    places = (each.reshape(*times.shape, -1) for each in (*motion.sample(times.ravel()), own))
+    size = 2 * len(inside.q) + len(field.own)
     columns, inputs = np.eye(size, size + others.shape[1]), np.hstack([np.zeros((len(others), size)), others])
     largest, divergence = np.abs(columns), 0.0
     for h, *stages in zip(np.diff(steps), times, *places, strict=True):
-        slopes = [field.slopes(replace(inside, t=t, q=q, u=u)) for t, q, u in zip(*stages, strict=True)]
+        slopes = []
+        for t, q, u, z in zip(*stages, strict=True):
+            p = inside.p.copy()
+            p[field.own] = z
+            slopes.append(field.slopes(replace(inside, p=p, t=t, q=q, u=u)))
         columns = _step(columns, inputs, h, slopes)
         divergence += h * sum(b * np.trace(of_state) for b, (of_state, _) in zip(_B, slopes, strict=True))
         largest = np.maximum(largest, np.abs(columns))
