@@ -19,7 +19,7 @@ MAY_USE = {
     "run": CORE | {"model", "solve", "impact"},
     "find": SOLVED,
     "stability": SOLVED,
-    "periodic": SOLVED | {"document", "equations"},
+    "periodic": SOLVED | {"document", "equations", "find"},
     "inverse": SOLVED,
     "views": SOLVED | {"document", "stability"},
     "codegen": CORE | {"model", "solve", "document"},

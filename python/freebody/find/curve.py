@@ -68,7 +68,8 @@ class Break:
 
 @dataclass(eq=False)
 class Curve:
-    """What is known of a quantity between two places: samples in order, breaks, and intervals where it could not be followed."""
+    """What is known of a quantity between two places: samples in order, breaks, and intervals where it could not be followed.
+    ``respond`` is a ``Response``, or what answers as one does."""
 
     respond: Response
     start: float

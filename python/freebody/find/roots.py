@@ -135,8 +135,8 @@ def find(
     level = max(curve.level, 1e-9 * abs(goal))
     throughout = list(_throughout(curve, goal, level))
     inside = lambda x: any(a <= x <= b for a, b in throughout)
-    roots = [root for root in _roots(respond, curve, goal) if not inside(float(root.where))]
-    return Found(of, goal, vary, (respond.unit, respond.quantity_unit), curve, roots, throughout)
+    found = [root for root in roots(respond, curve, goal) if not inside(float(root.where))]
+    return Found(of, goal, vary, (respond.unit, respond.quantity_unit), curve, found, throughout)
 
 
 def followed(respond: Response, within: tuple[Any, Any], points: int) -> Curve:
@@ -173,8 +173,8 @@ def _throughout(curve: Curve, goal: float, level: float) -> Iterator[tuple[float
             yield start, edge(piece[last].x, piece[last + 1].x) if last + 1 < len(piece) else piece[last].x
 
 
-def _roots(respond: Response, curve: Curve, goal: float) -> Iterator[Root]:
-    """In order: at changes of sign, and where the quantity touches the target."""
+def roots(respond: Response, curve: Curve, goal: float) -> Iterator[Root]:
+    """Where a quantity that was followed is the ``goal``, in order: at changes of sign, and where it touches it."""
     found = list[Root]()
     for piece in curve.pieces:
         for low, high in pairwise(piece):

@@ -52,8 +52,8 @@ class Periodic:
         return motion.find(self.map, self._from(values), **changes)
 
     def find_all(self, within: Mapping[str, tuple[Any, Any]], starts: int = 32, **changes: Any) -> PeriodicMotions:
-        """The periodic motions with unknowns within bounds to which Newton's method comes from at least ``starts`` points spread over
-        them, with the number of points from which it comes to none."""
+        """The periodic motions with unknowns within bounds. With one unknown the map is followed until it is resolved; with more,
+        those that Newton's method reaches from at least ``starts`` points spread over the bounds; see ``PeriodicMotions.looked``."""
         self._from(dict.fromkeys(within, 0.0))
         if missing := [name for name in self.map.unknowns if name not in within]:
             raise ModelProblem(f"`{missing[0]}` has no bounds", "give (lowest, highest) for every unknown")
@@ -74,9 +74,9 @@ class Periodic:
         """The same for each of the ``values`` of another parameter, ``along``: the boundary in the plane of both."""
         return [each for value in values for each in self.boundary(parameter, within, samples, **changes, **{along: value})]
 
-    def limit(self, parameter: str, first: float, values: Mapping[str, float] | None = None, **changes: Any) -> Limit:
-        """The periodic motion as a parameter tends to 0 from ``first``, with its error; see ``freebody.periodic.limit``."""
-        return limit(self.map, parameter, first, self._from(values), **changes)
+    def limit(self, parameter: str, first: Any, values: Mapping[str, float] | None = None, **changes: Any) -> Limit:
+        """The periodic motion as a parameter tends to 0 from ``first``, with an estimate of its error; see ``freebody.periodic.limit``."""
+        return limit(self.map, parameter, self._value(parameter, first), self._from(values), **changes)
 
     def symbolic(self, values: Mapping[str, float] | None = None) -> SymbolicMap:
         """The map in symbols, of one unknown and one freedom; held against numbers near the start, or near ``values``. Raises
@@ -92,14 +92,18 @@ class Periodic:
 
     def _range(self, name: str, within: tuple[Any, Any]) -> tuple[float, float]:
         """Bounds in SI, from numbers or quantities like ``"30 deg"``. Raises ``ModelProblem`` where they are none."""
+        low, high = (self._value(name, x) for x in within)
+        if not low < high:
+            raise ModelProblem(f"`{name}` is sought from {low:g} to {high:g}", "give the lowest and then the highest")
+        return low, high
+
+    def _value(self, name: str, given: Any) -> float:
+        """A value of an unknown or a parameter in SI."""
         metadata = self.map.mechanism.compile().metadata
         units = {each["name"]: each["unit"] for each in metadata["parameters"]}
         for each in metadata["coordinates"]:
             units |= {quote(each["name"]): each["dimension"], f"rate({quote(each['name'])})": f"{each['dimension']}/s"}
-        low, high = (quantity(name, x, units.get(name, "")) for x in within)
-        if not low < high:
-            raise ModelProblem(f"`{name}` is sought from {low:g} to {high:g}", "give the lowest and then the highest")
-        return low, high
+        return quantity(name, given, units.get(name, ""))
 
 
 def periodic(

@@ -18,8 +18,8 @@ _TERMS = 8
 
 @dataclass(frozen=True)
 class Limit:
-    """The values of the unknowns, the period (s) and the multipliers in the limit, and ``error``: the largest difference of the last two
-    extrapolations of values and period."""
+    """The values of the unknowns, the period (s) and the multipliers in the limit; ``error`` estimates their error, it does not bound it:
+    the largest difference of the last two extrapolations of values, period and derivative, relative to the largest of each."""
 
     values: Mapping[str, float]
     period: float
@@ -43,5 +43,6 @@ def limit(returns: ReturnMap, parameter: str, first: float, start: Sequence[floa
         columns.append(columns[-1][1:] + part * (columns[-1][1:] - columns[-1][:-1]))
     k, best, before = len(place), columns[-1][-1], columns[-2][-1]
     multipliers = by_size(np.linalg.eigvals(best[k + 1 :].reshape(k, k)))
-    error = float(np.abs(best - before)[: k + 1].max())
+    parts = [slice(0, k), slice(k, k + 1), slice(k + 1, None)]
+    error = max(float(np.abs(best - before)[part].max() / (np.abs(best[part]).max() or 1.0)) for part in parts)
     return Limit(dict(zip(returns.unknowns, best[:k].tolist(), strict=True)), float(best[k]), multipliers, error)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,13 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from freebody.core import Array, MotionError
+from freebody.find.curve import Curve
+from freebody.find.response import Sample
+from freebody.find.roots import roots
 from freebody.model.errors import ModelProblem
 from freebody.periodic.return_map import NoReturn, Return, ReturnMap
 from freebody.periodic.variation import NotDifferentiable
+from freebody.solve.figures import Known
 
 _STEPS = 40
 _FOUND = 1e-12
@@ -64,11 +69,13 @@ class PeriodicMotion:
 
 @dataclass(frozen=True)
 class PeriodicMotions(Sequence[PeriodicMotion]):
-    """Those that were found within bounds, in order of the first unknown; of ``starts`` Newton's method came to none from ``lost``."""
+    """Those that were found within bounds, in order of the first unknown, and how it was ``looked`` for them; from ``lost`` of the
+    ``starts`` there was none: Newton's method came to none, or with one unknown, the motion did not come back."""
 
     motions: tuple[PeriodicMotion, ...]
     starts: int
     lost: int
+    looked: str
 
     def __getitem__(self, i: Any) -> Any:
         return self.motions[i]
@@ -78,9 +85,9 @@ class PeriodicMotions(Sequence[PeriodicMotion]):
 
     @property
     def sentence(self) -> str:
-        """How many there are, from how many starts, and from how many Newton's method came to none."""
+        """How many there are, and how it was looked for them."""
         found = f"{len(self)} motion{'s' * (len(self) != 1)} that repeat{'s' * (len(self) == 1)}"
-        return f"{found} within these bounds, from {self.starts} starts; from {self.lost} of these Newton's method came to none"
+        return f"{found} within these bounds, {self.looked}"
 
 
 def find(returns: ReturnMap, start: Sequence[float] | Array, **others: Any) -> PeriodicMotion:
@@ -153,20 +160,62 @@ def _periodic(returns: ReturnMap, values: Array, returned: Return, step: float) 
 
 
 def find_all(returns: ReturnMap, within: Sequence[tuple[float, float]], starts: int = 32, **others: Any) -> PeriodicMotions:
-    """The periodic motions within bounds of the unknowns to which Newton's method comes from at least ``starts`` points spread evenly
-    over them (Sobol)."""
+    """The periodic motions within bounds of the unknowns. The map of one unknown is followed from at least ``starts`` places until it is
+    resolved, as ``freebody.find`` does; of more, those are found to which Newton's method comes from at least ``starts`` points
+    spread evenly over the bounds (Sobol), which need not be all."""
     low, high = np.array(within, float).T
+    if len(within) == 1:
+        miss = _Miss(returns, others)
+        curve = Curve(miss, *within[0], max(starts, 4) + 1)
+        points, tried = [[float(root.where)] for root in roots(miss, curve, 0.0)], len(curve.samples)
+        lost = sum(not sample.is_known for sample in curve.samples)
+        looked = f"looked for at {curve.sentence('')}; at {lost} of the places the motion does not come back"
+    else:
+        points = low + (high - low) * qmc.Sobol(len(low), scramble=False).random_base2(int(np.ceil(np.log2(starts))) + 1)[1:]
+        tried = len(points)
+    reached = [motion for point in points if (motion := _reached(returns, point, others)) is not None]
+    if len(within) > 1:
+        lost = tried - len(reached)
+        looked = f"from {tried} starts; from {lost} of these Newton's method came to none. There may be others: more starts look further"
     found: list[PeriodicMotion] = []
-    lost = 0
-    points = qmc.Sobol(len(low), scramble=False).random_base2(int(np.ceil(np.log2(starts))) + 1)[1:]
-    for point in low + (high - low) * points:
-        try:
-            motion = find(returns, point, **others)
-        except (NoPeriodicMotion, ModelProblem):
-            lost += 1
-            continue
-        values = np.array(list(motion.values.values()))
+    for motion, values in ((each, np.array(list(each.values.values()))) for each in reached):
         apart = (np.abs(values - np.array(list(known.values.values()))) / (high - low) for known in found)
         if ((low <= values) & (values <= high)).all() and all(each.max() > _SAME for each in apart):
             found.append(motion)
-    return PeriodicMotions(tuple(sorted(found, key=lambda each: next(iter(each.values.values())))), len(points), lost)
+    return PeriodicMotions(tuple(sorted(found, key=lambda each: next(iter(each.values.values())))), tried, lost, looked)
+
+
+def _reached(returns: ReturnMap, point: Sequence[float] | Array, others: Mapping[str, Any]) -> PeriodicMotion | None:
+    try:
+        return find(returns, point, **others)
+    except (NoPeriodicMotion, ModelProblem):
+        return None
+
+
+@dataclass
+class _Miss:
+    """By how much a motion of one unknown misses its start: what ``freebody.find`` follows."""
+
+    returns: ReturnMap
+    others: Mapping[str, Any]
+    samples: dict[float, Sample] = field(default_factory=dict)
+
+    def __call__(self, x: float) -> Sample:
+        """The miss after a start with x, and what happened on the way."""
+        if x not in self.samples:
+            try:
+                run, end = self.returns.run(np.array([x]), self.others)
+                value = float(run.source.evaluate(self.returns.returns, run.motion.state(end))[0])
+                story = tuple(" ".join([each.kind, *each.of]) for each in run.changes if each.t <= end)
+                self.samples[x] = Sample(x, value - x, story)
+            except (NoReturn, MotionError, ModelProblem) as error:
+                self.samples[x] = Sample(x, math.nan, why=str(error))
+        return self.samples[x]
+
+    def known(self, x: float) -> Known:
+        """The same with its error."""
+        return Known(self(x).y, _CLOSED * abs(x), abs(x))
+
+    def error(self, samples: Sequence[Sample]) -> float:
+        """The largest error of some."""
+        return max(_CLOSED * abs(each.x) for each in samples)

@@ -61,7 +61,8 @@ class ReturnMap:
 
     def __call__(self, values: Sequence[float] | Array, **others: Any) -> Return:
         """One return. Raises ``NoReturn`` and ``NotDifferentiable``; ``MotionError`` and ``ModelProblem`` for an impossible start."""
-        field, run, end = self._run(np.asarray(values, float), others)
+        run, end = self.run(np.asarray(values, float), others)
+        field = VectorField(run)
         perturbation, checks = self._carried(field, run, end, others)
         source = run.source
         there, shift = perturbation, np.zeros(perturbation.state.shape[1])
@@ -84,10 +85,11 @@ class ReturnMap:
 
     def value(self, values: Sequence[float] | Array, **others: Any) -> tuple[Array, float]:
         """The values at the return (k,) and its time, without their derivatives."""
-        _, run, end = self._run(np.asarray(values, float), others)
+        run, end = self.run(np.asarray(values, float), others)
         return run.source.evaluate(self.returns, run.motion.state(end)), end - run.start.t
 
-    def _run(self, values: Array, others: Mapping[str, Any]) -> tuple[VectorField, Run, float]:
+    def run(self, values: Array, others: Mapping[str, Any]) -> tuple[Run, float]:
+        """The motion from a start, and when it comes back, s. Raises as a return."""
         mechanism, changes = self.mechanism, start.changes(self.unknowns, values, {**self.others, **others})
         until = self.horizon
         if self.period:
@@ -97,7 +99,7 @@ class ReturnMap:
         end = until if self.period else self._section(run)
         if not run.outcome.ok and run.end.t < end:
             raise NoReturn(f"the motion ends at t = {run.end.t:g} s: {run.outcome.sentence}")
-        return VectorField(run), run, end
+        return run, end
 
     def _section(self, run: Run) -> float:
         """When the section is first come to after the start."""
