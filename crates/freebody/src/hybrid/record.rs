@@ -4,7 +4,7 @@ use super::guards::SwitchingFunction;
 use super::mode_changes::{ContactImpulse, ModeChange};
 use super::Trajectory;
 use crate::mechanism::{DriveKind, Mechanism};
-use crate::motion::{Kind, Outcome};
+use crate::motion::{Kind, Outcome, Unresolved, TIGHTEST};
 use serde_json::{json, Value};
 
 impl Trajectory {
@@ -48,11 +48,21 @@ impl Trajectory {
                 m.events[event].name
             )
         };
+        let unresolved = |each: &Unresolved| {
+            let (name, t, rtol) = (|event: usize| &m.events[event].name, each.t, each.rtol);
+            let what = match each.other {
+                Some(other) => format!("which of `{}` and `{}` comes first", name(each.index), name(other)),
+                None => format!("whether `{}` acts", name(each.index)),
+            };
+            let by = if rtol > TIGHTEST { format!("rtol {rtol:.0e}") } else { "a smaller one".to_string() };
+            format!("; {what}, at t = {t:.6} s, is not resolved at this rtol; {by} may tell")
+        };
         let left = |(table, t): (usize, f64)| {
             format!("; the table `{}` was left, from t = {t:.6} s on its end value holds", m.table_names[table])
         };
         let tables = self.tables_left(m).unwrap_or_default().into_iter().map(left);
-        ending + &self.unrecorded.iter().map(dense).chain(tables).collect::<String>()
+        let unresolved = self.unresolved.iter().map(unresolved);
+        ending + &self.unrecorded.iter().map(dense).chain(unresolved).chain(tables).collect::<String>()
     }
 }
 

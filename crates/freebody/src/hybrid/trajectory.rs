@@ -8,7 +8,7 @@ use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
 use crate::mechanism::{Discontinuity, Mechanism};
 use crate::mode::Mode;
-use crate::motion::{EventRecord, Outcome, Run};
+use crate::motion::{EventRecord, Outcome, Run, Unresolved};
 
 /// Part of the fastest rate by which the rates after an impact may differ from those of an impact whose rows part at −e times
 /// their approach: more, and it followed another law.
@@ -22,6 +22,8 @@ pub struct Trajectory {
     pub events: Vec<EventRecord>,
     /// Events that came more often than can be recorded, and since when.
     pub unrecorded: Vec<(usize, f64)>,
+    /// What events do by less than the motion is known.
+    pub unresolved: Vec<Unresolved>,
     /// How it ended.
     pub outcome: Outcome,
     /// Accepted and rejected steps, rate evaluations.
@@ -79,6 +81,7 @@ impl Trajectory {
             steps,
             events: system.initial_events.into_iter().chain(run.events.iter().cloned()).collect(),
             unrecorded: run.unrecorded.clone(),
+            unresolved: run.unresolved.clone(),
             outcome: run.outcome.clone(),
             counts: [run.accepted, run.rejected, run.evaluations],
             discontinuities: run.discontinuities,

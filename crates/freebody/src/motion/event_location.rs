@@ -2,7 +2,7 @@
 
 use super::chatter::is_tie;
 use super::dense::Segment;
-use super::events::{Kind, Mark};
+use super::events::{Kind, Mark, Unresolved};
 use super::method::all_finite;
 use super::outcome::{EventRecord, Outcome};
 use super::probe::Probe;
@@ -27,6 +27,14 @@ impl Runner<'_> {
                 counting.push(mark);
             }
         }
+        let mut armed = Vec::new();
+        for each in std::mem::take(&mut self.detector.unresolved) {
+            segment.at(each.t, &mut y);
+            if system.armed(each.index, each.t, &y).map_err(Outcome::DynamicsError)? {
+                armed.push(each);
+            }
+        }
+        self.detector.unresolved = armed;
         Ok(counting)
     }
 
@@ -40,7 +48,7 @@ impl Runner<'_> {
         let (mut hits, system) = (Vec::new(), &mut *self.system.system);
         for (index, side) in self.detector.crossing_here(&values, &later) {
             let direction = side * h.signum() as i8;
-            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction };
+            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction, blur: 0.0 };
             if system.switch(index).role == Role::Event && counts(system, &hit, &self.now.y)? {
                 hits.push(hit);
             }
@@ -52,13 +60,16 @@ impl Runner<'_> {
     pub(super) fn go_to_event(&mut self, segment: Segment, marks: &[Mark]) -> Result<(), Outcome> {
         let crossings: Vec<Mark> = marks.iter().filter(|mark| mark.kind == Kind::Crossing).copied().collect();
         let first = *crossings.first().expect("the caller saw one");
-        let (hits, later): (Vec<Mark>, Vec<Mark>) =
+        self.note_order(first, &crossings);
+        let (mut hits, later): (Vec<Mark>, Vec<Mark>) =
             crossings.into_iter().partition(|mark| is_tie(mark.t, first.t, self.norm.time));
         let arrived = self.step_onto(&segment, first, later.first().map(|mark| mark.t))?;
         self.note_touches(&segment, marks, self.now.t);
         if !arrived {
             return self.look_around(&[], false);
         }
+        self.note_unresolved(&segment, self.now.t);
+        self.order_events(&mut hits);
         let has_jumped = self.act(&hits)?;
         if has_jumped {
             self.stepper.reset();
@@ -176,6 +187,37 @@ impl Runner<'_> {
                 let mut y = vec![0.0; self.now.y.len()];
                 segment.at(mark.t, &mut y);
                 self.run.events.push(event_record(mark, mark.t, &y));
+            }
+        }
+    }
+
+    /// Records once what events do before time `until` by less than the motion is known.
+    pub(super) fn note_unresolved(&mut self, segment: &Segment, until: f64) {
+        for each in std::mem::take(&mut self.detector.unresolved) {
+            let known = |other: &Unresolved| (other.index, other.other) == (each.index, each.other);
+            if (each.t - segment.t0).abs() <= (until - segment.t0).abs() && !self.run.unresolved.iter().any(known) {
+                self.run.unresolved.push(each);
+            }
+        }
+    }
+
+    /// Puts the events among what happens in one instant into the order of the model; the rest keeps its place.
+    fn order_events(&self, hits: &mut [Mark]) {
+        let is_event = |mark: &Mark| self.system.system.switch(mark.index).role == Role::Event;
+        let mut events: Vec<Mark> = hits.iter().copied().filter(is_event).collect();
+        events.sort_by_key(|mark| mark.index);
+        hits.iter_mut().filter(|hit| is_event(hit)).zip(events).for_each(|(hit, event)| *hit = event);
+    }
+
+    /// Notes the events that act so soon after the first that they may come before it.
+    fn note_order(&mut self, first: Mark, crossings: &[Mark]) {
+        let system = &*self.system.system;
+        let acts = |mark: &&Mark| system.switch(mark.index).acts && system.switch(first.index).acts;
+        for mark in crossings.iter().filter(acts).filter(|mark| !is_tie(mark.t, first.t, self.norm.time)) {
+            let (apart, blur) = ((mark.t - first.t).abs(), first.blur + mark.blur);
+            if apart <= blur {
+                let (t, other, rtol) = (first.t, Some(mark.index), self.norm.rtol * apart / blur);
+                self.detector.unresolved.push(Unresolved { t, index: first.index, other, rtol });
             }
         }
     }

@@ -13,6 +13,9 @@ const TOUCH: f64 = 1e-12;
 const GRAZE: f64 = 30.0;
 /// The same of an event that acts: whether it does must not depend on more than the tolerance asked for.
 const GRAZE_OF_ACTION: f64 = 1.0;
+/// Tolerances of that way by which an event that acts must clear zero, and of its instant by which another must be apart,
+/// to be sure of what it does.
+const DOUBT: f64 = 10.0;
 /// Mean over swing from which a polynomial cannot reach zero: |Tₖ| ≤ 1, and a little for the rounding of its sums.
 const CLEAR_OF_ZERO: f64 = 1.001;
 /// Part of a half step past its end where what crosses zero in it may turn back.
@@ -45,6 +48,21 @@ pub(super) struct Mark {
     pub kind: Kind,
     /// +1 where the function rises as time grows, −1 where it falls, 0 for a touch.
     pub direction: i8,
+    /// How far its time is not sure, s; 0 where nothing acts or time alone decides.
+    pub blur: f64,
+}
+
+/// What an event that acts does by less than the motion is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unresolved {
+    /// When.
+    pub t: f64,
+    /// The event that may, or may not, act.
+    pub index: usize,
+    /// Another that comes so near that either may be the first.
+    pub other: Option<usize>,
+    /// The relative tolerance that may tell.
+    pub rtol: f64,
 }
 
 /// Where a switching function is.
@@ -74,6 +92,8 @@ struct Memory {
     is_guard: bool,
     /// Part of its reach within which it touches zero.
     graze: f64,
+    /// The same within which it is not sure whether it acts.
+    doubt: f64,
 }
 
 impl Memory {
@@ -103,6 +123,8 @@ fn beyond(value: f64, noise: f64) -> i8 {
 pub(super) struct EventDetector {
     memory: Vec<Memory>,
     points: [f64; SAMPLES],
+    /// What acts on the segment last searched, or does not, and is not sure.
+    pub unresolved: Vec<Unresolved>,
 }
 
 impl EventDetector {
@@ -118,9 +140,11 @@ impl EventDetector {
                 _ if spec.acts => GRAZE_OF_ACTION * rtol,
                 _ => GRAZE * rtol,
             };
-            Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze }
+            let doubt = if spec.acts { DOUBT * rtol } else { 0.0 };
+            Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze, doubt }
         };
-        Self { memory: (0..system.switches()).map(memory).collect(), points: chebyshev_points() }
+        let memory = (0..system.switches()).map(memory).collect();
+        Self { memory, points: chebyshev_points(), unresolved: vec![] }
     }
 
     pub fn is_idle(&self) -> bool {
@@ -136,6 +160,7 @@ impl EventDetector {
             samples.iter_mut().zip(values).for_each(|(samples, value)| samples[j] = *value);
         }
         let mut marks = Vec::new();
+        self.unresolved.clear();
         for (i, values) in samples.iter().enumerate() {
             if self.memory[i].is_muted {
                 continue;
@@ -168,7 +193,9 @@ impl EventDetector {
             let t = probe.time(x);
             if x <= 1.0 {
                 nodes.push(Node { t, value: probe.one(i, t)?, is_extremum: true });
-            } else if past.is_none() && value(&polynomial, x).abs() <= 2.0 * memory.graze * memory.size {
+            } else if past.is_none()
+                && value(&polynomial, x).abs() <= 2.0 * memory.graze.max(memory.doubt) * memory.size
+            {
                 past = Some(Node { t, value: probe.one(i, t)?, is_extremum: true });
             }
         }
@@ -232,6 +259,18 @@ impl EventDetector {
         for k in usize::from(memory.is_spent)..inside {
             let (node, near) = (nodes[k], memory.near(place));
             let may_touch = !memory.is_guard && place.reach > near;
+            let unsure = |turn: &Node, t: f64| {
+                let part = turn.value.abs() / place.reach;
+                (memory.doubt > 0.0 && part <= memory.doubt).then_some(Unresolved {
+                    t,
+                    index: i,
+                    other: None,
+                    rtol: part / DOUBT,
+                })
+            };
+            if node.is_extremum {
+                self.unresolved.extend(unsure(&node, node.t));
+            }
             // What is clearly across, by the tolerance, crosses twice.
             let clear = (memory.graze * place.reach).max(NOISE * memory.size);
             let turns = |node: &Node| {
@@ -239,7 +278,7 @@ impl EventDetector {
                 may_touch && is_near && beyond(node.value, clear) != -place.side
             };
             if turns(&node) && place.side != 0 && place.grazes != Some(true) {
-                marks.push(Mark { t: node.t, index: i, kind: Kind::Touch, direction: 0 });
+                marks.push(Mark { t: node.t, index: i, kind: Kind::Touch, direction: 0, blur: 0.0 });
                 (place.grazes, place.last_touch) = (Some(true), node.t);
             }
             let noise = if place.grazes.is_some() { near } else { NOISE * memory.size };
@@ -259,10 +298,17 @@ impl EventDetector {
                 let noise = if memory.is_guard { NOISE * memory.size } else { 0.0 };
                 let t = probe.root(i, last, node, f64::from(place.side) * noise)?;
                 let direction = sign * probe.ahead() as i8;
-                marks.push(Mark { t, index: i, kind: Kind::Crossing, direction });
+                let turn = nodes[k..].iter().find(|node| node.is_extremum);
+                self.unresolved.extend(turn.and_then(|turn| unsure(turn, t)));
+                let slope = ((node.value - last.value) / (node.t - last.t)).abs();
+                let blur = match memory.doubt > 0.0 && probe.depends_on_state(i, t)? {
+                    true => memory.doubt * place.reach / slope,
+                    false => 0.0,
+                };
+                marks.push(Mark { t, index: i, kind: Kind::Crossing, direction, blur });
                 place.reach = 0.0;
             } else if place.grazes == Some(false) {
-                marks.push(Mark { t: last.t, index: i, kind: Kind::Touch, direction: 0 });
+                marks.push(Mark { t: last.t, index: i, kind: Kind::Touch, direction: 0, blur: 0.0 });
                 place.last_touch = last.t;
             }
             let reach = place.reach.max(node.value.abs());

@@ -26,10 +26,10 @@ mod tests;
 mod tsit5;
 
 pub use dense::{Segment, Trajectory};
-pub use events::Kind;
+pub use events::{Kind, Unresolved};
 pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
-pub use run::{run, Options};
+pub use run::{run, Options, TIGHTEST};
 pub use system::{After, Canonical, DynamicsError, EventSpec, Role, System};
 
 /// All methods; the first one is the default.

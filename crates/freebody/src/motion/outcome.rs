@@ -1,7 +1,7 @@
 //! What a run gives back.
 
 use super::dense::Trajectory;
-use super::events::Kind;
+use super::events::{Kind, Unresolved};
 use super::system::DynamicsError;
 use std::fmt;
 
@@ -137,6 +137,8 @@ pub struct Run {
     pub events: Vec<EventRecord>,
     /// Events that came more often than can be recorded: index, and from when on they are not.
     pub unrecorded: Vec<(usize, f64)>,
+    /// What events do by less than the motion is known, each once.
+    pub unresolved: Vec<Unresolved>,
     /// How it ended.
     pub outcome: Outcome,
     /// Last good time.

@@ -68,6 +68,16 @@ impl<'a> Probe<'a> {
         }
     }
 
+    /// Whether function `i` is another at time `t` with the state that the segment has at its start.
+    pub fn depends_on_state(&mut self, i: usize, t: f64) -> Result<bool, DynamicsError> {
+        let (mut here, mut there) = (vec![0.0; self.system.switches()], vec![0.0; self.system.switches()]);
+        self.segment.at(t, &mut self.y);
+        self.system.switch_values(t, &self.y, &mut here)?;
+        self.segment.at(self.segment.t0, &mut self.y);
+        self.system.switch_values(t, &self.y, &mut there)?;
+        Ok(here[i] != there[i])
+    }
+
     /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within the
     /// `noise` there, it leaves the noise.
     pub fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, DynamicsError> {

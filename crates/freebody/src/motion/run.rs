@@ -10,7 +10,7 @@ use super::step_control::StepController;
 use super::system::System;
 
 /// The tightest relative tolerance that is accepted.
-const TIGHTEST: f64 = 1e-14;
+pub const TIGHTEST: f64 = 1e-14;
 /// Steps within which one is laid astride a singular place: this one, or the next, so that it fits without a short one.
 const REACH: f64 = 1.5;
 /// Steps within which the end of a run is reached by the next one: none is left that is only round-off long.
@@ -175,6 +175,7 @@ impl<'a> Runner<'a> {
         } else {
             self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::DynamicsError)?;
             self.note_touches(&segment, &marks, segment.t1);
+            self.note_unresolved(&segment, segment.t1);
             self.push(segment);
             self.detector.pass();
         }
@@ -296,6 +297,7 @@ impl Run {
             trajectory: Default::default(),
             events: Vec::new(),
             unrecorded: Vec::new(),
+            unresolved: Vec::new(),
             outcome: Outcome::Interrupted,
             t: at.t,
             y: at.y.clone(),
