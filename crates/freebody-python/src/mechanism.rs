@@ -67,6 +67,11 @@ fn placed<'m>(m: &'m freebody::mechanism::Mechanism, (p, t, q, u, past): &State<
     Workspace::of_state(m, p.as_slice()?, *t, [q.as_slice()?, u.as_slice()?], mode).map_err(errors::motion)
 }
 
+/// The works of a state: those of its motion, or of one that starts there.
+fn works(workspace: &Workspace, state: &State<'_>) -> Vec<f64> {
+    state.4.as_ref().map_or_else(|| workspace.works_at_start(), |past| past.works.clone())
+}
+
 #[pymethods]
 impl Mechanism {
     #[new]
@@ -148,8 +153,8 @@ impl Mechanism {
         let m = self.0.mechanism();
         let mut workspace = placed(&m, &state)?;
         let laws: Vec<&ModelExpr> = laws.iter().collect();
-        let works = state.4.as_ref().map_or(&[][..], |past| &past.works);
-        Ok(PyArray1::from_vec(py, workspace.evaluate(&laws, works).map_err(errors::motion)?))
+        let works = works(&workspace, &state);
+        Ok(PyArray1::from_vec(py, workspace.evaluate(&laws, &works).map_err(errors::motion)?))
     }
 
     fn derivatives<'py>(
@@ -162,9 +167,8 @@ impl Mechanism {
         let m = self.0.mechanism();
         let mut workspace = placed(&m, &state)?;
         let laws: Vec<&ModelExpr> = laws.iter().collect();
-        let works = state.4.as_ref().map_or(&[][..], |past| &past.works);
-        let along = workspace.unit_directions();
-        let rows = workspace.derivatives(&laws, works, &along).map_err(errors::motion)?;
+        let (works, along) = (works(&workspace, &state), workspace.unit_directions());
+        let rows = workspace.derivatives(&laws, &works, &along).map_err(errors::motion)?;
         array(py, rows.concat(), [along.len(), laws.len()])
     }
 

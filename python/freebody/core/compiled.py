@@ -146,7 +146,7 @@ class CompiledModel:
         return SymbolicAnswers.read(self.mechanism.symbolic_answers(state.arrays, setting, list(questions)))
 
     def evaluate(self, texts: Sequence[str], state: State) -> Array:
-        """Values (k,) of expressions; works count as 0."""
+        """Values (k,) of expressions; works are those of the motion that brought the state, 0 without one."""
         return self.mechanism.evaluate(list(texts), state.arrays)
 
     def derivatives(self, texts: Sequence[str], state: State) -> Array:

@@ -177,8 +177,7 @@ class Certificate:
 
     def _works(self, s: Stretch) -> Iterator[float]:
         """How far works over a stretch are from the integrals of powers, beside the largest of them."""
-        known = {part["name"] for section in ("forces", "motions") for part in self.run.metadata[section]}
-        names = [quote(name.removesuffix(".work")) for name in self.run.energy.works if name.removesuffix(".work") in known]
+        names = [quote(part["name"]) for section in ("forces", "motions") for part in self.run.metadata[section]]
         if names:
             texts = [f"{name}.{word}" for word in ("work", "power") for name in names]
             work, power = np.hsplit(self.run.motion.evaluate(texts, s.t), 2)

@@ -31,8 +31,6 @@ _CONVERGED = 1e-3
 """Part of an integral that its error may be: at a kink less is left, over a pole all."""
 _UNEVEN = 0.38196601125010515
 """Part of a step at which it is cut to integrate it again: no halving comes to it."""
-ENTRIES = ("parameter changes", "impacts", "balance")
-"""Entries of the ledger that no expression gives."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
 
 
@@ -87,7 +85,7 @@ class Energy:
     def labels(self) -> dict[str, str]:
         """What is worth showing, by words: the names of what is stored and of every work; of changes of parameters, impacts and
         friction where there were any."""
-        works = {f"work of {name.removesuffix('.work')}": name for name in self.works}
+        works = {f"work of {name}": name for name in self.works}
         shown = {label: name for label, name in works.items() if label not in _RARE or self[name].any()}
         return {"kinetic": "kinetic", "potential": "potential", **shown}
 
@@ -99,7 +97,7 @@ class Energy:
 
     @property
     def works(self) -> dict[str, Array]:
-        """Work (nt,) since the start of every force and motion that has no potential."""
+        """Work (nt,) since the start of every force and motion that no potential accounts for: of a spring, that of its damper."""
         return {name: self[name] for name in self.names if name not in ("kinetic", "potential", "balance")}
 
 
@@ -284,6 +282,12 @@ def reduce(how: str, signal: Signal, window: Window, rate: Signal | None = None)
     raise ValueError(f"no such reduction: {how!r}; there are {', '.join(EXTREMES)}")
 
 
+def expression_of_entry(entry: str, metadata: Mapping[str, Any]) -> str:
+    """The expression that gives an entry of the energy ledger; empty where none does."""
+    works = {part["name"]: f"{quote(part['name'])}.work" for section in ("forces", "motions") for part in metadata[section]}
+    return (works | {"kinetic": "kinetic()", "potential": "potential()", "friction": "friction_work()"}).get(entry, "")
+
+
 def columns_of(source: CompiledModel, ledger: Sequence[str]) -> list[Column]:
     """All columns, kind by kind, in the order of the core's arrays; ``ledger`` names the entries of the energy ledger."""
     made, metadata = list[Column](), source.metadata
@@ -311,13 +315,10 @@ def columns_of(source: CompiledModel, ledger: Sequence[str]) -> list[Column]:
     for motion in metadata["motions"]:
         unit = motion["readings"]["force"]
         add("limit", f"{quote(motion['name'])}.force", Name("M" if unit == "N*m" else "F", (motion["name"],)), unit)
-    own = {"kinetic": ("kinetic()", Name("T")), "potential": ("potential()", Name("V"))} | {
-        each: (each, Name(each)) for each in ENTRIES
-    }
-    own |= {"friction": ("friction_work()", Name("W", ("friction",)))}
+    signs = {"kinetic": Name("T"), "potential": Name("V")}
     for entry in ledger:
-        of = entry.removesuffix(".work")
-        add("energy", *own.get(entry, (f"{quote(of)}.work", Name("W", (of,)))), "J")
+        text = expression_of_entry(entry, metadata)
+        add("energy", text or entry, signs.get(entry, Name("W", (entry,)) if text else Name(entry)), "J")
     for body in (each["name"] for each in metadata["bodies"]):
         for text, stem, unit in (("x({}.origin)", "x", "m"), ("y({}.origin)", "y", "m"), ("angle({})", "phi", "rad")):
             add("pose", text.format(quote(body)), Name(stem, (body,)), unit)

@@ -16,7 +16,6 @@ from freebody.core import BEFORE, Change, CompiledModel, Indeterminate, ModelErr
 from freebody.run import storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
 from freebody.run.records import (
-    ENTRIES,
     KINDS,
     Array,
     Column,
@@ -25,6 +24,7 @@ from freebody.run.records import (
     Signal,
     Window,
     columns_of,
+    expression_of_entry,
     over_time,
     quote,
     reduce,
@@ -158,13 +158,18 @@ class Run:
         names, values = self.motion.ledger(self.t)
         return Energy(self.t, tuple(names), values)
 
+    @cached_property
+    def _own_entries(self) -> list[str]:
+        """The entries of the energy ledger that no expression gives."""
+        return [name for name in self.motion.ledger(self.t[:0])[0] if not expression_of_entry(name, self.metadata)]
+
     # Anything by name
 
     def __getitem__(self, name: str) -> Array:
         """Values over ``t`` of a column, a point's path (nt, 2), or any expression."""
         if name == "t":
             return self.t
-        if name in ENTRIES:
+        if name in self._own_entries:
             return self.energy[name]
         return self.point(name) if name in self.points else np.asarray(self.evaluate(name))
 

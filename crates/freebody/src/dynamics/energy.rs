@@ -2,6 +2,7 @@
 
 use super::Workspace;
 use crate::kinematics::{State, StateView};
+use crate::mechanism::Part;
 use crate::plane::Vec2;
 use crate::scalar::Scalar;
 
@@ -18,10 +19,16 @@ pub fn potential<S: Scalar>(at: StateView<'_, S>) -> S {
     for body in 1..at.m.bodies.len() {
         gravity += -at.n.mass[body] * at.n.gravity.dot(at.mass_centre(body));
     }
-    for potential in at.forces().filter_map(|(_, force)| force.potential.as_ref()) {
-        elastic += potential.eval(&State(at));
+    for force in 0..at.m.forces.len() {
+        elastic += force_potential(at, force);
     }
     gravity + elastic
+}
+
+/// Potential energy of a force, J; 0 where it has none or is not in place.
+pub fn force_potential<S: Scalar>(at: StateView<'_, S>, force: usize) -> S {
+    let potential = at.m.forces[force].potential.as_ref().filter(|_| at.mode.has(Part::Force(force)));
+    potential.map_or(S::zero(), |potential| potential.eval(&State(at)))
 }
 
 /// Kinetic energy of all bodies, J.
@@ -68,6 +75,18 @@ impl Workspace<'_> {
     /// Potential energy, J.
     pub fn potential_energy(&self) -> f64 {
         potential(self.at())
+    }
+
+    /// Potential energy of every force, J.
+    pub fn force_potentials(&self) -> Vec<f64> {
+        (0..self.m.forces.len()).map(|force| force_potential(self.at(), force)).collect()
+    }
+
+    /// The works, as [`Workspace::evaluate`] takes them, of a motion that starts from the present state.
+    pub fn works_at_start(&self) -> Vec<f64> {
+        let mut works = self.force_potentials();
+        works.resize(self.m.forces.len() + self.m.drives.len() + 1, 0.0);
+        works
     }
 
     /// Place of a site, fixed axes.

@@ -1,6 +1,8 @@
 //! A solved instant, as it is handed out, and the reading of expressions at states.
 
-use super::energy::{angular_momentum, kinetic, kinetic_energy, potential, whole_mass_centre, whole_momentum};
+use super::energy::{
+    angular_momentum, force_potential, kinetic, kinetic_energy, potential, whole_mass_centre, whole_momentum,
+};
 use super::{
     force_power, force_value, Determinacy, DynamicsError, JointLoad, Route, SolvedView, TermScales, Workspace,
 };
@@ -158,7 +160,8 @@ impl Needs {
 
 impl Workspace<'_> {
     /// The values of expressions at the present state, which is solved only when one of them asks for it; `works` of
-    /// all forces, then of all drives. What is not determinate is NaN.
+    /// all forces, each with the potential that it has now, of all drives and of friction since the start, J. What is not
+    /// determinate is NaN.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
@@ -188,14 +191,12 @@ impl Workspace<'_> {
 }
 
 impl<S: Scalar> SolvedView<'_, S> {
-    /// A quantity of the instant; `works` of all forces, drives and friction since the start. NaN where it is not
-    /// determinate.
+    /// A quantity of the instant; `works` as those of [`Workspace::evaluate`]. NaN where it is not determinate.
     pub fn read(&self, reading: Reading, works: &[S], determinacy: Option<&Determinacy>) -> S {
         let (at, m) = (self.at, self.at.m);
         let known = |is_sure: &dyn Fn(&Determinacy) -> bool, value: S| {
             S::select(determinacy.is_none_or(is_sure), value, S::of(f64::NAN))
         };
-        let work = |i: usize| works.get(i).copied().unwrap_or(S::zero());
         match reading {
             Reading::Reaction(j, axis) => {
                 let (parts, value) = self.component(j, axis);
@@ -203,10 +204,10 @@ impl<S: Scalar> SolvedView<'_, S> {
             }
             Reading::Drive(d) => known(&|sure| sure.drives[d], self.drive_forces()[d]),
             Reading::DrivePower(d) => known(&|sure| sure.drives[d], self.drive_powers()[d]),
-            Reading::DriveWork(d) => work(m.forces.len() + d),
+            Reading::DriveWork(d) => works[m.forces.len() + d],
             Reading::Force(f) => force_value(at, f),
             Reading::ForcePower(f) => force_power(at, f),
-            Reading::ForceWork(f) => work(f),
+            Reading::ForceWork(f) => works[f] - force_potential(at, f),
             Reading::Kinetic(Some(body)) => kinetic(at, body),
             Reading::Kinetic(None) => kinetic_energy(at),
             Reading::Potential => potential(at),
@@ -224,7 +225,7 @@ impl<S: Scalar> SolvedView<'_, S> {
                 let friction = m.joint_friction.iter().position(|friction| of_joint(friction.of));
                 friction.map_or(S::zero(), |friction| self.joint_friction_force(friction))
             }
-            Reading::FrictionWork => work(m.forces.len() + m.drives.len()),
+            Reading::FrictionWork => works[m.forces.len() + m.drives.len()],
         }
     }
 

@@ -21,7 +21,7 @@ impl HybridSystem<'_> {
             let branch = self.mode.branch(*switch).unwrap_or(true);
             self.mode.freeze(*switch, !branch);
         }
-        self.begin_phase(t, 0.0, 0.0);
+        self.begin_phase(t, 0.0);
     }
 
     /// Does what an event asks for; answers whether the motion changes by it.
@@ -49,14 +49,13 @@ impl HybridSystem<'_> {
 
     /// Sets parameters, lets the others follow, and notes the energy that the change put in.
     pub(super) fn change(&mut self, t: f64, y: &[f64], values: &[(usize, f64)]) {
-        let before: f64 = self.energy(t, y).iter().sum();
+        let before = self.stored(t, y);
         for &(i, x) in values {
             self.set.retain(|(j, _)| *j != i);
             self.set.push((i, x));
         }
         let p = self.workspace.m.parameters_with(&self.set);
         self.workspace.rebind(&p);
-        let jump = self.energy(t, y).iter().sum::<f64>() - before;
-        self.begin_phase(t, jump, 0.0);
+        self.begin_changed_phase(t, y, before);
     }
 }

@@ -221,7 +221,7 @@ impl HybridSystem<'_> {
         }
         let work = self.project_velocities(&mode, t, y)?;
         let lost = energy + work - self.workspace.kinetic_energy();
-        self.begin_phase(t, 0.0, -lost);
+        self.begin_phase(t, -lost);
         self.record(ModeChange {
             t: t + flight / (1.0 - part),
             kind: "rest",

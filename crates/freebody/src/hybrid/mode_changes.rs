@@ -104,7 +104,7 @@ impl HybridSystem<'_> {
             self.record(ModeChange { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note });
         }
         self.mode = after;
-        self.begin_phase(t, 0.0, 0.0);
+        self.begin_phase(t, 0.0);
     }
 
     /// The names of the contacts, stops and strings of unilateral constraints, each once.
@@ -126,7 +126,7 @@ impl HybridSystem<'_> {
 
     /// Notes a jump of the velocities, with the energy that it took.
     pub(super) fn record_jump(&mut self, change: ModeChange) {
-        self.begin_phase(change.t, 0.0, -change.lost);
+        self.begin_phase(change.t, -change.lost);
         self.record(change);
     }
 }

@@ -36,6 +36,7 @@ impl HybridSystem<'_> {
         if m.is_hybrid() && until < t {
             return Err(DynamicsError::Backward);
         }
+        self.open(t, y);
         if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
             self.place(t, y);
             if start.mode.is_none() {
@@ -52,7 +53,7 @@ impl HybridSystem<'_> {
         // The ledger begins after the events of the start.
         let states = self.first_state();
         y[2 * m.freedom()..states].fill(0.0);
-        self.open();
+        self.open(t, y);
         Ok(())
     }
 
@@ -232,7 +233,7 @@ impl HybridSystem<'_> {
             return Err(DynamicsError::CreatesEnergy(self.workspace.names_of(contacts), speed));
         }
         if speed + height != 0.0 {
-            self.begin_phase(t, 0.0, speed + height);
+            self.begin_phase(t, speed + height);
         }
         Ok(mode)
     }

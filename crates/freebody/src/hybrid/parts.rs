@@ -22,7 +22,7 @@ impl HybridSystem<'_> {
         actions: &[EventAction],
     ) -> Result<bool, DynamicsError> {
         let (mut switched, mut engaged) = (false, vec![]);
-        let before: f64 = self.energy(t, y).iter().sum();
+        let before = self.stored(t, y);
         for action in actions {
             switched |= match action {
                 EventAction::Release(part) => self.put(t, *part, false),
@@ -34,9 +34,8 @@ impl HybridSystem<'_> {
                 _ => false,
             };
         }
-        let jump = self.energy(t, y).iter().sum::<f64>() - before;
-        if jump != 0.0 {
-            self.begin_phase(t, jump, 0.0);
+        if switched {
+            self.begin_changed_phase(t, y, before);
         }
         switched |= self.reset(t, y, actions)?;
         if switched {

@@ -36,6 +36,9 @@ pub struct Phase {
     pub jump: f64,
     /// Energy that impacts and jumps of the velocities at its beginning put in, J: less than nothing for impacts.
     pub impact: f64,
+    /// Energy that the potential of each force was given: what it was at the start and all that changes of parameters and
+    /// parts put in since, J. Less what it is now, that is work.
+    pub given: Vec<f64>,
 }
 
 /// A mechanism in motion.
@@ -158,16 +161,34 @@ impl<'m> HybridSystem<'m> {
         self.place(t, y);
     }
 
-    /// Begins the first phase of the motion, in the present mode.
-    pub fn open(&mut self) {
+    /// Begins the first phase of the motion, in the present mode, at a state.
+    pub fn open(&mut self, t: f64, y: &[f64]) {
+        self.place(t, y);
         self.phases.clear();
-        self.begin_phase(f64::NEG_INFINITY, 0.0, 0.0);
+        self.begin_phase(f64::NEG_INFINITY, 0.0);
     }
 
-    pub(super) fn begin_phase(&mut self, from: f64, jump: f64, impact: f64) {
+    pub(super) fn begin_phase(&mut self, from: f64, impact: f64) {
         let (p, mode) = (self.workspace.at().n.p.clone(), self.mode.clone());
-        self.phases.push(Phase { from, p, mode, jump, impact });
+        let given = self.phases.last().map_or_else(|| self.workspace.force_potentials(), |phase| phase.given.clone());
+        self.phases.push(Phase { from, p, mode, jump: 0.0, impact, given });
         self.independence = 0.0;
+    }
+
+    /// All energy at a state, and the potential of each force in it, J.
+    pub(super) fn stored(&mut self, t: f64, y: &[f64]) -> (f64, Vec<f64>) {
+        (self.energy(t, y).iter().sum(), self.workspace.force_potentials())
+    }
+
+    /// Begins a phase after parameters or parts were changed, and notes the energy that this put in beside that `before`.
+    pub(super) fn begin_changed_phase(&mut self, t: f64, y: &[f64], before: (f64, Vec<f64>)) {
+        let (energy, potentials) = self.stored(t, y);
+        self.begin_phase(t, 0.0);
+        let phase = self.phases.last_mut().expect("a phase was begun");
+        phase.jump = energy - before.0;
+        for (given, (after, before)) in phase.given.iter_mut().zip(potentials.iter().zip(&before.1)) {
+            *given += after - before;
+        }
     }
 
     /// The function whose zero is a discontinuity, at the present state.
@@ -225,7 +246,8 @@ impl<'m> HybridSystem<'m> {
     /// Values of laws at a state.
     pub(super) fn read(&mut self, laws: &[&ModelExpr], t: f64, y: &[f64]) -> Result<Vec<f64>, DynamicsError> {
         self.place(t, y);
-        let works = self.works.spread(self.workspace.m, y);
+        let phase = self.phases.last().expect("a motion has begun its first phase");
+        let works = self.works.spread(self.workspace.m, y, &phase.given);
         self.workspace.evaluate(laws, &works)
     }
 }

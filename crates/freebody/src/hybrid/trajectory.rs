@@ -57,7 +57,7 @@ pub struct MotionState {
     pub u: Vec<f64>,
     /// What is in place and holds.
     pub mode: Mode,
-    /// Works since the start of all forces, then of all drives, then of friction, J.
+    /// Works since the start as [`Workspace::evaluate`] takes them, J.
     pub works: Vec<f64>,
 }
 
@@ -118,7 +118,7 @@ impl Trajectory {
         let (n, phase) = (m.freedom(), self.phase(t));
         let (q, u, mut p) = (y[..n].to_vec(), y[n..2 * n].to_vec(), phase.p.clone());
         p[m.first_state()..].copy_from_slice(self.states(m, y));
-        MotionState { p, t, q, u, mode: phase.mode.clone(), works: self.works.spread(m, y) }
+        MotionState { p, t, q, u, mode: phase.mode.clone(), works: self.works.spread(m, y, &phase.given) }
     }
 
     /// The states with a rate of their own in a state vector.
@@ -247,8 +247,8 @@ impl Trajectory {
     /// As [`Trajectory::reactions`].
     pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
         let mut rows = vec![];
-        self.each(m, times, |workspace, _, y| {
-            rows.push(workspace.evaluate(laws, &self.works.spread(m, y))?);
+        self.each(m, times, |workspace, t, y| {
+            rows.push(workspace.evaluate(laws, &self.works.spread(m, y, &self.phase(t).given))?);
             Ok(())
         })?;
         Ok(rows)

@@ -33,7 +33,7 @@ impl Works {
 
     /// The entries of the ledger for them.
     pub fn names(&self, m: &Mechanism) -> Vec<String> {
-        let forces = self.forces.iter().map(|&f| m.forces[f].name.clone());
+        let forces = self.forces.iter().map(|&f| m.forces[f].ledger_entry());
         let motions = self.motions.iter().map(|&d| m.drives[d].name.clone());
         let friction = self.friction.then(|| "friction".to_string());
         forces.chain(motions).chain(friction).chain(self.compliant.then(|| "compliant contacts".to_string())).collect()
@@ -51,15 +51,17 @@ impl Works {
         forces.chain(motions).chain(friction).chain(self.compliant.then(|| solved.compliant_power())).collect()
     }
 
-    /// Those of a state vector, spread over all forces, then all drives, then that of friction.
-    pub fn spread(&self, m: &Mechanism, y: &[f64]) -> Vec<f64> {
+    /// Those of a state vector, spread over all forces, then all drives, then that of friction, as [`Workspace::evaluate`]
+    /// takes them; `given` is the energy that the potential of each force was given.
+    pub fn spread(&self, m: &Mechanism, y: &[f64], given: &[f64]) -> Vec<f64> {
         let tail = &y[2 * m.freedom()..];
-        let mut works = vec![0.0; m.forces.len() + m.drives.len() + 1];
+        let mut works = given.to_vec();
+        works.resize(m.forces.len() + m.drives.len() + 1, 0.0);
         if self.friction {
             works[m.forces.len() + m.drives.len()] = tail[self.forces.len() + self.motions.len()];
         }
         for (i, &f) in self.forces.iter().enumerate() {
-            works[f] = tail[i];
+            works[f] += tail[i];
         }
         for (i, &d) in self.motions.iter().enumerate() {
             works[m.forces.len() + d] = tail[self.forces.len() + i];

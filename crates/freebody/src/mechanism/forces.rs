@@ -39,6 +39,11 @@ impl Force {
     pub fn is_conservative(&self) -> bool {
         self.point_forces.is_empty() && self.gauge_forces.iter().all(|pull| pull.conservative)
     }
+    /// The entry of the energy ledger for the work that no potential accounts for: of a spring, that of the damper beside it.
+    pub fn ledger_entry(&self) -> String {
+        let damper = if self.potential.is_some() { "damper of " } else { "" };
+        format!("{damper}{}", self.name)
+    }
     /// Whether its law has cases, like `max` or `if`.
     pub fn has_cases(&self) -> bool {
         let gauge_forces = self.gauge_forces.iter().map(|pull| &pull.value);
