@@ -242,8 +242,8 @@ def integral(signal: Signal, window: Window, rtol: float = 1e-11) -> float:
 
     def over(a: float, b: float) -> tuple[float, float]:
         # With full_output it gives what it has instead of a warning where a kink within a step costs it the last digits.
-        found, error, told, *_ = quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)
-        if told["last"] == 1:
+        found, error, report, *_ = quad(value, a, b, epsabs=least * (b - a), epsrel=rtol, limit=30, full_output=True)
+        if report["last"] == 1:
             return found, error
         # Extrapolation from halves makes a number of a pole that they come to.
         if _is_pole(value, a, b - a) or _is_pole(value, b, a - b):

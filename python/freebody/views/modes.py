@@ -47,8 +47,8 @@ def draw_modes(rest: Equilibrium, path: Path) -> Path:
                 for artist in render(sketch, ax):
                     artist.set_alpha(alpha)
             parts = ", ".join(f"{name} {x.real:.3g}" for name, x in list(mode.shape.items())[:4])
-            told = f"{mode.frequency:.4g} Hz, ζ = {mode.damping:.3g}" if mode.frequency else f"λ = {mode.eigenvalue.real:.4g} 1/s"
-            ax.set_title(f"{told}\n{parts}".replace("$", r"\$"), fontsize=8)
+            said = f"{mode.frequency:.4g} Hz, ζ = {mode.damping:.3g}" if mode.frequency else f"λ = {mode.eigenvalue.real:.4g} 1/s"
+            ax.set_title(f"{said}\n{parts}".replace("$", r"\$"), fontsize=8)
         with replacing(path) as beside:
             figure.savefig(beside)
     return path

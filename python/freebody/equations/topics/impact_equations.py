@@ -81,7 +81,7 @@ class Impact:
         try:
             _ = subject.table  # asks the core
         except MotionError as error:
-            raise Singular(f"no equations are told for this impact, since with the rates before it {error.what}") from None
+            raise Singular(f"there are no equations for this impact, since with the rates before it {error.what}") from None
         return cls(subject)
 
     @property
