@@ -208,3 +208,43 @@ _OF_HELD = [
 def test_nothing_is_true_since_it_was_not_varied(name: str, statement: str, kind: Kind) -> None:
     verdict = Checker(Mechanism.loads(f"freebody: 1\n{_HELD[name]}")).check(statement, correcting=False)
     assert verdict.kind is kind, str(verdict)
+
+
+_HANGING = """
+freebody: 1
+parameters: {m: 2 kg, k: 80 N/m, c: 3 N*s/m, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {plumb: {through: O, angle: 90 deg}}}
+bodies: {bob: {shape: particle, mass: m}}
+joints: {way: {type: slot, along: ground.plumb, point: bob.centre, coordinate: y}}
+forces: {spring: {type: spring, along: y, stiffness: k, damping: c}}
+initial: {y: -m*g/k, at_rest: true}
+run: {until: 1 s}
+"""
+
+
+@pytest.mark.parametrize(("statement", "kind"), [
+    ("m y'' + c y' + k y + m g = 0", T), ("m y'' + k y + m g = 0", IF), ("m y'' + 2 c y' + k y + m g = 0", W),
+])  # fmt: skip
+def test_a_start_in_equilibrium_hides_no_damping(statement, kind):
+    """There accelerations are round-off, by which no rates are measured."""
+    verdict = Checker(Mechanism.loads(_HANGING), {}).check(statement)
+    assert verdict.kind is kind
+    assert kind is not IF or "at rest" in verdict.assumption or "c = 0" in verdict.assumption
+
+
+def test_a_motion_from_the_start_ends_where_something_switches():
+    box = Mechanism.loads("""
+freebody: 1
+parameters: {m: 1 kg, h: 1 m}
+ground: {lines: {floor: {through: O, angle: 0}}}
+bodies: {ball: {shape: disk, radius: 0.1 m, mass: m}}
+joints: {free: {type: free, of: [ground.O, ball.centre], coordinates: [x, y, phi]}}
+contacts: {floor: {of: [ball, ground.floor], restitution: 0.5}}
+initial: {y: h, at_rest: true}
+run: {until: 1 s}
+""")
+    assert box.check("if the start is at rest: constant: energy()").kind is T
+    bounced = box.check("constant: energy()")
+    assert bounced.kind is W
+    assert "impact floor" in str(bounced)

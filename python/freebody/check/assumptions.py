@@ -136,8 +136,8 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     def with_zero(*names: str) -> Family:
         return replace(given, held=tuple({**held, **dict.fromkeys(names, 0.0)}.items()))
 
-    chosen = [*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())]
-    yield [(f"{', '.join(f'{name} = 0' for name in names)}, as in this model", with_zero(*names)) for names in chosen]
+    for chosen in ([[name] for name in zeros], [zeros] if len(zeros) > 1 else []):
+        yield [(f"{', '.join(f'{name} = 0' for name in names)}, as in this model", with_zero(*names)) for names in chosen]
     others = [n for n in mattering(case) if n not in (*zeros, *sampler.frictions, *sampler.gravities)]
     yield [
         ("at rest", replace(given, at_rest=True)),

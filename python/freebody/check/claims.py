@@ -104,23 +104,23 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
-    """The same at all times of each motion."""
+    """The same at all times of each motion; of motions from the start, until something switches."""
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
-    worst, seen = 0.0, None
+    worst, seen, lost = 0.0, None, ""
     for sample in case.samples(count=_RUNS).states:
-        along = _along(checker, sample)
+        along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
         values = case.meaning.values(along)
         value, size = sampled(node, values), magnitude(node, values)
         spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), 1e-300))
         if np.isnan(spread):
             return Verdict(Kind.UNDECIDABLE, expression, "it has no value along the motion")
         if spread >= worst:
-            worst = spread
+            worst, lost = spread, change
             seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
     if worst < _STEADY:
         return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
-    return Verdict(Kind.WRONG, expression, "not constant: it changes along a motion", evidence=seen)
+    return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", evidence=seen)
 
 
 def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
@@ -133,13 +133,15 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
         raise
 
 
-def _along(checker: Checker, state: State) -> Samples:
-    """States along the motion that goes on from a true state."""
+def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples, str]:
+    """States along the motion that goes on from a true state, to its first change if that is asked for; and what changes on it."""
     sampler = checker.sampler
     motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
-    ends = motion.end.t
+    change = next((each for each in motion.changes if each.t > state.t), None)
+    ends = change.t if change and until_change else motion.end.t
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
-    return Samples(sampler.core, [motion.state(t) for t in times.tolist()])
+    stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
+    return Samples(sampler.core, [motion.state(t) for t in times.tolist()]), stated
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:

@@ -32,6 +32,7 @@ _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
 _STAGES = 12  # in which a closed loop goes from the start to another place
 _TOUCHING = 1e-9  # least square of a distance on the way, relative to that at its ends: below it the distance has been 0
+_AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
@@ -353,11 +354,16 @@ class MotionSampler:
 
     @cached_property
     def rate(self) -> float:
-        """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest."""
+        """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest; where these are round-off, in an
+        equilibrium, that of vibrations about it."""
         found = float(np.max(np.abs(self.first.u / self.sizes), initial=0.0))
         with suppress(MotionError):
-            accelerations = self.core.instant(self.first).accelerations
+            n, falls = len(self.names), [f"rate(rate({quote(name)}))" for name in self.names]
+            accelerations, by = self.core.evaluate(falls, self.first), self.core.derivatives(falls, self.first)[:, 1 : n + 1]
             found = max(found, math.sqrt(np.max(np.abs(accelerations / self.sizes), initial=0.0)))
+            stiff = np.abs(by * self.sizes / self.sizes[:, None]).max(axis=1, initial=0.0)
+            vibrations = math.sqrt(min((x for x in stiff if x > _AT_REST**2 * stiff.max()), default=0.0))  # the slowest
+            found = vibrations if found < _AT_REST * vibrations else found
         return found or 1.0
 
     def unit(self, dimension: Dimension | None) -> float:
