@@ -6,17 +6,18 @@ every answer is computed by freebody when it is asked for, and stands beside a v
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from freebody.catalogue.answers import Answer, Asked, Question, ask
 from freebody.catalogue.case import Case
-from freebody.catalogue.checks import FREE_QUESTIONS
+from freebody.catalogue.checks import free_questions
+from freebody.catalogue.processes import shared
 from freebody.catalogue.sentences import sentence
 from freebody.catalogue.system import System
 
-__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "rows", "run", "systems"]
+__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "rows", "run", "run_all", "systems"]
 
 FOLDER = Path(__file__).parent.parent / "systems"
 
@@ -38,8 +39,17 @@ def find(identity: str) -> System:
 def run(system: System) -> Iterator[Asked]:
     """Each question of the system with its answers, one after another, then the checks that every system gets."""
     case = Case(system.folder)
-    for question in [*system.questions(), *FREE_QUESTIONS]:
-        yield question.put_to(case)
+    yield from (question.put_to(case) for question in system.questions())
+    yield from (question.put_to(case) for question in free_questions(case))
+
+
+def run_all(systems: Iterable[System]) -> Iterator[tuple[System, list[Asked]]]:
+    """The systems, each with what ``run`` gives; several processes share the work."""
+    return shared(_run, systems, lambda system: system.folder / "questions.py")
+
+
+def _run(system: System) -> list[Asked]:
+    return list(run(system))
 
 
 def rows(results: Mapping[str, list[Asked]]) -> list[dict[str, Any]]:

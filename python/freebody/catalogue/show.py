@@ -8,11 +8,13 @@ from collections import Counter
 from collections.abc import Iterable
 from itertools import groupby
 from pathlib import Path
+from statistics import median
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import rich
 from rich import box
+from rich.rule import Rule
 from rich.table import Table
 from rich.text import Text
 
@@ -33,6 +35,11 @@ def show_list(systems: Iterable[System]) -> None:
     rows = [(system.id, system.title, len(system.models), len(system.questions())) for system in systems]
     counts = ("models", "questions")
     rich.print(table("", ("system", "what it is", *counts), rows, counts, edge=True))
+
+
+def show_title(system: System) -> None:
+    """The name of a system above its questions."""
+    rich.print(Rule(Text(f"{system.id}: {system.title}", "bold"), align="left"))
 
 
 def show_asked(asked: Asked, full: bool = False) -> None:
@@ -71,7 +78,9 @@ def _style(answers: Iterable[Answer]) -> str:
 
 def _line(text: str, indent: int, style: str, **how: Any) -> None:
     console = rich.get_console()
-    for line in Text(text, style, **how).wrap(console, console.width - indent):
+    errors = getattr(console.file, "errors", None) or "strict"
+    spelt = text.encode(console.encoding, errors).decode(console.encoding)  # as a terminal of ASCII will show it
+    for line in Text(spelt, style, **how).wrap(console, console.width - indent):
         line.rstrip()
         rich.print(Text(" " * indent) + line)
 
@@ -114,16 +123,25 @@ def show_totals(judged: Iterable[Judged]) -> None:
 
 
 def show_summary(results: dict[str, list[Asked]]) -> None:
-    """One line for every system; answers are those with an independent check."""
+    """One line for every system, and one for all; answers are those with an independent check."""
     rows = []
     for identity, asked in results.items():
-        answers = [answer for question in asked for answer in question.answers if not answer.own]
-        fewest = min((answer.digits for answer in answers), default=math.nan)
+        digits = _digits(asked)
         verdict = Text("ok", "green") if all(question.ok for question in asked) else Text("FAILED", "bold red")
         seconds = f"{sum(question.seconds for question in asked):.1f}"
-        rows.append((identity, len(asked), len(answers), f"{fewest:.1f}", seconds, verdict))
+        rows.append((identity, len(asked), len(digits), f"{min(digits, default=math.nan):.1f}", seconds, verdict))
     counts = ("questions", "answers", "fewest digits", "seconds")
     rich.print(table("", ("system", *counts, ""), rows, counts, edge=True))
+    every = [question for asked in results.values() for question in asked]
+    digits = _digits(every)
+    wrong = sum(not answer.ok for question in every for answer in question.answers) + sum(bool(q.failure) for q in every)
+    told = f"{len(results)} systems, {len(every)} questions, {len(digits)} answers, each beside an independent value: "
+    told += f"at least {min(digits):.1f} digits agree, {median(digits):.1f} in the median; "
+    _line(told + (f"{wrong} do not agree" if wrong else "none disagrees"), 0, "bold red" if wrong else "bold")
+
+
+def _digits(asked: Iterable[Asked]) -> list[float]:
+    return [answer.digits for question in asked for answer in question.answers if not answer.own]
 
 
 def write_csv(path: Path, results: dict[str, list[Asked]]) -> None:

@@ -52,20 +52,23 @@ def systems(
     else:
         if table:
             check_writable(table)
-        _answer(chosen, everything, as_json, full, table)
+        _answer(chosen, as_json, full, table)
 
 
-def _answer(systems: list[System], briefly: bool, as_json: bool, full: bool, table: Path | None) -> None:
-    """The questions of systems with their answers, each printed as it comes or all as JSON; of one system what is stated, too."""
+def _answer(systems: list[System], as_json: bool, full: bool, table: Path | None) -> None:
+    """The questions of systems with their answers, printed as they come or all as JSON; of one system what is stated, too. Ends with
+    an error where an answer disagrees."""
     from freebody import catalogue
     from freebody.catalogue import show
     from freebody.catalogue.statements import statements
 
+    alone = len(systems) == 1
     results: dict[str, list[catalogue.Asked]] = {}
-    for system in systems:
-        results[system.id] = []
-        for asked in catalogue.run(system):
-            results[system.id].append(asked)
+    for system, answered in ((systems[0], catalogue.run(systems[0])),) if alone else catalogue.run_all(systems):
+        if not as_json and not alone:
+            show.show_title(system)
+        for asked in answered:
+            results.setdefault(system.id, []).append(asked)
             if not as_json:
                 show.show_asked(asked, full)
     if table:
@@ -73,11 +76,11 @@ def _answer(systems: list[System], briefly: bool, as_json: bool, full: bool, tab
             show.write_csv(beside, results)
     if as_json:
         print_json(catalogue.rows(results))
-    elif briefly:
-        show.show_summary(results)
-    else:
+    elif alone:
         for system, found in statements(systems):
             show.show_verdicts(system, found)
+    else:
+        show.show_summary(results)
     if not all(asked.ok for questions in results.values() for asked in questions):
         raise typer.Exit(NOT_TRUE)
 
