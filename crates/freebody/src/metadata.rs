@@ -1,7 +1,7 @@
 //! What a mechanism says of itself, as data for whoever shows it.
 
 use crate::bound_values::BoundValues;
-use crate::builder::answers::{phrases, units, units_of_force, units_of_joint, ACTING, LIMIT, MOTION};
+use crate::builder::answers::{of_force, phrases, units, units_of_force, units_of_joint, LIMIT, MOTION};
 use crate::builder::readings::FUNCTIONS;
 use crate::compile::coupling_card;
 use crate::dynamics::{Count, Source};
@@ -156,10 +156,11 @@ fn limit(m: &Mechanism, g: &Group) -> Value {
 
 fn force(m: &Mechanism, start: &Mode, index: usize) -> Value {
     let f = &m.forces[index];
+    let card = crate::forces::named(f.word).expect("a force of the list").card();
     let gauge = f.gauge_forces.first().map_or(Some("m"), |pull| m.gauge_unit(&pull.gauge));
     json!({
         "name": f.name, "type": f.word, "conservative": f.is_conservative(), "cases": f.has_cases(),
-        "engaged": start.has(Part::Force(index)), "readings": units(ACTING, gauge),
+        "engaged": start.has(Part::Force(index)), "readings": units(&of_force(&card), gauge),
     })
 }
 

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 
 from freebody.core import cards
 
-from .values import Circle, Line, Name, Number, Numbers, Points, Section, Text, number_in, one_of, refuse
+from .values import Area, Circle, Line, Name, Number, Numbers, Points, Section, Text, number_in, one_of, refuse
 
 
 class Element(Section):
@@ -41,6 +41,7 @@ _KINDS: dict[str, Any] = {
     "points": Points,
     "line": Line,
     "circle": Circle,
+    "area": Area,
     "curve": Name,
     "body": Name,
     "numbers": Numbers,

@@ -25,7 +25,7 @@ from .writer import Writer
 _MARKS = ("points", "lines", "curves")
 _ZEROS = {"right": "0", "up": "pi/2", "left": "pi", "down": "-pi/2"}
 _DRAWN, _AGREED = 5, 1e-6  # states at which a potential is held against its force; relative, far above round-off
-_SIZES = ("length", "rest_length", "radius", "coefficient")
+_SIZES = ("length", "rest_length", "radius", "coefficient", "friction", "load", "rest_speed")
 _PLACES = {"point": Writer.point, "line": Writer.line, "circle": Writer.circle}
 _MEASURED = {"number": Writer.number, "numbers": Writer.numbers, "law": Writer.expression, "gauge": Writer.expression}
 _STEP = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
@@ -109,7 +109,15 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
     writers = [replace(whole, scope=each) for each in root.all()]
     outlines = Outlines(writers)
     # Each step names what those before it have written; welds come before events, which may name anything.
-    steps = (bodies.points, bodies.lines, _values, _elements, partial(limits.limits, outlines), events.welds, events.events)
+    steps = (
+        bodies.points,
+        bodies.lines,
+        _values,
+        partial(_elements, outlines),
+        partial(limits.limits, outlines),
+        events.welds,
+        events.events,
+    )
     for step in steps:
         for write in writers:
             step(write)
@@ -197,7 +205,7 @@ def _state(write: Writer, name: str, state: StateVariable) -> Spec:
 # -- joints, forces, motions
 
 
-def _elements(write: Writer) -> None:
+def _elements(outlines: Outlines, write: Writer) -> None:
     model, spec = write.scope.model, write.spec
     for name, joint in model.joints.items():
         written = _element(write, ("joints", name), joint, cards.joints()[joint.type]) | _friction(write, name, joint)
@@ -205,9 +213,12 @@ def _elements(write: Writer) -> None:
         spec["joints"].append(written)
         guides.ends_and_side(write, name, joint, written)
     for name, force in model.forces.items():
-        spec["forces"].append(_element(write, ("forces", name), force, cards.forces()[force.type]))
-        if force.type == table_friction.WORD:
-            table_friction.rest(write, name, spec["forces"][-1])
+        written = _element(write, ("forces", name), force, cards.forces()[force.type])
+        spec["forces"].append(written)
+        if force.type == table_friction.OF_PLATE:
+            table_friction.lies(write, outlines, name, force, written)
+        if force.type in table_friction.WORDS:
+            table_friction.rest(write, name, written)
     for name, motion in model.motions.items():
         path: Path = ("motions", name)
         of, dimension = write.expression((*path, "of"), motion.of), write.dimension(motion.of)

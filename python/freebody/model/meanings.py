@@ -132,7 +132,7 @@ class _Declarations:
             self.value(name, ("states", name), "state", None)
         for name, force in m.forces.items():
             self.owner(name, "force", ("forces", name), cards.forces()[force.type].readings)
-            if force.type == table_friction.WORD:
+            if force.type in table_friction.WORDS:
                 self.event(table_friction.resting(name), f"the force `{name}`")
         for section, kind in _LIMITED.items():
             for name in getattr(m, section):

@@ -1,17 +1,20 @@
-"""Where a body that slides on a table comes to rest, as the event it comes to."""
+"""Bodies that slide on a table: with which area they lie on it, and where they come to rest, as the event it comes to."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from freebody.core import Spec
 
+from . import elements
 from .names import spell
 
 if TYPE_CHECKING:
+    from .outlines import Outlines
     from .writer import Writer
 
-WORD = "table_friction"
+OF_PLATE = "plate_friction"
+WORDS = ("table_friction", OF_PLATE)
 
 
 def resting(name: str) -> str:
@@ -19,13 +22,38 @@ def resting(name: str) -> str:
     return f"{name} rests"
 
 
+def lies(write: Writer, outlines: Outlines, name: str, force: elements.Element, written: Spec) -> None:
+    """The area with which a body lies on the table, into the force as it is ``written``; a ring lies on its rim."""
+    path, area = ("forces", name, "area"), elements.given(force, "area")
+    if isinstance(area, str):
+        body, found = write.place(path, area, "body"), {}
+        with write.scope.noting(path):
+            found = outlines.of(body)
+        if "point" in found:
+            write.scope.complain(path, f"the particle `{area}` has no area", "write a `table_friction` at its point")
+        written["with"]["area"] = found.get("circle", found.get("polygon", []))
+        if elements.given(force, "rim") is None and body in outlines.bodies and outlines.bodies[body][2].shape == "ring":
+            written["with"]["rim"] = True
+    elif isinstance(area, list):
+        written["with"]["area"] = [write.point((*path, i), corner) for i, corner in enumerate(area)]
+    else:
+        written["with"]["area"] = write.circle(path, area)
+
+
 def rest(write: Writer, name: str, written: Spec) -> None:
-    """The event that ends a run where the points of a force, which has been ``written``, have all but stopped: what friction at
+    """The event that ends a run where what a force, which has been ``written``, rubs on has all but stopped: what friction at
     rest holds is not decided."""
     fields, full = written["with"], write.prefix + resting(name)
-    points = fields["points"]
-    speeds = " + ".join(f"hypot(vx({p}), vy({p}))" for p in map(spell, points))
-    when = f"({speeds})/{len(points)} - ({fields.get('rest_speed', 1e-10)})"
+    when = f"{_speed(fields)} - ({fields.get('rest_speed', 1e-10)})"
     plain = {"direction": -1, "condition": None, "opening": False, "guard": True}
     write.spec["events"].append({"name": full, "when": when} | plain | {"then": ["stop"]})
     write.items[f"events.{full}"] = (write.scope, ("forces", name))
+
+
+def _speed(fields: dict[str, Any]) -> str:
+    """The mean speed of the points or corners on which a body lies; of a circle the rms speed of its rim."""
+    lies_on = fields.get("points", fields.get("area"))
+    if isinstance(lies_on, dict):
+        centre = lies_on["centre"]
+        return f"hypot(speed({spell(centre)}), ({lies_on['radius']})*omega({spell(centre.rpartition('.')[0])}))"
+    return f"({' + '.join(f'hypot(vx({p}), vy({p}))' for p in map(spell, lies_on))})/{len(lies_on)}"

@@ -180,6 +180,13 @@ Line = one_of(
     pair=TwoPoints,
     mapping=Through,
 )
+Area = one_of(
+    "this is no area",
+    "name a disk, ring, rectangle or polygon, or write `{centre: P, radius: r}` or the corners `[P, Q, R]`",
+    text=Name,
+    pair=several(Name, "an area has three corners or more: `[P, Q, R]`", least=3),
+    mapping=Circle,
+)
 Place = one_of("this is no point", "a point is written `[x, y]`, or with the name of another", text=Name, pair=Pair)
 Names = one_of("names are needed here", "write a name, or `[a, b]`", text=Name, pair=list[Name])
 Texts = one_of("expressions are needed here", "write an expression, or a list of them", text=Text, pair=list[Text])

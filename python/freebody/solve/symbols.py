@@ -117,7 +117,7 @@ def _name(load: Load, force: _Law) -> Name:
         return given
     owner, below = _owner(load.name)
     if load.axis:
-        return Name(owner, (*below, load.axis))
+        return Name(load.card.stem, (owner, *below, load.axis)) if load.card.stem else Name(owner, (*below, load.axis))
     number = load.number
     if force and number:
         # The first load of a force has its name; each further one what it is in addition.

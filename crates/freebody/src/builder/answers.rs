@@ -78,10 +78,16 @@ pub const MOTION: &[Answer] = &[
     answer("work", Unit::Is("J"), Reading::DriveWork, "its work since the start"),
 ];
 /// Of a force of the model.
-pub const ACTING: &[Answer] = &[
+const ACTING: &[Answer] = &[
     answer("value", Unit::Load, Reading::Force, "its value"),
     answer("power", Unit::Is("W"), Reading::ForcePower, "its power"),
     answer("work", Unit::Is("J"), Reading::ForceWork, "its work since the start"),
+];
+/// Of the friction of a plate besides.
+const PLATE: &[Answer] = &[
+    answer("Fx", FORCE, |f| Reading::Plate(f, Axis::X), "friction of a plate along x"),
+    answer("Fy", FORCE, |f| Reading::Plate(f, Axis::Y), "friction of it along y"),
+    answer("M", Unit::Is("N*m"), |f| Reading::Plate(f, Axis::Couple), "friction couple on it about its mass centre"),
 ];
 /// Of a contact, stop or string.
 pub const LIMIT: &[Answer] = &[
@@ -118,12 +124,18 @@ pub fn of_joint(card: &Card) -> Vec<(Answer, Option<&'static str>)> {
     found
 }
 
+/// What can be read of a force.
+pub fn of_force(card: &Card) -> Vec<Answer> {
+    let plate = card.fields.iter().any(|field| field.kind == FieldKind::Area);
+    [ACTING, if plate { PLATE } else { &[] }].concat()
+}
+
 /// The words by what they are read of, with a phrase each, as data.
 pub fn phrases() -> Value {
     let joint = JOINT.iter().chain(&ROWS).chain([&TENSION, &FRICTION]);
     let of = |answers: &mut dyn Iterator<Item = &Answer>| answers.map(|a| json!([a.word, a.doc])).collect::<Vec<_>>();
     json!({
-        "joint": of(&mut joint.into_iter()), "motion": of(&mut MOTION.iter()), "force": of(&mut ACTING.iter()),
+        "joint": of(&mut joint.into_iter()), "motion": of(&mut MOTION.iter()), "force": of(&mut ACTING.iter().chain(PLATE)),
         "limit": of(&mut LIMIT.iter()),
     })
 }
@@ -140,7 +152,7 @@ pub fn units_of_joint(card: &Card) -> Value {
 
 /// Those of a force as far as its kind tells: what acts along any gauge has no unit of its own.
 pub fn units_of_force(card: &Card) -> Value {
-    let any = card.fields.iter().any(|field| matches!(field.kind, FieldKind::Gauge));
+    let any = card.fields.iter().any(|field| field.kind == FieldKind::Gauge);
     let gauge = if card.parts[0].couple { "rad" } else { "m" };
-    units(ACTING, (!any).then_some(gauge))
+    units(&of_force(card), (!any).then_some(gauge))
 }

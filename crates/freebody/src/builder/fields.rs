@@ -4,6 +4,7 @@ use super::{unknown, Builder, Reach, Result};
 use crate::error::CompileError;
 use crate::gauges::ModelExpr;
 use crate::joints::Card;
+use crate::mechanism::PlateOutline;
 use crate::spec::{Element, Number, Value};
 
 /// The fields of one element.
@@ -174,6 +175,37 @@ impl<'a, 's> Fields<'a, 's> {
                 Ok((site, self.c.number(&path, &radius)?))
             }
             _ => Err(CompileError::new(path, "a circle is needed here", "write `{centre: P, radius: r}`")),
+        }
+    }
+
+    /// An area of a body that moves: what bounds it, and the body.
+    pub fn area(&mut self, field: &str) -> Result<(PlateOutline, usize)> {
+        let (outline, site) = match self.value(field)? {
+            Value::Circle { .. } => {
+                let (centre, radius) = self.circle(field)?;
+                (PlateOutline::Disk(centre, radius), centre)
+            }
+            Value::List(corners) if corners.len() > 2 => {
+                let sites = self.sites(field)?;
+                let first = sites[0];
+                (PlateOutline::Polygon(sites), first)
+            }
+            _ => {
+                let hint = "name a disk, rectangle or polygon, or write `{centre: P, radius: r}` or `[P, Q, R]`";
+                return Err(self.error(field, "an area is needed here", hint));
+            }
+        };
+        match self.c.m.body_of(site) {
+            0 => Err(self.error(field, "the ground does not slide on a table", "take an area of a body")),
+            body => Ok((outline, body)),
+        }
+    }
+
+    /// On or off.
+    pub fn flag(&self, field: &str) -> Result<bool> {
+        match self.value(field)? {
+            Value::Flag(flag) => Ok(flag),
+            _ => Err(self.error(field, "`true` or `false` is needed here", "")),
         }
     }
 

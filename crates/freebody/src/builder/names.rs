@@ -1,10 +1,10 @@
 //! What the names in a model mean.
 
-use super::answers::{of_joint, ACTING, LIMIT, MOTION};
+use super::answers::{of_force, of_joint, LIMIT, MOTION};
 use crate::error::CompileError;
 use crate::expr::{self, nearest, Ast, Expr, ExprError, Kind as AstKind, Message};
 use crate::gauges::{is_measured, ModelExpr, ModelVariable};
-use crate::joints::{Joint as _, Kind};
+use crate::joints::{Card, Joint as _, Kind};
 use crate::mechanism::Marker;
 use serde::Serialize;
 use std::collections::HashMap;
@@ -35,7 +35,7 @@ pub struct Names {
     /// Couplings and motions.
     pub drives: HashMap<String, usize>,
     /// Forces.
-    pub forces: HashMap<String, usize>,
+    pub forces: HashMap<String, (usize, Card)>,
     /// Contacts, stops and strings.
     pub groups: HashMap<String, usize>,
 }
@@ -131,8 +131,8 @@ impl Scope<'_> {
             (joint, of_joint(&kind.card()).into_iter().map(|(answer, _)| answer).collect())
         } else if let Some(&drive) = n.drives.get(owner) {
             (drive, MOTION.to_vec())
-        } else if let Some(&force) = n.forces.get(owner) {
-            (force, ACTING.to_vec())
+        } else if let Some((force, card)) = n.forces.get(owner) {
+            (*force, of_force(card))
         } else {
             (*n.groups.get(owner)?, LIMIT.to_vec())
         };

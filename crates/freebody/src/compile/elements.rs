@@ -98,13 +98,17 @@ impl Builder<'_> {
             let mut force = kind.lower(&mut fields)?;
             force.name = element.name.clone();
             force.word = card.word;
-            let loads = force.gauge_forces.len() + force.point_forces.len();
+            if force.plate.is_some() {
+                self.uncrossed(&format!("{path}.area"), &element.fields["area"])?;
+            }
+            let plate = if force.plate.is_some() { card.parts.len() } else { 0 };
+            let loads = force.gauge_forces.len() + force.point_forces.len() + plate;
             force.cards = card.parts.iter().cycle().take(loads).copied().collect();
             for (pull, card) in force.gauge_forces.iter_mut().zip(&mut force.cards) {
                 pull.bodies = self.m.bodies_of(&pull.gauge);
                 *card = card.along(self.m.turns(&pull.gauge));
             }
-            if self.names.forces.insert(force.name.clone(), self.m.forces.len()).is_some() {
+            if self.names.forces.insert(force.name.clone(), (self.m.forces.len(), card)).is_some() {
                 return Err(twice(path, &force.name));
             }
             self.m.forces.push(force);

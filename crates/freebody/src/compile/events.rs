@@ -120,7 +120,7 @@ impl Builder<'_> {
         }
         let others = [
             n.drives.get(name).map(|&i| Part::Drive(i)),
-            n.forces.get(name).map(|&i| Part::Force(i)),
+            n.forces.get(name).map(|(i, _)| Part::Force(*i)),
             n.groups.get(name).map(|&i| Part::Group(i)),
         ];
         if let Some(part) = others.into_iter().flatten().next() {

@@ -4,6 +4,7 @@ use crate::builder::{Builder, Result};
 use crate::error::CompileError;
 use crate::mechanism::Chain;
 use crate::plane::Vec2;
+use crate::spec::Value;
 
 /// Sine of the turn at a corner below which its sides are one; and height over a side, in parts of the outline's size,
 /// below which a corner is behind it.
@@ -54,6 +55,30 @@ impl Builder<'_> {
             corners.push(corner);
         }
         Ok(corners)
+    }
+
+    /// Refuses the corners of an area of which sides cross, or that has none.
+    pub(super) fn uncrossed(&self, path: &str, area: &Value) -> Result<()> {
+        let Value::List(corners) = area else { return Ok(()) };
+        let names: Vec<String> = corners.iter().filter_map(|corner| corner.text().map(str::to_string)).collect();
+        let corners = self.corners(path, &names, &self.m.bind(&self.m.parameters_with(&[])).arms)?;
+        let side = |i: usize| [&corners[i], &corners[(i + 1) % corners.len()]];
+        let apart = |[a, b]: [&Corner; 2], c: &Corner, d: &Corner| {
+            (b.at - a.at).cross(c.at - a.at) * (b.at - a.at).cross(d.at - a.at) < 0.0
+        };
+        for i in 0..corners.len() {
+            for j in 0..i {
+                let ([a, b], [c, d]) = (side(i), side(j));
+                if apart([a, b], c, d) && apart([c, d], a, b) {
+                    let what = format!("the sides `{}` `{}` and `{}` `{}` cross", c.name, d.name, a.name, b.name);
+                    return Err(CompileError::new(path, what, "give the corners in order, one way round"));
+                }
+            }
+        }
+        without_straight(path, corners, true).and_then(|left| match left.len() {
+            0..3 => Err(CompileError::new(path, "this polygon has no area", "give corners that are not in one line")),
+            _ => Ok(()),
+        })
     }
 }
 

@@ -4,7 +4,8 @@ use super::energy::{
     angular_momentum, force_potential, kinetic, kinetic_energy, potential, whole_mass_centre, whole_momentum,
 };
 use super::{
-    force_power, force_value, Determinacy, DynamicsError, JointLoad, Route, SolvedView, TermScales, Workspace,
+    force_power, force_value, plate_load, Determinacy, DynamicsError, JointLoad, Route, SolvedView, TermScales,
+    Workspace,
 };
 use crate::gauges::{is_measured, Axis, ContactQuantity, ModelExpr, ModelVariable, Reading};
 use crate::kinematics::Observed;
@@ -206,6 +207,9 @@ impl<S: Scalar> SolvedView<'_, S> {
             Reading::DrivePower(d) => known(&|sure| sure.drives[d], self.drive_powers()[d]),
             Reading::DriveWork(d) => works[m.forces.len() + d],
             Reading::Force(f) => force_value(at, f),
+            Reading::Plate(f, Axis::X) => plate_load(at, f).f.x,
+            Reading::Plate(f, Axis::Y) => plate_load(at, f).f.y,
+            Reading::Plate(f, _) => plate_load(at, f).m,
             Reading::ForcePower(f) => force_power(at, f),
             Reading::ForceWork(f) => works[f] - force_potential(at, f),
             Reading::Kinetic(Some(body)) => kinetic(at, body),

@@ -1,5 +1,6 @@
 //! The loads on the bodies: gravity and the forces of the model.
 
+use super::plate_friction;
 use crate::kinematics::{gradient, State, StateView};
 use crate::mechanism::{Force, GaugeForce, Part, PointForce};
 use crate::plane::{vec2, Vec2, Wrench};
@@ -32,6 +33,9 @@ pub fn add_force<S: Scalar>(at: StateView<'_, S>, force: &Force, out: &mut [Wren
     for applied in &force.point_forces {
         let (body, arm, f) = pushed(at, applied);
         out[body] += Wrench::force(f, arm);
+    }
+    if let Some(plate) = &force.plate {
+        out[plate.body] += plate_friction(at, plate);
     }
 }
 
@@ -101,8 +105,21 @@ fn power<S: Scalar>(at: StateView<'_, S>, force: usize, counts: impl Fn(&GaugeFo
         for applied in &force.point_forces {
             power += point_force_power(at, applied);
         }
+        if let Some(plate) = &force.plate {
+            power += plate_friction(at, plate).power(at.k.twist[plate.body]);
+        }
     }
     power
+}
+
+/// The friction of a plate at the mass centre of its body, fixed axes; of another force none.
+pub fn plate_load<S: Scalar>(at: StateView<'_, S>, force: usize) -> Wrench<S> {
+    match &at.m.forces[force].plate {
+        Some(plate) if at.mode.has(Part::Force(force)) => {
+            plate_friction(at, plate).seen_from(-at.centre_arm(plate.body))
+        }
+        _ => Wrench::zero(),
+    }
 }
 
 /// The size of a force as its user gave it: the value of its laws together, N or N·m; 0 where it is not in place.
@@ -113,5 +130,6 @@ pub fn force_value<S: Scalar>(at: StateView<'_, S>, force: usize) -> S {
     let force = &at.m.forces[force];
     let gauge_forces = force.gauge_forces.iter().fold(S::zero(), |sum, p| sum + gauge_force_value(at, p));
     let point_forces = force.point_forces.iter().fold(S::zero(), |sum, p| sum + pushed(at, p).2.norm());
-    gauge_forces + point_forces
+    let plate = force.plate.as_ref().map_or(S::zero(), |plate| plate_friction(at, plate).f.norm());
+    gauge_forces + point_forces + plate
 }

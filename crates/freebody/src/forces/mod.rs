@@ -6,6 +6,7 @@
 
 mod force;
 mod law;
+mod plate_friction;
 mod spring;
 mod table_friction;
 mod torque;
@@ -38,6 +39,7 @@ list! {
     spring::Damper,
     law::General,
     table_friction::TableFriction,
+    plate_friction::PlateFriction,
 }
 
 /// The force of a given word.

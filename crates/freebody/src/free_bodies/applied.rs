@@ -6,6 +6,7 @@ use crate::expr::spell;
 use crate::joints::LoadCard;
 use crate::kinematics::StateView;
 use crate::mechanism::Mechanism;
+use crate::plane::{vec2, Vec2};
 use crate::scalar::Scalar;
 
 const WEIGHT: LoadCard = LoadCard::force("weight", "weight", "W");
@@ -51,6 +52,17 @@ pub fn forces<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
             let (body, arm, f) = pushed(at, applied);
             let part = Part { body, point: at.k.pose[body].at + arm, force: f, couple: S::zero() };
             out.push(load(force.gauge_forces.len() + k, vec![part]));
+        }
+        if let Some(plate) = &force.plate {
+            let (one, none) = (S::one(), S::zero());
+            let units = [(vec2(one, none), none), (vec2(none, one), none), (Vec2::zero(), one)];
+            for (k, (force_along, couple)) in units.into_iter().enumerate() {
+                let card = force.cards[k];
+                let part = Part { body: plate.body, point: at.mass_centre(plate.body), force: force_along, couple };
+                let symbol = format!("{}.{}", spell(&force.name), card.reading);
+                let (origin, of) = (Origin::Plate(index, k), [0, plate.body]);
+                out.push(Load { origin, symbol, card, number: None, of, parts: vec![part], size: Size::ByLaw });
+            }
         }
     }
 }

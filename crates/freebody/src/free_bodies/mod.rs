@@ -29,6 +29,8 @@ pub enum Origin {
     Force(usize, usize),
     /// The force of a pin of a joint along fixed axes: 0 for x, 1 for y.
     Pin(usize, usize),
+    /// A component of the friction of a plate, a force of the model: along x, along y, and the couple.
+    Plate(usize, usize),
     /// A row: of a joint, a motion or coupling, a closed unilateral constraint, friction that sticks.
     Row(Source),
     /// Friction of a unilateral constraint that slides.

@@ -1,7 +1,7 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
 use super::{loads, relate_friction, Load, Origin, Part, Size};
-use crate::dynamics::{closing_rows, compliant_force, Determinacy, DynamicsError, Source, Workspace};
+use crate::dynamics::{closing_rows, compliant_force, plate_load, Determinacy, DynamicsError, Source, Workspace};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
 use crate::plane::{Twist, Vec2};
@@ -89,7 +89,10 @@ fn body(workspace: &Workspace<'_>, i: usize, bias: &[Twist], units: &[Vec<Twist>
 fn load_data(workspace: &Workspace<'_>, load: &Load<f64>, (value, determinate): (Option<f64>, bool)) -> Value {
     let m = workspace.m;
     let (kind, name, path) = described(m, load);
-    let axis = if let Origin::Pin(_, axis) = load.origin { Some(["x", "y"][axis]) } else { None };
+    let axis = match load.origin {
+        Origin::Pin(_, axis) | Origin::Plate(_, axis @ 0..2) => Some(["x", "y"][axis]),
+        _ => None,
+    };
     let largest = load.parts.iter().map(|p| p.force.norm()).fold(0.0, f64::max);
     let parts: Vec<Value> = load.parts.iter().map(|p| part(workspace, p, largest)).collect();
     let follows = match load.size {
@@ -125,6 +128,7 @@ fn described<'m>(m: &'m Mechanism, load: &Load<f64>) -> (&'static str, &'m str, 
     match load.origin {
         Origin::Weight(body) => ("weight", &m.bodies[body].name, format!("bodies.{}", m.bodies[body].name)),
         Origin::Force(force, _) => ("force", &m.forces[force].name, format!("forces.{}", m.forces[force].name)),
+        Origin::Plate(force, _) => ("friction", &m.forces[force].name, format!("forces.{}", m.forces[force].name)),
         Origin::Pin(joint, axis) => of("joint", Source::Joint(joint, axis)),
         Origin::Row(source @ Source::Joint(..)) => of("joint", source),
         Origin::Row(source @ Source::Drive(drive)) => of(m.drives[drive].kind.word(), source),
@@ -164,6 +168,7 @@ impl<'l> LoadValues<'l> {
         }
         match load.origin {
             Origin::Weight(_) | Origin::Force(..) => (None, true),
+            Origin::Plate(force, k) => (Some(plate_load(b.at(), force).parts()[k]), true),
             Origin::Pin(joint, axis) => {
                 let force = self.joints[joint].0;
                 (Some([force.x, force.y][axis]), self.determinacy.joints[joint][axis])

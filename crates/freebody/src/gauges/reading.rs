@@ -13,6 +13,8 @@ pub enum Reading {
     DriveWork(usize),
     /// Value of a force law.
     Force(usize),
+    /// A component of the friction of a plate, about the mass centre of its body.
+    Plate(usize, Axis),
     /// Power of a force.
     ForcePower(usize),
     /// Work of a force since the start.

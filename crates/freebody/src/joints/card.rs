@@ -56,6 +56,8 @@ pub enum FieldKind {
     Line,
     /// Centre and radius.
     Circle,
+    /// A body by its shape, a circle, or a polygon.
+    Area,
     /// A named curve.
     Curve,
     /// A body.

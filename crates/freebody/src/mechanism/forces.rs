@@ -14,6 +14,8 @@ pub struct Force {
     pub gauge_forces: Vec<GaugeForce>,
     /// Loads in a direction.
     pub point_forces: Vec<PointForce>,
+    /// Friction of a plate.
+    pub plate: Option<PlateFriction>,
     /// The potential energy of its conservative pulls, J; the work of all else is accounted for.
     pub potential: Option<ModelExpr>,
     /// What each of its pulls and pushes is, in this order.
@@ -33,11 +35,13 @@ impl Force {
     /// The laws that it evaluates.
     pub fn laws(&self) -> impl Iterator<Item = &ModelExpr> {
         let gauge_forces = self.gauge_forces.iter().flat_map(|p| [&p.gauge, &p.value]);
-        gauge_forces.chain(self.point_forces.iter().flat_map(|p| [&p.x, &p.y])).chain(&self.potential)
+        let point_forces = self.point_forces.iter().flat_map(|p| [&p.x, &p.y]);
+        gauge_forces.chain(point_forces).chain(self.plate.as_ref().map(|plate| &plate.most)).chain(&self.potential)
     }
     /// Whether its potential accounts for all its work.
     pub fn is_conservative(&self) -> bool {
-        self.point_forces.is_empty() && self.gauge_forces.iter().all(|pull| pull.conservative)
+        let potential = self.point_forces.is_empty() && self.plate.is_none();
+        potential && self.gauge_forces.iter().all(|pull| pull.conservative)
     }
     /// The entry of the energy ledger for the work that no potential accounts for: of a spring, that of the damper beside it.
     pub fn ledger_entry(&self) -> String {
@@ -77,4 +81,26 @@ pub struct PointForce {
     pub y: ModelExpr,
     /// Whether x and y are the body's axes.
     pub with_body: bool,
+}
+
+/// Coulomb friction of an area, or of its rim, that is pressed evenly on a table.
+#[derive(Clone, Debug)]
+pub struct PlateFriction {
+    /// The body that lies on the table.
+    pub body: usize,
+    /// What bounds the area.
+    pub outline: PlateOutline,
+    /// Whether only the rim of the area lies on the table.
+    pub rim: bool,
+    /// Its largest force: coefficient of friction times load, N.
+    pub most: ModelExpr,
+}
+
+/// What bounds an area of a body.
+#[derive(Clone, Debug)]
+pub enum PlateOutline {
+    /// The sites of the corners of a polygon that does not cross itself, either way round.
+    Polygon(Vec<usize>),
+    /// The site of the centre of a disk, and its radius, m.
+    Disk(usize, ModelExpr),
 }

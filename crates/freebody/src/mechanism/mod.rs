@@ -14,7 +14,7 @@ mod unilateral;
 pub use cables::{Cable, End, Guide};
 pub use drives::{Drive, DriveKind, Level};
 pub use events::{Discontinuity, Event, EventAction};
-pub use forces::{Force, GaugeForce, PointForce};
+pub use forces::{Force, GaugeForce, PlateFriction, PlateOutline, PointForce};
 pub use joints::{Coordinate, CurveFollower, FrictionSource, Joint, JointFriction};
 pub use surfaces::{Arc, Chain, ContactPair, Disk, Profile, Stretch, Track};
 pub use unilateral::{Friction, Gap, Group, UnilateralConstraint, FRICTION};

@@ -21,7 +21,7 @@ impl SymbolicState<'_> {
         let mut without: Vec<&str> = vec![];
         for load in self.loads.iter().filter(|load| !load.origin.is_conservative(self.m)) {
             match load.origin {
-                Origin::Force(force, _) => without.push(&self.m.forces[force].name),
+                Origin::Force(force, _) | Origin::Plate(force, _) => without.push(&self.m.forces[force].name),
                 Origin::Compliant(limit) => without.push(Source::Gap(limit).name(self.m)),
                 _ => {}
             }

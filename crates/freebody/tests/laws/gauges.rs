@@ -239,7 +239,7 @@ fn forces_do_the_work_that_their_potential_loses() {
         let power: f64 = on.iter().zip(&at.k.twist).map(|(w, v)| w.power(*v)).sum();
         if !power.is_finite() {
             // What lies still on a table has no friction of sliding.
-            assert_eq!(kind.card().word, "table_friction", "{label}");
+            assert!(kind.card().word.ends_with("_friction"), "{label}");
             continue;
         }
         let size = on.iter().zip(&at.k.twist).fold(1e-3, |m: f64, (w, v)| m.max(w.power(*v).abs()));

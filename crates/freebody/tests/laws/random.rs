@@ -93,7 +93,7 @@ impl Recipe {
         }
         for i in 0..self.forces {
             // What lies still on a table has no friction of sliding.
-            let all: Vec<_> = forces::ALL.iter().filter(|f| f.card().word != "table_friction").collect();
+            let all: Vec<_> = forces::ALL.iter().filter(|f| !f.card().word.ends_with("_friction")).collect();
             let kind = *all[i % all.len()];
             let turns = kind.card().fields.iter().any(|f| f.kind == FieldKind::Body);
             let able: Vec<String> = bodies.iter().filter(|b| !(turns && thrown.is_particle(b))).cloned().collect();
@@ -277,6 +277,8 @@ pub fn force_for(
             ("x" | "y", FieldKind::Law) if !body_fixed => continue,
             (_, FieldKind::Point) => text(p.clone()),
             (_, FieldKind::Points) => points(&[&p, &q]),
+            (_, FieldKind::Area) => circle(&p, rng.within(0.2, 1.0)),
+            (_, FieldKind::Flag) => Value::Flag(rng.chance(0.5)),
             ("from", FieldKind::Body) => text(b.clone()),
             (_, FieldKind::Body) => text(a.clone()),
             (_, FieldKind::Gauge) => text(gauge.clone()),

@@ -139,7 +139,7 @@ def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:
     body has one of that name."""
     free, near = subject.free, _SAME * subject.free.extent
     for load in free.loads:
-        if load.axis and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
+        if load.kind == "joint" and load.axis and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
             return pin(load.name)
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
