@@ -28,6 +28,8 @@ CLAIMS = [
     ("pendulum on a cart", "no thetadot in: thetaddot", Kind.WRONG),
     ("pendulum on a cart", "if thetadot = 0: (M+m)*xddot + m*l*thetaddot*cos(theta) = F", Kind.TRUE),
     ("bead on a turning rod", "only if T = 0: constant: (m1*l^2/3 + m2*R^2)*thetadot", Kind.TRUE),
+    ("bead on a turning rod", "only if thetadot = 0, T = 0: constant: thetadot", Kind.TRUE),
+    ("bead on a turning rod", "if thetadot = 0: constant: thetadot", Kind.WRONG),
     ("bead on a turning rod", "follows: m2*Rddot = m2*R*thetadot^2 from Rddot = R*thetadot^2", Kind.TRUE),
     ("bead on a turning rod", "follows: Rddot = 0 from Rddot = R*thetadot^2", Kind.WRONG),
     ("double pendulum", "constant: energy()", Kind.TRUE),

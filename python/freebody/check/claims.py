@@ -20,7 +20,7 @@ from freebody.symbolic.tree import Sym
 from . import timed_claims
 from .assumptions import FAR, family, first_order
 from .case import Case
-from .families import Samples
+from .families import ALL, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -108,11 +108,13 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
     worst, seen, lost = 0.0, None, ""
+    # What a hypothesis makes 0 has no size of its own there, only round-off.
+    usual = float(np.median(magnitude(node, case.values(ALL)))) if case.hypothesis.vanishing else 0.0
     for sample in case.samples(count=_RUNS).states:
         along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
         values = case.meaning.values(along)
         value, size = sampled(node, values), magnitude(node, values)
-        spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), 1e-300))
+        spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), usual, 1e-300))
         if np.isnan(spread):
             return Verdict(Kind.UNDECIDABLE, expression, "it has no value along the motion")
         if spread >= worst:

@@ -58,7 +58,7 @@ def test_no_printed_equation_says_nothing(model, form):
 
 
 TREES = (
-    "19.3.1/model", "19.3.3/finite", "19.3.3/polar", "19.3.6/assumed", "19.3.7/straight", "19.3.15/model", "19.3.16/clockwise",
+    "19.3.1/model", "19.3.3/finite", "19.3.3/polar", "19.3.6/model", "19.3.7/straight", "19.3.15/model", "19.3.16/clockwise",
     "19.3.17/model", "19.3.20/model", "19.3.23/link", "19.3.24/model", "19.3.28/horizontal", "EX-ARM/model", "EX-ARM/relative",
     "EX-BLOCK/rollers_on_lower", "GEN-CHAIN/model", "GEN-STEP/model", "S19.16/model", "S19.17/flight", "S19.18/model",
     "examples/tossed_box",

@@ -21,6 +21,10 @@ impl Builder<'_> {
             over.push(self.guide(&format!("{path}.over[{i}]"), guide)?);
         }
         let length = match &string.length {
+            // One that is elastic may be tied to a spring that is relaxed when nothing of the string is out.
+            Some(number) if string.stiffness.is_some() => {
+                Some(self.within(&format!("{path}.length"), number, |x| x >= 0.0, "a length, 0 or more")?)
+            }
             Some(number) => Some(self.positive_length(&format!("{path}.length"), number)?),
             None => None,
         };

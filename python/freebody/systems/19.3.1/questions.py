@@ -13,6 +13,7 @@ two passages of the hole. A segment: if h = 0.
 import numpy as np
 
 from freebody.catalogue import Answer, ask
+from freebody.check.api import Checker
 
 M, K = 2.0, 8.0
 W = np.sqrt(K / M)
@@ -20,7 +21,7 @@ R0 = np.array([0.5, 0.2])
 STARTS = {"ellipse": (-0.3, 0.9), "straight": (-0.75, -0.3), "circle": (-0.4, 1.0)}
 PERIOD = 2 * np.pi / W
 TIMES = np.linspace(0, 0.9, 10) * PERIOD
-SWING, CONSERVED = "closed form: two harmonic motions", "conservation"
+SWING = "closed form: two harmonic motions"
 DISTANCE, DIRECTION = "distance(ground.O, particle.P)", "direction(ground.O, particle.P)"
 
 
@@ -39,6 +40,13 @@ class Closed:
 
     def distance(self, t):
         return np.linalg.norm(self.place(t), axis=1)
+
+    def at(self, t):
+        """Itself with places, velocities, accelerations (2, n) and distances at the times."""
+        self.places, self.r = self.place(t).T, self.distance(t)
+        self.velocities = (np.outer(np.cos(W * t), self.v0) - np.outer(W * np.sin(W * t), R0)).T
+        self.accelerations = -(W**2) * self.places
+        return self
 
 
 def path(case, name, file="model.yaml"):
@@ -66,63 +74,79 @@ def motion(case):
         yield Answer(f"least r, {name}", least, "m", closed.b, "closed form: half the short axis", 1e-10, 1.0)
 
 
-@ask("The equations in x and y, and of the vector: always")
-def equations(case):
-    for name in STARTS:
-        run = path(case, name)
-        for axis in "xy":
-            value = run.evaluate(f"accel({axis}) + k/m*{axis}", TIMES)
-            yield Answer(f"{axis}'' + (k/m) {axis}, {name}", value, "m/s²", 0 * TIMES, "Newton's law", 1e-13, W**2 * 0.5)
+STATED = {
+    "ẍ + (k/m) x = 0": lambda s: s.accelerations[0] + W**2 * s.places[0],
+    "ÿ + (k/m) y = 0": lambda s: s.accelerations[1] + W**2 * s.places[1],
+    "a + (k/m) p = 0": lambda s: (s.accelerations + W**2 * s.places)[0],
+    "r̈ + (k/m) r = 0": lambda s: s.h**2 / s.r**3,
+    "constant: r": lambda s: s.r,
+    "constant: θ̇": lambda s: s.h / s.r**2,
+    "constant: r^2 θ̇": lambda s: np.cross(s.places.T, s.velocities.T),
+    "constant: m (ẋ^2 + ẏ^2) + k r^2": lambda s: M * np.sum(s.velocities**2, axis=0) + K * s.r**2,
+    "constant: y/x": lambda s: s.places[1] / s.places[0],
+}
+"""What is stated, each with its left side, or what is to be constant, on the closed form."""
+LETTERS = {
+    "r": DISTANCE,
+    "θ": DIRECTION,
+    "ω": "sqrt(k/m)",
+    "a": "acceleration of particle.P",
+    "p": "position of particle.P",
+}
+STARTS_IN_LETTERS = {"on a straight path": ("straight", "x ẏ = y ẋ"), "on a circle": ("circle", "ẋ = −ω y, ẏ = ω x")}
 
 
-@ask("r'' + (k/m) r of the distance: only on a straight path")
-def radial(case):
-    for name in STARTS:
-        run, closed = path(case, name), Closed(name)
-        value = run.evaluate(f"accel({DISTANCE}) + k/m*{DISTANCE}", TIMES)
-        check = closed.h**2 / closed.distance(TIMES) ** 3
-        yield Answer(f"over a period, {name}", value, "m/s²", check, "closed form: r θ̇² = h²/r³", 1e-10, 1.0)
+@ask("When is each statement true: always, never, or on which paths?")
+def stated(case):
+    """By ``check`` on random motions: of any start, and under the conditions for a straight path (r0 along v0) and for a circle (r0 across
+    v0 = ω r0). Beside it, on the closed form of three starts: is the left side 0, or the quantity constant?"""
+    checker = Checker(case.mechanism(), LETTERS)
+    for says, of in STATED.items():
+        found = [checker.check(says, correcting=False).ok]
+        found += [checker.check(f"if {when}: {says}", correcting=False).ok for _, when in STARTS_IN_LETTERS.values()]
+        where = [name for name, true in zip(STARTS_IN_LETTERS, found[1:], strict=True) if true]
+        said = "always" if found[0] else f"only {' and '.join(where)}" if where else "never"
+        check = []
+        for start in ("ellipse", *(name for name, _ in STARTS_IN_LETTERS.values())):
+            value = of(Closed(start).at(TIMES))
+            check.append((np.ptp(value) if says.startswith("constant") else np.abs(value).max()) < 1e-12)
+        label = f"{says.removeprefix('constant: ')} = constant" if says.startswith("constant") else says
+        yield Answer(label, found, "", check, "closed form at ten times of three starts", 0.0, said=said)
 
 
-@ask("r constant, a circle: only if r is across v and v = ω r")
-def circle(case):
-    for name in STARTS:
-        run, closed = path(case, name), Closed(name)
-        spread = run.report["greatest r"].value - run.report["least r"].value
-        yield Answer(f"greatest less least r, {name}", spread, "m", closed.a - closed.b, "closed form: axes", 1e-10, 1.0)
+@ask("Runs that show it and runs that break it")
+def shown(case):
+    """The greatest left side, or the range of what is to be constant, on an ellipse, a straight path and a circle."""
+    texts = {
+        "ẍ + (k/m) x": ("accel(x) + k/m*x", "m/s²"),
+        "r̈ + (k/m) r": (f"accel({DISTANCE}) + k/m*{DISTANCE}", "m/s²"),
+        "range of r": (DISTANCE, "m"),
+        "range of θ̇": (f"rate({DIRECTION})", "rad/s"),
+        "range of r²θ̇": ("angular_momentum(ground.O)/m", "m²/s"),
+        "range of m(ẋ² + ẏ²) + k r²": ("m*speed(particle.P)^2 + k*(x^2 + y^2)", "J"),
+        "range of y/x": ("y/x", ""),
+    }
+    closed = dict(zip(texts, [of for says, of in STATED.items() if says[0] not in "ÿa"], strict=True))
+    for label, (text, unit) in texts.items():
+        size = np.ptp if label.startswith("range") else lambda value: np.abs(value).max()
+        value = [size(path(case, name).evaluate(text, TIMES)) for name in STARTS]
+        check = [size(closed[label](Closed(name).at(TIMES))) for name in STARTS]
+        yield Answer(f"{label}: ellipse, straight path, circle", value, unit, check, SWING, 1e-9, 1.0)
 
 
-@ask("θ' constant: only on a circle, and (0) on a straight path")
-def turning(case):
-    for name in STARTS:
-        run, closed = path(case, name), Closed(name)
-        value = run.evaluate(f"rate({DIRECTION})", TIMES)
-        yield Answer(f"θ', {name}", value, "rad/s", closed.h / closed.distance(TIMES) ** 2, "closed form: h/r²", 1e-10, 1.0)
+@ask("A path that does not close: never. The period")
+def period(case):
+    """The derivative of the return map by the start: all starts come back after 2π √(m/k), and are opposite after half of that."""
+    for part, sign in (("2*pi*sqrt(m/k)", 1.0), ("pi*sqrt(m/k)", -1.0)):
+        back = case.mechanism().periodic(period=part).step()
+        says = f"x, y, ẋ, ẏ after {part} by x, y, ẋ, ẏ at the start"
+        yield Answer(says, np.ravel(back.slopes), "", np.ravel(sign * np.eye(4)), SWING, 1e-11)
 
 
-@ask("r²θ' and m(x'² + y'²) + k r² constant: always")
-def conserved(case):
-    for name in STARTS:
-        run, closed = path(case, name), Closed(name)
-        spin = run.evaluate("angular_momentum(ground.O)/m", TIMES)
-        yield Answer(f"r²θ', {name}", spin, "m²/s", closed.h + 0 * TIMES, CONSERVED, 1e-11, 1.0)
-        twice = M * closed.v0 @ closed.v0 + K * R0 @ R0
-        energy = run.evaluate("m*speed(particle.P)^2 + k*(x^2 + y^2)", TIMES)
-        yield Answer(f"m(x'² + y'²) + k r², {name}", energy, "J", twice + 0 * TIMES, CONSERVED, 1e-11)
-
-
-@ask("A segment: only with h = 0. A path that does not close: never")
-def shapes(case):
+@ask("All starts from which the path is a segment")
+def segment(case):
     found = case.mechanism().find("angular_momentum(ground.O) @ 1", 0, vary="vx", within=(-5, 5))
-    yield Answer("every start with h = 0, ẏ = 0.9 m/s", found.values, "m/s", R0[0] / R0[1] * 0.9, "closed form: v along r", 1e-8)
-    for name in STARTS:
-        run, closed = path(case, name), Closed(name)
-        aside = np.array([-R0[1], R0[0]]) / np.hypot(*R0)
-        value = run.evaluate(f"x*({aside[0]}) + y*({aside[1]})", PERIOD / 4)
-        far = "closed form: h/(ω r0)"
-        yield Answer(f"off the line of the start, greatest, {name}", value, "m", closed.h / W / np.hypot(*R0), far, 1e-11, 1.0)
-        now = [run.evaluate(text, PERIOD) for text in ("x", "y", "rate(x)", "rate(y)")]
-        yield Answer(f"state after 2π/ω, {name}", now, "", [*R0, *closed.v0], "closed form: the start", 1e-11)
+    yield Answer("ẋ with ẏ = 0.9 m/s", found.values, "m/s", R0[0] / R0[1] * 0.9, "closed form: v along r", 1e-8)
 
 
 @ask("The plane's force is mg: always")
@@ -137,7 +161,7 @@ def plane(case):
 
 @ask("The string itself, over the edge of the hole to a spring below")
 def string(case):
-    """String and spring are one elastic string, without an end that would need a mass. The straight path leads through the hole."""
+    """The straight path leads through the hole."""
     for name in STARTS:
         run, closed, times = path(case, name, "string.yaml"), Closed(name), np.array([0.4, 1.0, 2.0, 3.0])
         value = [run.evaluate(axis, times) for axis in "xy"]

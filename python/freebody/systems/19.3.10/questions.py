@@ -27,6 +27,35 @@ M, A, W = 1.0, 1.0, 1.0
 INERTIAS = (2.0, 0.0, 1.0)
 
 
+@ask("(a) Separate free-body diagrams: what acts on the rod, and on the bead")
+def diagrams(case):
+    """The weight is across the plane. The hinge holds the rod, and across the slot rod and bead push each other."""
+    free = case.mechanism().free_bodies()
+    for body, loads in (("rod", ["pivot.Fx", "pivot.Fy", "track.Fn"]), ("bead", ["track.Fn"])):
+        found = sorted(load.symbol for load in free.on(body))
+        yield Answer(
+            f"on the {body}",
+            [found.count(load) for load in loads],
+            "",
+            [1] * len(loads),
+            "statics: what each joint prevents",
+            0.0,
+            said=", ".join(found),
+        )
+    yield Answer("left of the balances of rod and bead", free.balance_gap("rod", "bead"), "", 0.0, "momentum of both", 1e-12, 1.0)
+
+
+@ask("(c) Conservation of angular momentum follows from the equations of rod and bead")
+def consequence(case):
+    line = "follows: d/dt((I_O + m R^2) θ̇) = 0 from I_O θ̈ = −R N and m (R θ̈ + {} Ṙ θ̇) = N"
+    for factor, right in (("2", 1), ("1", 0)):
+        value = case.mechanism().check(line.format(factor), letters={"N": "track.Fn"}).ok
+        said = "yes" if value else "no"
+        yield Answer(
+            f"with {factor} Ṙ θ̇ in the second", value, "", right, "closed form: derivative of (I_O + m R²) θ̇", 0.0, said=said
+        )
+
+
 @ask("(b) In symbols: the equations, and the force between rod and bead")
 def symbolically(case):
     closed = {
@@ -81,10 +110,12 @@ def one_equation(case):
         yield Answer(f"R̈, I_O = {inertia:g}", run.evaluate("accel(R)", times), "m/s²", check, "closed form: Rh²/(I + mR²)²", 1e-9)
 
 
-@ask("(d) One equation in R in symbols, by both routes: what is left of Lagrange's equations, and the energy differentiated")
+@ask("(d) One equation in R in symbols, by both routes: what is left of Lagrange's equations, and (e) the energy, differentiated")
 def both_routes(case):
     mechanism = case.mechanism()
     found = eliminated(SymbolicState(mechanism.source(), mechanism.start()[0]))
+    energy = "m*rate(R)^2/2 + p_theta^2/(2*(I_O + m*R^2))"
+    yield formula("(e) E₀", found.energy, energy, "closed form: ½mṘ² + h²/2(I + mR²)")
     closed, against = "accel(R) - R*p_theta^2/(I_O + m*R^2)^2", "closed form: R̈ = Rh²/(I + mR²)²"
     routes = {
         "momentum of θ put into the balance of R": found.equations["R"],

@@ -89,12 +89,42 @@ def two_balls(case):
         yield Answer(f"first ball, {of}", run.evaluate("vx(first.centre)", end), "m/s", first + w, CONSERVED, 1e-10)
 
 
+@ask("(c) Why: at the end of both, where is the energy 2mgR that both balls gave?")
+def why(case):
+    """The momentum is 0 and the energy the same in both. Two balls that leave one after the other have different speeds, and what is in their
+    motion against each other, m(v₁ − v₂)²/4, the cart does not get."""
+    claim = "at {}: M V^2/2 + (M V)^2/({}) {} = {} m g R"
+    for M, m in MASSES:
+        of = f"M = {M:g}, m = {m:g}"
+        run = case.run("two.yaml", {"M": M, "m": m})
+        end = leaving(run, "exit 2")
+        first, (second, recoil) = shot(M + m, m)[0], shot(M, m)
+        apart = run.evaluate("m*(vx(first.centre) - vx(second.centre))^2/4", end)
+        check = m * (first - recoil - second) ** 2 / 4
+        yield Answer(f"energy of the balls against each other, {of}", apart, "J", check, CONSERVED, 1e-10)
+        for parameters, file, letters, event, twice, count, apart_said in (
+            ({"M": M, "m": 2 * m}, "model.yaml", {"V": "rate(X)"}, "exit", "2 m", "1", ""),
+            (
+                {"M": M, "m": m},
+                "two.yaml",
+                {"V": "rate(X)", "v_1": "vx(first.centre)", "v_2": "vx(second.centre)"},
+                "exit 2",
+                "4 m",
+                "2",
+                "+ m (v_1 − v_2)^2/4",
+            ),
+        ):
+            says = claim.format(event, twice, apart_said, count)
+            value = case.mechanism(file, **parameters).check(says, letters=letters).ok
+            yield Answer(f"{file}, {of}", value, "", 1, CONSERVED, 0.0, said=says)
+
+
 @ask("Time in the tube, way of the cart, tube force, range")
 def tube(case):
     for M, m in MASSES:
         w, V = shot(M, m)
         force, flight = m * G + m * w**2 / R, sqrt(2 * H / G)
-        for of, file, push in (("guided", "model.yaml", "tube.tension"), ("against the wall", "wall.yaml", "wall.N")):
+        for of, file, push in (("guided", "model.yaml", "tube.F"), ("against the wall", "wall.yaml", "wall.N")):
             run = case.run(file, {"M": M, "m": m})
             t, of = leaving(run), f"M = {M:g}, m = {m:g}, {of}"
             yield Answer(f"time in the tube, {of}", t, "s", tube_time(M, m), "quadrature", 1e-10)

@@ -7,7 +7,7 @@ from 0 it is the complete elliptic integral K(I/(I + ma²)).
 """
 
 from itertools import pairwise
-from math import acosh, atan, cosh, exp, sinh, sqrt
+from math import acosh, cosh, exp, sinh, sqrt
 
 import numpy as np
 from scipy.integrate import quad
@@ -54,27 +54,6 @@ def states(case):
             yield Answer(f"{text} at {t:g} s", run.evaluate(text, t), unit, expected, "quadrature", 1e-9)
 
 
-@ask("The net angle is finite")
-def net_angle(case):
-    """From 1000 s on, θ̇ = h/(I + mR²) and Ṙ(t) ≤ Ṙ < v∞ bracket the angle that remains between hJ/v∞ and hJ/Ṙ(t),
-    J = ∫_R^∞ dR/(I + mR²) = atan(√(I/m)/R)/√(Im); all of it taken from the run.
-    """
-    run, t = case.run(), 1000.0
-    R, Rdot, h, energy = (run.evaluate(text, t) for text in ("R", "rate(R)", "angular_momentum(ground.O)", "energy()"))
-    J = atan(sqrt(I / M) / R) / sqrt(I * M)
-    v = sqrt(2 * energy / M)
-    low, high = h * J / v, h * J / Rdot
-    yield Answer("angle that remains at 1000 s", (low + high) / 2, "rad", rest(at(t)[-1]), "quadrature", 1e-6)
-    # Ṙ/v∞ = √((R² − a²)/(R² + I/m)), so that half the width is known to first order.
-    leading = WHOLE * W / (M * v * R) * (A**2 + I / M) / (4 * R**2)
-    yield Answer("bound on its error", (high - low) / 2, "rad", leading, "closed form: first order in 1/R³", 1e-2)
-    total = run.evaluate("theta", t) + (low + high) / 2
-    yield Answer("total angle", total, "rad", ellipk(I / WHOLE), "closed form: K(I/(I + ma²))", 1e-10)
-    yield Answer(
-        "total angle, by quadrature", total, "rad", integral(lambda u: 1 / growth(u), 0.0, 12.0) + rest(12.0), "quadrature", 1e-10
-    )
-
-
 @ask("(a) First-order form: the rates of R, θ, v = Ṙ, ω = θ̇")
 def first_order(case):
     """Ṙ = v, θ̇ = ω by definition; v̇ and ω̇ are the equations of motion, solved."""
@@ -82,7 +61,29 @@ def first_order(case):
     yield from case.symbolically(closed, "closed form: (I_O + m R²) θ̇ is constant, no force along the slot")
 
 
-@ask("(b) The net angle, as a limit of the run")
-def limit(case):
-    found = case.mechanism().limit("theta")
+@ask("(a) First-order form as a program: dy/dt of y = (θ, R, ω, v), as `freebody code` writes it")
+def as_code(case):
+    written = {}
+    exec(case.mechanism().code(), written)
+    for theta, R, omega, v in ((0.0, 1.0, 1.0, 0.0), (1.3, 2.0, 0.6, -0.4), (2.0, 30.0, 0.003, 1.7)):
+        check = [omega, v, -2 * M * R * v * omega / (I + M * R**2), R * omega**2]
+        value = written["derivative"](0.0, [theta, R, omega, v])
+        yield Answer(f"R = {R:g}, ω = {omega:g}, v = {v:g}", value, "SI", check, "closed form: the two equations solved", 1e-14)
+
+
+@ask("(b) The net angle is finite: the limit of the run, its error, and what remains at 1000 s")
+def net_angle(case):
+    found, passed = case.mechanism().limit("theta"), case.run().evaluate("theta", 1000.0)
     yield Answer(f"θ as t → ∞: {found.tail}", found.value, "rad", rest(0.0), "quadrature", 1e-9)
+    yield Answer("the same", found.value, "rad", ellipk(I / WHOLE), "closed form: K(I/(I + ma²))", 1e-9)
+    off = abs(found.value - ellipk(I / WHOLE)) <= found.value.error
+    yield Answer(
+        "its error is within the bound that is told",
+        off,
+        "",
+        1,
+        "closed form: K(I/(I + ma²))",
+        0.0,
+        said=f"to {found.value.error:.0e} rad",
+    )
+    yield Answer("angle that remains at 1000 s", found.value - passed, "rad", rest(at(1000.0)[-1]), "quadrature", 1e-5)

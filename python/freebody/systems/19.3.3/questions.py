@@ -86,7 +86,36 @@ def energy(case):
         yield Answer(file, case.run(file).evaluate("energy()", TIMES), "J", [start] * len(TIMES), "conservation", 1e-10)
 
 
-@ask("(i) The motion, and all paths: ellipses, circles, segments")
+@ask("(i) The general motion and all paths, as consequences of the equations of motion")
+def general(case):
+    """By `check`, from any start: the motion; that the path A x² − 2B xy + C y² = h² keeps its A, B, C and h, and that it is closed: AC − B² ≥ 0.
+    Each beside the same with a slip. So it is an ellipse, or with h = 0 a segment; a circle where ẋ = −ωy, ẏ = ωx."""
+    letters = {
+        "ω": "sqrt(k/m)",
+        "A": "rate(y)^2 + k/m*y^2",
+        "B": "rate(x)*rate(y) + k/m*x*y",
+        "C": "rate(x)^2 + k/m*x^2",
+        "h": "x*rate(y) - y*rate(x)",
+    }
+    lines = {
+        "if from the start: x = x0 cos(ω t) {} vx0/ω sin(ω t)": "+−",
+        "if from the start: y = y0 cos(ω t) {} vy0/ω sin(ω t)": "+−",
+        "constant: ẏ^2 {} ω^2 y^2": "+−",
+        "constant: ẋ ẏ {} ω^2 x y": "+−",
+        "constant: ẋ^2 {} ω^2 x^2": "+−",
+        "constant: x ẏ {} y ẋ": "−+",
+        "A x^2 {} 2 B x y + C y^2 = h^2": "−+",
+        "A C {} B^2 = ω^2 h^2": "−+",
+        "if x ẏ {} y ẋ = 0: constant: y/x": "−+",
+        "if ẋ = {}ω y, ẏ = ω x: constant: x^2 + y^2": "−+",
+    }
+    for line, signs in lines.items():
+        value = [case.mechanism().check(line.format(sign), letters=letters).ok for sign in signs]
+        said = line.format(signs[0]).replace("constant: ", "constant is ").replace("if from the start: ", "")
+        yield Answer("true, and not with the other sign", value, "", [1, 0], "closed form: two harmonic motions", 0.0, said=said)
+
+
+@ask("(i) The motion, and the axes of its path")
 def paths(case):
     against = "closed form: r₀ cos ωt + (v₀/ω) sin ωt"
     for file in ("model.yaml", "polar.yaml"):
