@@ -8,9 +8,10 @@ from random_models import _drawn
 
 import freebody as fb
 from freebody.core import quote
-from freebody.inverse import NotRealizable, quintic, steady
+from freebody.inverse import NotRealizable, quintic, recorded, steady
 from freebody.inverse.actuators import Actuators
 from freebody.inverse.virtual_motions import allowed
+from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import others
 
 ARM = """
@@ -87,7 +88,7 @@ def test_the_torques_of_a_path_return_the_path():
 
 def test_what_cannot_be_had_and_what_is_not_unique_are_named():
     arm = fb.Mechanism.loads(ARM)
-    with pytest.raises(NotRealizable, match="no actuator works on q1, where"):
+    with pytest.raises(NotRealizable, match=r"at q1 = 0\.3, q2 = 0\.8: no actuator works .* what these give is the motion of q2"):
         arm.inverse("rest", "elbow motor").evaluate("t", 0.0)
     every = ["shoulder motor", "elbow motor", "cable motor"]
     with pytest.raises(fb.Indeterminate, match="1 shoulder motor and 1 elbow motor and -1 cable motor"):
@@ -97,6 +98,31 @@ def test_what_cannot_be_had_and_what_is_not_unique_are_named():
     for wrong, said in ((["motor"], "there is no force `motor`"), (["shoulder motor"] * 2, "share a parameter")):
         with pytest.raises(ValueError, match=said):
             arm.inverse("rest", wrong).evaluate("t", 0.0)
+
+
+def test_a_recorded_motion_takes_what_its_law_takes(tmp_path):
+    """The spline through a law at 400 times has its places exactly, and its accelerations to the square of the step."""
+    arm, laws = fb.Mechanism.loads(ARM), {"q1": "0.3 + sin(2*t)^3", "q2": "1 - cos(3*t)"}
+    t = np.linspace(0, 1, 401)
+    q1, q2 = 0.3 + np.sin(2 * t) ** 3, 1 - np.cos(3 * t)
+    rows = [f"{a!r},{b!r},{c!r}" for a, b, c in zip((1000 * t).tolist(), q1.tolist(), np.degrees(q2).tolist(), strict=True)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [ms],shoulder,elbow [deg]", *rows]))
+    given = {"q1": recorded(tmp_path / "log.csv", "shoulder"), "q2": recorded(tmp_path / "log.csv", "elbow")}
+    found, known = arm.inverse(given), arm.inverse(laws, until=1)
+    assert found.run.edges[-1] == pytest.approx(1) and found.evaluate("q2", 0.5) == pytest.approx(1 - np.cos(1.5), abs=1e-12)
+    inside = np.linspace(0.2, 0.8, 7)
+    for motor in ("'motion of q1'.force", "'motion of q2'.force"):
+        assert found.evaluate(motor, inside) == pytest.approx(known.evaluate(motor, inside), abs=2e-3)
+    with pytest.raises(ModelProblem, match="no column `elbo`"):
+        recorded(tmp_path / "log.csv", "elbo")
+
+
+def test_what_the_motion_gives_a_rate_of_starts_where_the_model_starts():
+    """The shoulder is put where its law begins; the elbow, whose speed is given, stays."""
+    run = fb.Mechanism.loads(ARM).inverse({"q1": "1 + t", "q2": steady("2 rad/s")}, until=0.2).run
+    assert [run.evaluate(q, 0.0) for q in ("q1", "q2")] == pytest.approx([1.0, 0.8], abs=1e-13)
+    hand = fb.Mechanism.loads(ARM).inverse({"x(forearm.end)": 0.3, "q2": steady(1)}, until=0.2).run
+    assert [hand.evaluate(q, 0.0) for q in ("x(forearm.end)", "q2")] == pytest.approx([0.3, 0.8], abs=1e-12)
 
 
 def test_the_least_torques_stay_within_their_limits_where_they_can():
@@ -135,6 +161,10 @@ def test_a_pendulum_that_turns_steadily():
     assert y == pytest.approx(inwards * np.sin(w * t) - m * 9.81, abs=1e-8)
     assert moment == pytest.approx(-most * np.cos(w * t), abs=1e-8)
     assert found.evaluate("pin.Fx", t) == pytest.approx(-x, abs=1e-12)
+    along, across = found.values(found.pin_load("pin", "bar"), t).T  # in the axes of the bar its weight turns
+    assert along == pytest.approx(m * 9.81 * np.sin(w * t) - inwards, abs=1e-8)
+    assert across == pytest.approx(m * 9.81 * np.cos(w * t), abs=1e-8)
+    assert found.run.unit_of("hypot(pin.Fx, pin.Fy)") == "N" and found.run.unit_of("pin.Fx*sin(a)/2") == "N"
 
 
 @pytest.mark.parametrize("law", ["max(0, t)", "if(t < 0, 0, t)", "abs(t)", "min(t, 9)"])

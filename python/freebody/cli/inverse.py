@@ -11,6 +11,7 @@ import typer
 from freebody.cli.models import opened, pairs, written
 from freebody.cli.options import AsJson, Changes, Model, Until
 from freebody.cli.terminal import print_json
+from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
     from freebody.inverse import InverseDynamics
@@ -26,6 +27,10 @@ def inverse(
     speed: Annotated[
         list[str] | None, typer.Option(metavar="GAUGE=SPEED", help="A constant speed, 'theta=20 rad/s'; repeatable.")
     ] = None,
+    record: Annotated[
+        list[str] | None,
+        typer.Option(metavar="GAUGE=FILE:COLUMN", help="Its place as recorded over the column t of a CSV file; repeatable."),
+    ] = None,
     rest: Annotated[bool, typer.Option("--rest", help="The start stays at rest.")] = False,
     actuator: Annotated[
         list[str] | None, typer.Option(metavar="FORCE", help="A force of the model that gives the motion; repeatable.")
@@ -40,19 +45,25 @@ def inverse(
     plot: Annotated[
         Path | None, typer.Option(help="A picture: forces over angle and time, polar load diagrams; .png, .svg, .pdf.")
     ] = None,
+    axes: Annotated[str, typer.Option(metavar="BODY", help="Along whose axes the polar load diagrams are.")] = "ground",
     as_json: AsJson = False,
 ) -> None:
     """Inverse dynamics: torques and forces that a motion takes, and every reaction; by default of the motions of the model."""
-    from freebody.inverse import steady
+    from freebody.inverse import recorded, steady
 
     laws: dict[str, Any] = {**pairs(motion), **{gauge: steady(value) for gauge, value in pairs(speed).items()}}
+    for gauge, source in pairs(record).items():
+        file, colon, column = source.rpartition(":")
+        if not colon:
+            raise UserError(f"--record {gauge}={source}: which column?", f"write it like --record '{gauge}={source}:{gauge}'")
+        laws[gauge] = recorded(file, column)
     given = "rest" if rest else laws or None
     found = opened(model, changes).inverse(given, actuator or (), limits=pairs(limit), least=least, until=until)
     made = [found.save(output)] if output else []
     if plot:
         from freebody.views.inverse import save
 
-        made.append(save(found, plot))
+        made.append(save(found, plot, axes))
     if as_json:
         print_json(data(found) | {"files": [str(path) for path in made]})
         return

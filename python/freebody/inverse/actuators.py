@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.linalg import qr
 from scipy.optimize import nnls
 
 from freebody.core import Array, CompiledModel, Indeterminate, State, quote
@@ -27,11 +28,12 @@ NAMED = 1e-6
 
 
 class NotRealizable(ValueError):
-    """A motion that the actuators, or the mechanism itself, cannot bring about beyond a time ``t``, s; the ``posture`` then, by
-    coordinate (m, rad)."""
+    """A motion that the actuators, or the mechanism itself, cannot bring about ``at`` a time or ``beyond`` it, and why; ``t`` is that
+    time, s, ``posture`` the coordinates then (m, rad)."""
 
-    def __init__(self, what: str, t: float, posture: Mapping[str, float]) -> None:
-        super().__init__(what)
+    def __init__(self, when: str, why: str, t: float, posture: Mapping[str, float]) -> None:
+        named = ", ".join(f"{name} = {round(value, 6) + 0.0:g}" for name, value in posture.items())
+        super().__init__(f"the motion cannot be had {when} t = {t:.6g} s, at {named}: {why}")
         self.t, self.posture = t, dict(posture)
 
 
@@ -112,8 +114,9 @@ class Actuators:
         takes = along.T @ mass @ (wanted - still.accelerations)
         missing = takes - along.T @ directions @ (inverse @ takes)
         if np.abs(missing).max(initial=0.0) > MISSING * max(size, np.abs(takes).max(initial=0.0)):
-            posture = {c["name"]: float(q) for c, q in zip(core.metadata["coordinates"], state.q, strict=True)}
-            raise NotRealizable(self._lacking(state, along @ missing, float(np.linalg.norm(missing))), state.t, posture)
+            posture = dict(zip(core.coordinate_names, state.q.tolist(), strict=True))
+            why = self._lacking(off, along @ missing, float(np.linalg.norm(missing)), bodies.extent)
+            raise NotRealizable("at", why, state.t, posture)
         forces = self._chosen(inverse @ takes, free, state.t)
         forces = forces + inverse @ along.T @ mass @ (wanted - core.instant(self._with(state, forces)).accelerations)
         with_forces = self._with(state, forces)
@@ -156,14 +159,27 @@ class Actuators:
             for way in basis.T
         ]
 
-    def _lacking(self, state: State, motion: Array, missing: float) -> str:
-        """The sentence about a motion of the coordinates (n,) along which ``missing`` is not given by any actuator."""
-        coordinates = self.source.metadata["coordinates"]
+    def _lacking(self, off: State, motion: Array, missing: float, extent: float) -> str:
+        """What no actuator gives, ``missing`` along a motion of the coordinates (n,), and what these actuators can give instead: as many
+        motions as their forces accelerate independently."""
+        names = self.source.coordinate_names
         sizes = np.abs(motion) / max(np.abs(motion).max(), np.finfo(float).tiny)
-        moving = [c["name"] for c, size in zip(coordinates, sizes, strict=True) if size > NAMED]
+        moving = [name for name, size in zip(names, sizes, strict=True) if size > NAMED]
         works = "in the motion of" if len(moving) > 1 else "on"
-        what = f"the motion cannot be had at t = {state.t:.6g} s: no actuator works {works} {', '.join(moving)}"
-        return f"{what}, where {figure(missing, 4)} N·m are missing; add an actuator there, or prescribe fewer motions"
+        coordinates = self.source.metadata["coordinates"]
+        lengths = all(c["dimension"] == "m" for c in coordinates if c["name"] in moving)
+        stated = f"{figure(missing / extent, 4)} N" if lengths else f"{figure(missing, 4)} N·m"
+        columns = self.source.derivatives([f"accel({quote(name)})" for name in names], off)[:, 1 + 2 * len(names) :]
+        per_size = [1.0 if c["dimension"] == "rad" else extent for c in coordinates]
+        by_force = columns[:, self.places] / np.array(per_size)[:, None]
+        _, triangle, order = qr(by_force.T, mode="economic", pivoting=True)
+        pivots = np.abs(np.diag(triangle))
+        had = [names[i] for i in np.sort(order[: int((pivots > DEPENDENT * pivots.max(initial=0.0)).sum())])]
+        instead = "; they accelerate nothing here"
+        if had:
+            free = "prescribe no more, and say by `by` along which gauge the actuator acts, so that the rest moves as it will"
+            instead = f"; what these give is the motion of {' and '.join(had)}: {free}"
+        return f"no actuator works {works} {', '.join(moving)}, where {stated} are missing; add an actuator there{instead}"
 
 
 def _sparse(basis: Array) -> Array:

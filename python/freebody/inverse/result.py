@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.optimize import brentq
 
-from freebody.core import Array, Indeterminate, State, quote
+from freebody.core import GROUND, Array, Indeterminate, State, quote
 from freebody.formats import Formats, write
 from freebody.inverse.actuators import Actuators, Found
+from freebody.model.names import suggestion
 from freebody.run.records import Window, reduce
 
 if TYPE_CHECKING:
@@ -90,6 +91,16 @@ class InverseDynamics:
     def pins(self) -> list[str]:
         """Joints that carry a load."""
         return [joint["name"] for joint in self.source.metadata["joints"] if joint["reaction"]]
+
+    def pin_load(self, joint: str, axes: str = GROUND) -> tuple[str, str]:
+        """Expressions of the force (N) of a joint on its second body, along the axes of the ground or of a body, which turn with it."""
+        x, y = f"{quote(joint)}.Fx", f"{quote(joint)}.Fy"
+        if axes == GROUND:
+            return x, y
+        if axes not in (bodies := [body["name"] for body in self.source.metadata["bodies"]]):
+            raise ValueError(f"there is no body `{axes}`: {suggestion(axes, bodies, 'bodies')}")
+        turn = f"angle({quote(axes)})"
+        return f"{x}*cos({turn}) + {y}*sin({turn})", f"{y}*cos({turn}) - {x}*sin({turn})"
 
     # Anything at any time
 

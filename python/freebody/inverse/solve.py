@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import CompiledModel, OutcomeKind, Settings
 from freebody.inverse.actuators import Actuators, NotRealizable
-from freebody.inverse.laws import Law, prescribed, rest
+from freebody.inverse.laws import Law, Recording, prescribed, rest
 from freebody.inverse.result import InverseDynamics
 from freebody.inverse.virtual_motions import dead_position
 from freebody.model.names import suggestion
@@ -77,14 +77,19 @@ def _prescribed_run(
     settings: Mapping[str, Any],
 ) -> Run:
     """The run of a mechanism that moves as prescribed, or rests."""
+    words = {field.name for field in fields(Settings)}
+    changes = {name: value for name, value in settings.items() if name not in words}
     if isinstance(motion, str):
         if motion != REST:
             raise ValueError(f"{motion!r} is no motion: give laws of time by gauge, a run, or {REST!r}")
-        words = {field.name for field in fields(Settings)}
-        motion = rest(mechanism, initial, t, {name: value for name, value in settings.items() if name not in words})
+        motion = rest(mechanism, initial, t, changes)
         until = t + REST_LASTS if until is None else until
-    driven, start = prescribed(mechanism, motion)
-    return driven.simulate(until, initial=start if initial is None else initial, t=t, **settings)
+    recordings = [law for law in motion.values() if isinstance(law, Recording)]
+    if recordings and until is None:
+        until = min(float(law.t[-1]) for law in recordings)
+    t = max([t, *(float(law.t[0]) for law in recordings)])
+    driven, start = prescribed(mechanism, motion, initial, t, changes)
+    return driven.simulate(until, initial=start, t=t, **settings)
 
 
 def _not_had(run: Run) -> NotRealizable:
@@ -92,5 +97,4 @@ def _not_had(run: Run) -> NotRealizable:
     t, posture = run.outcome.t, dict(zip(run.coordinates, run.end.q.tolist(), strict=True))
     if run.outcome.name is OutcomeKind.DEAD_POSITION:
         t, posture = dead_position(run)
-    named = ", ".join(f"{name} = {round(value, 6) + 0.0:g}" for name, value in posture.items())
-    return NotRealizable(f"the motion cannot be had beyond t = {t:.6g} s, at {named}: {run.outcome.sentence}", t, posture)
+    return NotRealizable("beyond", run.outcome.sentence, t, posture)

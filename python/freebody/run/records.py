@@ -13,8 +13,12 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 
 from freebody.core import EXTREMES, Array, CompiledModel, ReportItem, cards, quote
+from freebody.model.errors import ModelProblem
+from freebody.model.syntax import dimension
+from freebody.model.units import unit as unit_named
 from freebody.solve.figures import figure
 from freebody.symbolic.alphabet import GREEK
+from freebody.symbolic.dimensions import Dimension
 from freebody.symbolic.symbols import Name
 
 Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt,)
@@ -326,16 +330,31 @@ def columns_of(source: CompiledModel, ledger: Sequence[str]) -> list[Column]:
 
 
 def unit_of(text: str, columns: Sequence[Column], metadata: Mapping[str, Any]) -> str:
-    """The SI unit of a simple expression (a column, one call, one reading of a part); empty where it takes more to tell."""
+    """The SI unit of an expression; empty for a plain number, and where bare numbers in it leave the unit open."""
     text = text.strip()
-    for column in columns:
-        if column.name == text:
-            return column.unit
-    if text == "t":
-        return "s"
+    if (unit := _stated_unit(text, columns, metadata)) is not None:
+        return unit
     if call := re.fullmatch(r"(\w+)\([^()]*\)", text):
         function = cards.functions().get(call[1])
-        return function.unit if function else ""
-    owner, dot, word = text.rpartition(".")
+        if function:
+            return function.unit
+
+    def lookup(name: str) -> Dimension | None:
+        unit = _stated_unit(name, columns, metadata)
+        return None if unit is None else unit_named(unit).dimension
+
+    try:
+        found = dimension(text, lookup)
+    except ModelProblem:
+        return ""
+    return found.unit() if found else ""
+
+
+def _stated_unit(name: str, columns: Sequence[Column], metadata: Mapping[str, Any]) -> str | None:
+    """The unit of a column, a parameter, the time or one reading of a part; None for anything else."""
+    known = {column.name: column.unit for column in columns} | {each["name"]: each["unit"] for each in metadata["parameters"]}
+    if name in known or name == "t":
+        return known.get(name, "s")
+    owner, dot, word = name.rpartition(".")
     parts = (part for section in ("joints", "forces", "motions", "locks", "limits") for part in metadata[section] if dot)
-    return next((part["readings"].get(word) or "" for part in parts if quote(part["name"]) == owner), "")
+    return next((part["readings"].get(word) for part in parts if quote(part["name"]) == owner), None)

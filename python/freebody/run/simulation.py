@@ -214,7 +214,7 @@ class Run:
         return found
 
     def unit_of(self, text: str) -> str:
-        """The SI unit of a simple expression; empty where it takes more to tell."""
+        """The SI unit of an expression; empty for a plain number, and where bare numbers in it leave the unit open."""
         return unit_of(text, self.columns, self.metadata)
 
     def reported(self, item: ReportItem) -> dict[str, Reported]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import quote
 from freebody.formats import replacing
 from freebody.views.plots import label, with_unit
 from freebody.views.style import GROUND, axes, colour, quiet
@@ -49,12 +48,14 @@ def motors(found: InverseDynamics, over: str = "t", ax: Axes | None = None) -> A
 
 
 @quiet()
-def pin_load(found: InverseDynamics, joint: str, ax: Axes) -> Axes:
-    """The polar load diagram of a joint: the force on its second body as a vector from the middle, over the motion."""
+def pin_load(found: InverseDynamics, joint: str, ax: Axes, axes: str = "ground") -> Axes:
+    """The polar load diagram of a joint: the force on its second body as a vector from the middle, over the motion, along the axes of
+    the ground or of a body: those of a shaft show where its journal wears."""
     t = np.linspace(*found.run.edges[[0, -1]], _SAMPLES)
     second = next(each["second"] for each in found.source.metadata["joints"] if each["name"] == joint)
-    x, y = found.values([f"{quote(joint)}.Fx", f"{quote(joint)}.Fy"], t).T
-    ax.set_title(f"{joint}, on {second}  [N]", fontsize=10, pad=10)
+    x, y = found.values(found.pin_load(joint, axes), t).T
+    seen = "" if axes == "ground" else f", axes of {axes}"
+    ax.set_title(f"{joint}, on {second}{seen}  [N]", fontsize=10, pad=10)
     if np.isnan(x).any() or np.isnan(y).any():
         ax.annotate("indeterminate", (0.5, 0.5), xycoords="axes fraction", ha="center", color=GROUND)
         return ax
@@ -67,9 +68,9 @@ def pin_load(found: InverseDynamics, joint: str, ax: Axes) -> Axes:
 
 
 @quiet()
-def sheet(found: InverseDynamics, joints: Sequence[str] = ()) -> Figure:
-    """Forces of the motors over the gauge and over time, and the polar load diagrams of ``joints``, all by default; a dot is the
-    start."""
+def sheet(found: InverseDynamics, joints: Sequence[str] = (), axes: str = "ground") -> Figure:
+    """Forces of the motors over the gauge and over time, and the polar load diagrams of ``joints``, all by default, along the ``axes``
+    of a body; a dot is the start."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -85,13 +86,13 @@ def sheet(found: InverseDynamics, joints: Sequence[str] = ()) -> Figure:
         motors(found, "t", figure.add_subplot(grid[0, :]))
     for i, joint in enumerate(shown):
         row, column = divmod(i, _ABREAST)
-        pin_load(found, joint, figure.add_subplot(grid[1 + row, 2 * column : 2 * column + 2], projection="polar"))
+        pin_load(found, joint, figure.add_subplot(grid[1 + row, 2 * column : 2 * column + 2], projection="polar"), axes)
     figure.suptitle(found.name, x=0.01, ha="left", fontsize=12)
     return figure
 
 
-def save(found: InverseDynamics, path: Path) -> Path:
+def save(found: InverseDynamics, path: Path, axes: str = "ground") -> Path:
     """Write the sheet as a picture."""
     with replacing(path) as beside:
-        sheet(found).savefig(beside, dpi=150, bbox_inches="tight")
+        sheet(found, axes=axes).savefig(beside, dpi=150, bbox_inches="tight")
     return path
