@@ -110,6 +110,7 @@ def test_a_recorded_motion_takes_what_its_law_takes(tmp_path):
     given = {"q1": recorded(tmp_path / "log.csv", "shoulder"), "q2": recorded(tmp_path / "log.csv", "elbow")}
     found, known = arm.inverse(given), arm.inverse(laws, until=1)
     assert found.run.edges[-1] == pytest.approx(1) and found.evaluate("q2", 0.5) == pytest.approx(1 - np.cos(1.5), abs=1e-12)
+    assert found.evaluate("accel(q1)", found.run.edges[-1]) == pytest.approx(0, abs=1)  # no step where the table ends
     inside = np.linspace(0.2, 0.8, 7)
     for motor in ("'motion of q1'.force", "'motion of q2'.force"):
         assert found.evaluate(motor, inside) == pytest.approx(known.evaluate(motor, inside), abs=2e-3)

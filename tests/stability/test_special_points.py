@@ -4,6 +4,7 @@ import json
 from math import sin
 
 import numpy as np
+import PIL.Image
 import pytest
 from typer.testing import CliRunner
 
@@ -11,6 +12,7 @@ import freebody as fb
 from freebody.cli import app
 from freebody.stability import continuation
 from freebody.stability.state_space import state_space
+from freebody.views.modes import draw_modes
 
 SHIMMY = """
 freebody: 1
@@ -90,16 +92,26 @@ def asked(tmp_path, monkeypatch):
 
 def test_the_command_gives_modes_response_and_gains_and_draws(asked, tmp_path):
     """ω² = k/m − (c/2m)²; with c less by w = 1; gains g of F = g·(x, ẋ) for poles −1, −2: (k − 2m, c − 3m)."""
-    done = asked("--json", "--input", "F", "--output", "x", "--poles=-1,-2", "--response", "0.1..1", "-o", "modes.png")
+    response = ("--input", "F", "--output", "x", "--response", "0.1..1", "--plot", "response.png")
+    done = asked("--json", *response, "--poles=-1,-2", "-o", "modes.png")
     (rest,) = json.loads(done.stdout)["equilibria"]
     assert rest["modes"][0]["eigenvalue"] == pytest.approx([-0.5, np.sqrt(25 - 0.5**2)], rel=1e-12)
     assert rest["gains"] == [pytest.approx([50 - 2 * 2, 2 - 3 * 2], rel=1e-9)]
     frequency, real, imaginary = rest["response"][0]["frequency"], *rest["response"][0]["values"][0][0]
     iw = 2j * np.pi * frequency
     assert complex(real, imaginary) == pytest.approx(1 / (2 * iw**2 + 2 * iw + 50), rel=1e-12)
-    assert (tmp_path / "modes.png").stat().st_size > 1000
+    assert all((tmp_path / name).stat().st_size > 1000 for name in ("modes.png", "response.png"))
     along = asked("--along", "w=1..5")
     assert along.exit_code == 0 and "Hopf point" in along.output
+
+
+def test_a_mode_becomes_a_film_in_which_it_moves(tmp_path):
+    (rest,) = fb.Mechanism.loads(SHIMMY).stability(w=0)
+    (mode,) = rest.modes
+    film = PIL.Image.open(draw_modes(rest, tmp_path / "mode.gif"))
+    assert film.n_frames == 48 and mode.frequency > 0
+    first, half = (np.asarray(film.convert("L"), float) for k in (0, 24) if film.seek(k) is None)
+    assert np.abs(first - half).max() > 100  # it moves
 
 
 @pytest.mark.parametrize(
@@ -112,6 +124,8 @@ def test_the_command_gives_modes_response_and_gains_and_draws(asked, tmp_path):
         (("--along", "w=2..5"), "w is 1 at the start, outside 2 to 5"),
         (("--along", "w"), "between which values?"),
         (("--along", "w=1..5", "-o", "modes.png"), "gives nothing else"),
+        (("--plot", "response.png"), "say --input, --output and --response"),
+        (("-o", "modes.txt"), ".gif or .mp4, not '.txt'"),
         (("--at", "y=1"), "y"),
         (("--input", "G"), "no parameter is called 'G'"),
         (("--poles=-1", "--input", "F"), "1 poles for 2 states"),

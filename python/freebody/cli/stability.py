@@ -29,7 +29,8 @@ def stability(
     poles: Annotated[
         str | None, typer.Option(metavar="LIST", help="Gains of inputs for these eigenvalues, like '-1,-2+1j,-2-1j'.")
     ] = None,
-    output: Annotated[Path | None, typer.Option("-o", help="Draw the modes: {views.diagram.picture}.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", help="The modes, drawn or as a film: {views.modes}.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw the frequency response: {views.diagram.picture}.")] = None,
     changes: Changes = None,
     as_json: AsJson = False,
 ) -> None:
@@ -41,6 +42,8 @@ def stability(
     from freebody.stability.answers import response_table
 
     mechanism, near = opened(model, changes), pairs(at)
+    if plot and not (response and inputs and outputs):
+        raise UserError("--plot draws a frequency response", "say --input, --output and --response A..B with it")
     if along and (bounds or inputs or outputs or response or poles or output):
         raise UserError(
             "--along follows curves and gives nothing else", "ask for the rest without it, or with --set at one value"
@@ -71,12 +74,22 @@ def stability(
     if output:
         from freebody.views.modes import draw_modes
 
-        made.append(draw_modes(found[0], output))
+        made += [draw_modes(rest, path) for rest, path in zip(found, _paths(output, len(found)), strict=True)]
+    if plot:
+        from freebody.views.modes import draw_response
+
+        frequencies = np.geomspace(low, high, 400)
+        made += [draw_response(rest, frequencies, path) for rest, path in zip(found, _paths(plot, len(found)), strict=True)]
     if as_json:
         print_json(stated | {"files": [str(path) for path in made]} if made else stated)
         return
     Console().print(found, *asked)
     written(*made)
+
+
+def _paths(path: Path, count: int) -> list[Path]:
+    """One file for each equilibrium."""
+    return [path] if count == 1 else [path.with_name(f"{path.stem}-{i}{path.suffix}") for i in range(1, count + 1)]
 
 
 def _range(text: str, option: str) -> tuple[str, ...]:

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from freebody.core import CompiledModel, OutcomeKind, Settings
 from freebody.inverse.actuators import Actuators, NotRealizable
 from freebody.inverse.laws import Law, Recording, prescribed, rest
@@ -84,10 +86,10 @@ def _prescribed_run(
             raise ValueError(f"{motion!r} is no motion: give laws of time by gauge, a run, or {REST!r}")
         motion = rest(mechanism, initial, t, changes)
         until = t + REST_LASTS if until is None else until
-    recordings = [law for law in motion.values() if isinstance(law, Recording)]
-    if recordings and until is None:
-        until = min(float(law.t[-1]) for law in recordings)
-    t = max([t, *(float(law.t[0]) for law in recordings)])
+    if recordings := [law for law in motion.values() if isinstance(law, Recording)]:
+        last = min(float(np.nextafter(law.t[-1], -np.inf)) for law in recordings)  # beyond it the table stands still
+        until = last if until is None else min(quantity("until", until, "s"), last)
+        t = max([t, *(float(law.t[0]) for law in recordings)])
     driven, start = prescribed(mechanism, motion, initial, t, changes)
     return driven.simulate(until, initial=start, t=t, **settings)
 

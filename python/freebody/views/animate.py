@@ -56,7 +56,8 @@ def frame_times(run: Run, fps: float, speed: float = 1.0) -> Array:
     return np.unique(run.t[np.abs(run.t[:, None] - times).argmin(axis=0)])
 
 
-def _write_film(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
+def write_film(path: Path, figure: Figure, frames: Iterator[None], count: int, fps: int) -> Path:
+    """A GIF or MP4 of what a figure shows after each of the frames. Raises ``RuntimeError`` where ffmpeg is missing."""
     from matplotlib.animation import FFMpegWriter, PillowWriter
 
     gif = path.suffix == ".gif"
@@ -78,7 +79,7 @@ def _write_frames(path: Path, figure: Figure, frames: Iterator[None], count: int
     return names[0]
 
 
-FORMATS = Formats("an animation is", {".gif": _write_film, ".mp4": _write_film, ".svg": _write_frames})
+FORMATS = Formats("an animation is", {".gif": write_film, ".mp4": write_film, ".svg": _write_frames})
 
 
 def _canvas(sketch: Sketch) -> Axes:
