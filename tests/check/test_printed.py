@@ -111,6 +111,8 @@ def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: 
 
 LINES = 24
 """Of each random model at each moment, drawn from all that is printed: of all of them at least 2000."""
+MATRICES = 1
+"""More of them, of equations of matrices: entries that have a name there have one that means nothing else."""
 MOMENTS: dict[str, dict[str, float]] = {"start": {}, "later": {"at": 0.1}}
 TOPICS = ("lagrange", "mass_centre")
 """Those whose symbols are those of the model; the others give names of their own, of a frame, a particle, a point."""
@@ -131,11 +133,15 @@ def _documents(mechanism: fb.Mechanism, state: State, asked: dict[str, float]) -
 
 
 def _alone(document: Document) -> Iterator[str]:
-    """Its equations, one by one; a derivative of the energy behind the line that says what that is."""
+    """Its equations, one by one; a derivative of the energy behind the line that says what that is; matrices as they are set in type,
+    but those that are too wide for it, whose entries are listed."""
     energy = ""
     for block in _stated(document):
-        if isinstance(block, Equation):
-            line = Document((block,), document.letters).text(width=400)
+        alone = Document((block,), document.letters)
+        if isinstance(block, MatrixEquation) and "not listed" not in (line := alone.markdown()):
+            yield line
+        elif isinstance(block, Equation):
+            line = alone.text(width=400)
             energy = energy or line
             yield f"{energy}\n{line}" if "∂" in line else line
 
@@ -155,7 +161,8 @@ def test_what_is_printed_of_a_random_model_is_true(seed: str, moment: str) -> No
         assert not mechanism.simulate(state.t + 0.01).outcome.ok, "it moves, and yet no motion was found"
         pytest.skip("no motion goes on from there")
     lines = [line for document in _documents(mechanism, state, asked) for line in _alone(document)]
-    for line in rng.sample(lines, min(LINES, len(lines))):
+    matrices = [line for line in lines if line.startswith("$$")]
+    for line in [*rng.sample(lines, min(LINES, len(lines))), *rng.sample(matrices, min(MATRICES, len(matrices)))]:
         try:
             verdict = checker.check(line, correcting=False)
             if verdict.kind is Kind.WRONG and _unloaded(mechanism, asked):
@@ -169,3 +176,11 @@ def test_what_is_printed_of_a_random_model_is_true(seed: str, moment: str) -> No
 def test_a_printed_symbol_does_not_hide_one_of_the_model() -> None:
     model = fb.Mechanism.loads(WORDS.replace("{k: 30 N/m}", "{k: 30 N/m, r_tip: 2 N}"))
     assert Checker(model).check("r_tip = 2 N").kind is not Kind.DIMENSIONS
+
+
+@pytest.mark.parametrize("form", ["minimal", "brute"])
+def test_the_name_of_an_entry_is_none_of_the_model(form: str) -> None:
+    mechanism = drawn(5)
+    assert "b[1]" in mechanism.solve().accelerations  # printed as b₁, as the first entry of b would be
+    lines = [line for line in _alone(mechanism.equations(form)) if line.startswith("$$")]
+    assert lines and all(Checker(mechanism).check(line).kind is Kind.TRUE for line in lines)

@@ -96,7 +96,7 @@ class _Named:
     def _matrix(self, matrix: Matrix) -> Matrix:
         if not matrix.letter:
             return matrix
-        letter = matrix.letter * (1 + any(re.fullmatch(rf"{matrix.letter}_?\d+", name) for name in self.known))
+        letter = matrix.letter * (1 + any(re.fullmatch(rf"{matrix.letter}\d+", Name.parse(name).ascii()) for name in self.known))
         counted = max(len(matrix.rows), len(matrix.rows[0])) > _DIGITS
         return Matrix(
             [[self._entry(letter, () if counted else place, tree) for place, tree in row] for row in _placed(matrix)], letter
