@@ -19,6 +19,7 @@ M, K = 2.0, 8.0
 W = np.sqrt(K / M)
 R0 = np.array([0.5, 0.2])
 STARTS = {"ellipse": (-0.3, 0.9), "straight": (-0.75, -0.3), "circle": (-0.4, 1.0)}
+PATHS = {"ellipse": "", "straight": "a straight path through the hole", "circle": "a circle"}
 PERIOD = 2 * np.pi / W
 TIMES = np.linspace(0, 0.9, 10) * PERIOD
 SWING = "closed form: two harmonic motions"
@@ -55,29 +56,30 @@ def path(case, name, file="model.yaml"):
     return case.run(file, {"vx": vx, "vy": vy})
 
 
-@ask("In symbols: the equations in x and y")
+@ask("What are the equations of motion?")
 def symbolically(case):
     yield from case.symbolically({"x": "-k*x/m", "y": "-k*y/m"}, "Newton's law")
 
 
-@ask("Motion from three starts; the second goes through the hole")
+@ask("How does it move, what does the string carry, and how far and near does it come?")
 def motion(case):
-    for name in STARTS:
+    for name, variant in PATHS.items():
         run, closed, times = path(case, name), Closed(name), np.linspace(0.7, 10, 10)
-        place = closed.place(times)
-        yield Answer(f"x at 0.7 … 10 s, {name}", run.evaluate("x", times), "m", place[:, 0], SWING, 1e-11)
-        yield Answer(f"y at 0.7 … 10 s, {name}", run.evaluate("y", times), "m", place[:, 1], SWING, 1e-11)
-        pull = -run.evaluate("leash.value", times)
-        yield Answer(f"tension at 0.7 … 10 s, {name}", pull, "N", K * closed.distance(times), SWING, 1e-11)
         greatest, least = (run.report[f"{which} r"].value for which in ("greatest", "least"))
-        yield Answer(f"greatest r, {name}", greatest, "m", closed.a, "closed form: half the long axis", 1e-11)
-        yield Answer(f"least r, {name}", least, "m", closed.b, "closed form: half the short axis", 1e-10, 1.0)
+        axes = "closed form: half the axes"
+        yield Answer("greatest r", greatest, "m", closed.a, axes, 1e-11, variant=variant)
+        yield Answer("least r", least, "m", closed.b, axes, 1e-10, 1.0, variant=variant)
+        place = closed.place(times)
+        yield Answer("x at 0.7 … 10 s", run.evaluate("x", times), "m", place[:, 0], SWING, 1e-11, variant=variant)
+        yield Answer("y at 0.7 … 10 s", run.evaluate("y", times), "m", place[:, 1], SWING, 1e-11, variant=variant)
+        pull = -run.evaluate("leash.value", times)
+        yield Answer("tension at 0.7 … 10 s", pull, "N", K * closed.distance(times), SWING, 1e-11, variant=variant)
 
 
 STATED = {
     "ẍ + (k/m) x = 0": lambda s: s.accelerations[0] + W**2 * s.places[0],
     "ÿ + (k/m) y = 0": lambda s: s.accelerations[1] + W**2 * s.places[1],
-    "a + (k/m) p = 0": lambda s: (s.accelerations + W**2 * s.places)[0],
+    "a_P + (k/m) r_P = 0": lambda s: (s.accelerations + W**2 * s.places)[0],
     "r̈ + (k/m) r = 0": lambda s: s.h**2 / s.r**3,
     "constant: r": lambda s: s.r,
     "constant: θ̇": lambda s: s.h / s.r**2,
@@ -90,8 +92,8 @@ LETTERS = {
     "r": DISTANCE,
     "θ": DIRECTION,
     "ω": "sqrt(k/m)",
-    "a": "acceleration of particle.P",
-    "p": "position of particle.P",
+    "a_P": "acceleration of particle.P",
+    "r_P": "position of particle.P",
 }
 STARTS_IN_LETTERS = {"on a straight path": ("straight", "x ẏ = y ẋ"), "on a circle": ("circle", "ẋ = −ω y, ẏ = ω x")}
 
@@ -103,18 +105,19 @@ def stated(case):
     checker = Checker(case.mechanism(), LETTERS)
     for says, of in STATED.items():
         found = [checker.check(says, correcting=False).ok]
-        found += [checker.check(f"if {when}: {says}", correcting=False).ok for _, when in STARTS_IN_LETTERS.values()]
+        found += [checker.check(f"if {premise}: {says}", correcting=False).ok for _, premise in STARTS_IN_LETTERS.values()]
         where = [name for name, true in zip(STARTS_IN_LETTERS, found[1:], strict=True) if true]
-        said = "always" if found[0] else f"only {' and '.join(where)}" if where else "never"
+        when = "always" if found[0] else f"only {' and '.join(where)}" if where else "never"
         check = []
         for start in ("ellipse", *(name for name, _ in STARTS_IN_LETTERS.values())):
             value = of(Closed(start).at(TIMES))
             check.append((np.ptp(value) if says.startswith("constant") else np.abs(value).max()) < 1e-12)
         label = f"{says.removeprefix('constant: ')} = constant" if says.startswith("constant") else says
-        yield Answer(label, found, "", check, "closed form at ten times of three starts", 0.0, said=said)
+        against = "closed form at ten times of three starts"
+        yield Answer(label, found, check=check, against=against, scale=1.0, says=f"{label}: {when}.")
 
 
-@ask("Runs that show it and runs that break it")
+@ask("Which run shows it, and which breaks it: an ellipse, a straight path, a circle?")
 def shown(case):
     """The greatest left side, or the range of what is to be constant, on an ellipse, a straight path and a circle."""
     texts = {
@@ -131,40 +134,48 @@ def shown(case):
         size = np.ptp if label.startswith("range") else lambda value: np.abs(value).max()
         value = [size(path(case, name).evaluate(text, TIMES)) for name in STARTS]
         check = [size(closed[label](Closed(name).at(TIMES))) for name in STARTS]
-        yield Answer(f"{label}: ellipse, straight path, circle", value, unit, check, SWING, 1e-9, 1.0)
+        yield Answer(
+            f"greatest {label}" if " " in label and "range" not in label else label, value, unit, check, SWING, 1e-9, 1.0
+        )
 
 
-@ask("A path that does not close: never. The period")
+@ask("Is there a path that does not close, and what is the period?")
 def period(case):
     """The derivative of the return map by the start: all starts come back after 2π √(m/k), and are opposite after half of that."""
-    for part, sign in (("2*pi*sqrt(m/k)", 1.0), ("pi*sqrt(m/k)", -1.0)):
-        back = case.mechanism().periodic(period=part).step()
-        says = f"x, y, ẋ, ẏ after {part} by x, y, ẋ, ẏ at the start"
-        yield Answer(says, np.ravel(back.slopes), "", np.ravel(sign * np.eye(4)), SWING, 1e-11)
+    where = {
+        "2*pi*sqrt(m/k)": (1.0, "No: after 2π √(m/k) the state is that of the start, by the unit matrix, whatever the start."),
+        "pi*sqrt(m/k)": (-1.0, "Not earlier: after half of that all of it has changed its sign."),
+    }
+    for after, (sign, says) in where.items():
+        back = case.mechanism().periodic(period=after).step()
+        yield Answer(f"after {after}", np.ravel(back.slopes), "", np.ravel(sign * np.eye(4)), SWING, 1e-11, says=says)
 
 
-@ask("All starts from which the path is a segment")
+@ask("With ẏ = 0.9 m/s at the start, from which ẋ is the path a segment?")
 def segment(case):
     found = case.mechanism().find("angular_momentum(ground.O) @ 1", 0, vary="vx", within=(-5, 5))
-    yield Answer("ẋ with ẏ = 0.9 m/s", found.values, "m/s", R0[0] / R0[1] * 0.9, "closed form: v along r", 1e-8)
+    yield Answer("ẋ", found.values, "m/s", R0[0] / R0[1] * 0.9, "closed form: v along r", 1e-8, says="Only from {}.")
 
 
-@ask("The plane's force is mg: always")
+@ask("Is the force of the plane mg?")
 def plane(case):
     """Across the plane nothing moves, and the string lies in it. Seen from the side of a straight path."""
     run = case.run("side.yaml")
     value = run.evaluate("plane.Fn", np.linspace(0, 3, 7))
-    yield Answer("at 0 … 3 s, three times through the hole", value, "N", np.full(7, M * 9.81), "statics: M g", 1e-13)
+    says = "Always: at 0 … 3 s, three times through the hole, it is {}."
+    yield Answer("N", value, "N", np.full(7, M * 9.81), "statics: M g", 1e-13, says=says)
     check = 0.5 * np.cos(W * 3.0) - 0.8 / W * np.sin(W * 3.0)
-    yield Answer("x at 3 s", run.evaluate("x", 3.0), "m", check, SWING, 1e-11)
+    yield Answer("x at 3 s on this path", run.evaluate("x", 3.0), "m", check, SWING, 1e-11)
 
 
-@ask("The string itself, over the edge of the hole to a spring below")
+@ask("And with the string itself, through the hole to a spring below?")
 def string(case):
     """The straight path leads through the hole."""
-    for name in STARTS:
+    for name, variant in PATHS.items():
         run, closed, times = path(case, name, "string.yaml"), Closed(name), np.array([0.4, 1.0, 2.0, 3.0])
         value = [run.evaluate(axis, times) for axis in "xy"]
-        yield Answer(f"x and y at 0.4 … 3 s, {name}", np.ravel(value), "m", np.ravel(closed.place(times).T), "closed form", 1e-9)
+        yield Answer(
+            "x, then y, at 0.4, 1, 2, 3 s", np.ravel(value), "m", np.ravel(closed.place(times).T), SWING, 1e-9, variant=variant
+        )
         pull = run.evaluate("leash.tension", times)
-        yield Answer(f"tension at 0.4 … 3 s, {name}", pull, "N", K * closed.distance(times), "closed form", 1e-9)
+        yield Answer("tension", pull, "N", K * closed.distance(times), SWING, 1e-9, variant=variant)

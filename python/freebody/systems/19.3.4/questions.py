@@ -18,10 +18,10 @@ MC, MB, R = 12.0, 6.0, 1.0
 M = MC + MB
 CASES = {
     "": ("model.yaml", {}),
-    ", g = 10": ("model.yaml", {"g": 10.0}),
-    ", tied to the ceiling": ("ceiling.yaml", {}),
-    ", B to the left": ("model.yaml", {"side": -1}),
-    ", to the left and the ceiling, g = 10": ("ceiling.yaml", {"side": -1, "g": 10.0}),
+    "g = 10": ("model.yaml", {"g": 10.0}),
+    "tied to the ceiling": ("ceiling.yaml", {}),
+    "B to the left": ("model.yaml", {"side": -1}),
+    "B to the left, tied to the ceiling, g = 10": ("ceiling.yaml", {"side": -1, "g": 10.0}),
 }
 CONSERVED, STATICS = "conservation", "statics"
 
@@ -41,58 +41,74 @@ def swing(g):
     return rates
 
 
-@ask("Just before the cut")
+@ask("What do the strings and the rail carry just before the cut?")
 def before(case):
-    for name, (file, parameters) in CASES.items():
+    for variant, (file, parameters) in CASES.items():
         now, g = case.instant(file, parameters, before="start"), gravity(parameters)
         value = [now[text] for text in ("AB.tension", "BC.tension", "rail.Fy")]
         carried = M if file == "model.yaml" else MC
-        yield Answer(f"tensions of AB and BC, force of the rail{name}", value, "N", [0, MB * g, carried * g], STATICS, 1e-13)
+        says = "AB {}, BC {}, the rail {}."
+        yield Answer("AB, BC, rail", value, "N", [0, MB * g, carried * g], STATICS, 1e-13, says=says, variant=variant)
 
 
-@ask("Just after the cut")
+@ask("What happens just after the cut?")
 def after(case):
-    for name, (file, parameters) in CASES.items():
+    free = "closed form: B falls freely"
+    for variant, (file, parameters) in CASES.items():
         run, g = case.run(file, parameters), gravity(parameters)
-        value = [run.evaluate(text, 0.0) for text in ("AB.tension", "rail.Fy")]
-        free = "closed form: B falls freely"
-        yield Answer(f"tension of AB, force of the rail{name}", value, "N", [0, MC * g], free, 1e-13)
         value = [run.evaluate(text, 0.0) for text in ("accel(x)", "ax(bob.B)", "ay(bob.B)")]
-        yield Answer(f"acceleration of the cart and of B{name}", value, "m/s²", [0, 0, -g], free, 1e-13)
+        says = "The cart accelerates at {}, B at {} along x and {} along y."
+        yield Answer(
+            "ẍ of the cart, ẍ and ÿ of B", value, "m/s²", [0, 0, -g], free, 1e-13, says=says * (not variant), variant=variant
+        )
+        value = [run.evaluate(text, 0.0) for text in ("AB.tension", "rail.Fy")]
+        says = "AB pulls with {}, the rail pushes with {}."
+        yield Answer("AB and rail", value, "N", [0, MC * g], free, 1e-13, says=says * (not variant), variant=variant)
 
 
-@ask("(a–d) AB is vertical for the first time")
+def time_to_vertical(g):
+    def share(u):
+        phi = u**2
+        return 2 * u * sqrt(R * (cos(phi) ** 2 + MC / M * sin(phi) ** 2) / (2 * g * sin(phi)))
+
+    return quad(share, 0, sqrt(pi / 2), epsabs=0, epsrel=1e-13)[0]
+
+
+@ask("At the moment when AB is first vertical: (a) where is the cart, (b) how fast, (c) what does AB carry, (d) when is it?")
 def vertical(case):
-    for name, (file, parameters) in CASES.items():
+    for variant, (file, parameters) in CASES.items():
         run, g, side = case.run(file, parameters), gravity(parameters), parameters.get("side", 1)
-        event = run.events[-1]
-        yield Answer(f"(a) displacement of the cart{name}", event.q["x"], "m", side * MB * R / M, CONSERVED, 1e-11)
-        speed = sqrt(2 * g * R * MB**2 / (MC * M))
-        yield Answer(f"(b) its velocity{name}", event.u["x"], "m/s", side * speed, CONSERVED, 1e-11)
+        event, speed = run.events[-1], sqrt(2 * g * R * MB**2 / (MC * M))
         pull = MB * g + MB * (speed + MC / MB * speed) ** 2 / R
-        yield Answer(f"(c) tension{name}", run.evaluate("AB.tension", event.t), "N", pull, CONSERVED, 1e-11)
+        says = "(a) The cart has moved by {}."
+        yield Answer("x", event.q["x"], "m", side * MB * R / M, CONSERVED, 1e-11, says=says * (not variant), variant=variant)
+        says = "(b) Its velocity is {}."
+        yield Answer("ẋ", event.u["x"], "m/s", side * speed, CONSERVED, 1e-11, says=says * (not variant), variant=variant)
+        says = "(c) AB carries {}."
+        yield Answer(
+            "T", run.evaluate("AB.tension", event.t), "N", pull, CONSERVED, 1e-11, says=says * (not variant), variant=variant
+        )
+        says = "(d) It is {} after the cut."
+        yield Answer("t", event.t, "s", time_to_vertical(g), "quadrature", 1e-11, says=says * (not variant), variant=variant)
 
-        def share(u, g=g):
-            phi = u**2
-            return 2 * u * sqrt(R * (cos(phi) ** 2 + MC / M * sin(phi) ** 2) / (2 * g * sin(phi)))
 
-        time = quad(share, 0, sqrt(pi / 2), epsabs=0, epsrel=1e-13)[0]
-        yield Answer(f"(d) time{name}", event.t, "s", time, "quadrature", 1e-11)
-
-
-@ask("State and tension 0.3 s after the cut")
+@ask("Where is everything 0.3 s after the cut, how fast, and what does AB carry?")
 def later(case):
-    for name, (file, parameters) in CASES.items():
+    other = "other route: one equation in φ, integrated by SciPy"
+    for variant, (file, parameters) in CASES.items():
         run, g, side = case.run(file, parameters), gravity(parameters), parameters.get("side", 1)
-        rates, other = swing(g), "other route: one equation in φ, integrated by SciPy"
+        rates = swing(g)
         phi, omega = reference.motion(rates, [0, 0], [0.3])[0]
         c, s = cos(phi), sin(phi)
         value = [run.evaluate(text, 0.3) for text in ("x", "bob.x - x", "bob.y")]
         check = [side * MB * R / M * (1 - c), side * R * c, -R * s]
-        yield Answer(f"place of the cart, of B from it, height of B{name}", value, "m", check, other, 1e-11)
+        says = "The cart is at {}, B is {} beside it, at the height {}."
+        yield Answer("x, x_B − x, y_B", value, "m", check, other, 1e-11, says=says * (not variant), variant=variant)
         value = [run.evaluate(text, 0.3) for text in ("rate(x)", "rate(bob.x - x)", "vy(bob.B)")]
         check = [side * MB * R / M * s * omega, -side * R * s * omega, -R * c * omega]
-        yield Answer(f"their rates{name}", value, "m/s", check, other, 1e-11)
+        says = "Their rates are {}, {} and {}."
+        yield Answer("their rates", value, "m/s", check, other, 1e-11, says=says * (not variant), variant=variant)
         turning = rates(0, [phi, omega])[1]
         pull = MB * (g - R * (c * turning - s * omega**2)) / s
-        yield Answer(f"tension{name}", run.evaluate("AB.tension", 0.3), "N", pull, other, 1e-10)
+        says = "AB carries {}."
+        yield Answer("T", run.evaluate("AB.tension", 0.3), "N", pull, other, 1e-10, says=says * (not variant), variant=variant)

@@ -19,7 +19,7 @@ from scipy.optimize import minimize_scalar
 from freebody.catalogue import Answer, ask
 
 MASS, L, G = 1.0, 1.0, 9.81
-MAIN = (45, 30, 60, 135)
+MAIN = {45: "", 30: "φ0 = 30°", 60: "φ0 = 60°", 135: "A to the left, φ0 = 135°"}
 ENERGY, QUADRATURE = "closed form: energy", "quadrature"
 
 
@@ -30,6 +30,10 @@ def run(case, degrees):
 def push(s, s0):
     """N where sin φ = s."""
     return 2 * MASS * G * (2 - s0**2 + (s - s0) ** 2) / (2 - s**2) ** 2
+
+
+def least(s0):
+    return minimize_scalar(push, bounds=(0, s0), args=(s0,), method="bounded").fun
 
 
 def time(degrees, until=0.0):
@@ -44,66 +48,79 @@ def time(degrees, until=0.0):
     return quad(share, 0, sqrt(first - until), epsabs=0, epsrel=1e-13)[0]
 
 
-@ask("(a) In symbols, just after release")
+@ask("(a) What is the acceleration of B just after release, in letters?")
 def symbolically(case):
     closed = {"x": "-g*sin(phi)*cos(phi)/(1 + cos(phi)^2)", "phi": "-2*g*cos(phi)/(l*(1 + cos(phi)^2))"}
     yield from case.symbolically(closed, "closed form: three balances", at_rest=True)
 
 
-@ask("(a) Accelerations just after release")
+@ask("(a) How do B and A accelerate just after release, and how hard does the floor push?")
 def release(case):
-    for degrees in MAIN:
+    against = "closed form: φ̈ from rest"
+    for degrees, variant in MAIN.items():
         motion, phi = run(case, degrees), radians(degrees)
         c, s = cos(phi), sin(phi)
         along, down = G * c * s / (1 + c**2), 2 * G * c**2 / (1 + c**2)
         for point, check in (("B", [-along, 0.0]), ("A", [along, -down])):
             value = [motion.evaluate(f"a{axis}({point}.centre)", 0.0) for axis in "xy"]
-            yield Answer(f"of {point}, φ0 = {degrees}°", value, "m/s²", check, "closed form: φ̈ from rest", 1e-13)
-        yield Answer(f"floor force, φ0 = {degrees}°", motion.evaluate("floor.N", 0.0), "N", push(s, s), "closed form", 1e-13)
+            says = f"{point} accelerates at {{}} along x and {{}} along y."
+            yield Answer(f"a_{point}", value, "m/s²", check, against, 1e-13, says=says * (not variant), variant=variant)
+        says = "The floor pushes with {}."
+        yield Answer(
+            "N", motion.evaluate("floor.N", 0.0), "N", push(s, s), against, 1e-13, says=says * (not variant), variant=variant
+        )
 
 
-@ask("(b) A just before it hits the floor: velocity, time and place")
+@ask("(b) With what velocity does A come to the floor, when and where?")
 def hit(case):
-    for degrees in MAIN:
+    for degrees, variant in MAIN.items():
         motion, phi = run(case, degrees), radians(degrees)
-        event = motion.events[-1]
+        event, side = motion.events[-1], 1 if degrees < 90 else -1
         value = [motion.evaluate(f"v{axis}(A.centre)", event.t) for axis in "xy"]
-        yield Answer(f"velocity, φ0 = {degrees}°", value, "m/s", [0.0, -sqrt(2 * G * L * sin(phi))], ENERGY, 1e-11)
-        yield Answer(f"time, φ0 = {degrees}°", event.t, "s", time(degrees), QUADRATURE, 1e-11)
-        side = 1 if degrees < 90 else -1
-        place = motion.evaluate("x(A.centre)", event.t)
-        yield Answer(f"place, φ0 = {degrees}°", place, "m", L / 2 * (cos(phi) + side), "closed form: mass centre", 1e-11)
-        energy = motion.evaluate("kinetic()", motion.end.t)
-        yield Answer(f"kinetic energy where the run ends, φ0 = {degrees}°", energy, "J", MASS * G * L * sin(phi), ENERGY, 1e-11)
+        says, check = "A comes down at {} along x and {} along y.", [0.0, -sqrt(2 * G * L * sin(phi))]
+        yield Answer("v_A", value, "m/s", check, ENERGY, 1e-11, says=says * (not variant), variant=variant)
+        says = "It takes {}."
+        yield Answer("t", event.t, "s", time(degrees), QUADRATURE, 1e-11, says=says * (not variant), variant=variant)
+        place, check = motion.evaluate("x(A.centre)", event.t), L / 2 * (cos(phi) + side)
+        says = "It hits at {} from where B was."
+        yield Answer("x", place, "m", check, "closed form: mass centre", 1e-11, says=says * (not variant), variant=variant)
+        energy, check = motion.evaluate("kinetic()", motion.end.t), MASS * G * L * sin(phi)
+        says = "The run ends before the impact, with the kinetic energy {}."
+        yield Answer("E", energy, "J", check, ENERGY, 1e-11, says=says * (not variant), variant=variant)
 
 
-@ask("Floor force over time, and its least")
+@ask("How hard does the floor push over time, and how hard at least?")
 def floor(case):
-    for degrees in MAIN:
+    for degrees, variant in MAIN.items():
         motion, s0 = run(case, degrees), sin(radians(degrees))
         first = radians(min(degrees, 180 - degrees))
         angles = np.array([0.9, 0.7, 0.5, 0.3, 0.1]) * first
         value = motion.evaluate("floor.N", [time(degrees, angle) for angle in angles])
-        yield Answer(f"at 0.9, 0.7 … of the angle, φ0 = {degrees}°", value, "N", push(np.sin(angles), s0), QUADRATURE, 1e-10)
+        says = "At 0.9, 0.7, 0.5, 0.3, 0.1 of the angle at the start: {}."
+        yield Answer("N", value, "N", push(np.sin(angles), s0), QUADRATURE, 1e-10, says=says * (not variant), variant=variant)
         last = motion.evaluate("floor.N", motion.end.t)
-        yield Answer(f"just before the hit, φ0 = {degrees}°", last, "N", MASS * G, "closed form: mg", 1e-11)
-        least = minimize_scalar(push, bounds=(0, s0), args=(s0,), method="bounded").fun
+        says = "Just before the hit: {}."
+        yield Answer("N at the end", last, "N", MASS * G, "closed form: mg", 1e-11, says=says * (not variant), variant=variant)
         value = motion.report["least floor force"].value
-        yield Answer(f"least, φ0 = {degrees}°", value, "N", least, "closed form, minimised by SciPy", 1e-10)
+        says = "At least: {}."
+        yield Answer(
+            "least N", value, "N", least(s0), "closed form, minimised by SciPy", 1e-10, says=says * (not variant), variant=variant
+        )
 
 
-@ask("B stays on the floor, from any angle")
+@ask("Does B stay on the floor, from any angle?")
 def stays(case):
     found = case.mechanism().extremes("least floor force", vary="phi0", within=("1 deg", "89 deg"), points=9)
-    s0 = sin(radians(89))
-    check = minimize_scalar(push, bounds=(0, s0), args=(s0,), method="bounded").fun
-    yield Answer(
-        "least floor force, of all φ0 from 1° to 89°", found.least.value, "N", check, "closed form, minimised by SciPy", 1e-9
-    )
+    says = "It does: of all runs from 1° to 89° the least floor force is {}."
+    check = least(sin(radians(89)))
+    yield Answer("least N", found.least.value, "N", check, "closed form, minimised by SciPy", 1e-9, says=says)
     for degrees in (1, 10, 20, 45, 70, 80, 89, 89.9, 135):
-        motion = run(case, degrees)
-        kinds = [change.kind for change in motion.changes]
-        yield Answer(f"times that B lifts off, φ0 = {degrees}°", kinds.count("lift-off"), "", 0, "closed form: N > 0", 0.0)
+        motion, variant = run(case, degrees), f"φ0 = {degrees}°"
+        stayed = not any(change.kind == "lift-off" for change in motion.changes)
+        says = "B stays." if stayed else "B lifts off."
+        yield Answer("stays", stayed, check=True, against="closed form: N > 0", says=says * (not variant), variant=variant)
         height = motion.evaluate("y(B.centre)", motion.end.t)
-        yield Answer(f"height of B at the end, φ0 = {degrees}°", height, "m", 0.0, "closed form: N > 0", 1e-12, L)
-        yield Answer(f"time of the hit, φ0 = {degrees}°", motion.end.t, "s", time(degrees), QUADRATURE, 1e-10)
+        says = "In the end it is {} above the floor."
+        yield Answer("y_B", height, "m", 0.0, "closed form: N > 0", 1e-12, L, says=says * (not variant), variant=variant)
+        says = "A hits at {}."
+        yield Answer("t", motion.end.t, "s", time(degrees), QUADRATURE, 1e-10, says=says * (not variant), variant=variant)

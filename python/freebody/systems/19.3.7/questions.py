@@ -16,7 +16,8 @@ from freebody.catalogue import Answer, ask, reference
 M, R, G, FREE = 1.5, 0.35, 9.81, 1.0
 AGAINST = "closed form: mg − T = mv̇, T = mv̇"
 TIMES = [0.2, 0.5, 0.8]
-MODELS = {"free to swing": "model.yaml", "on a vertical line": "straight.yaml"}
+LINE = "the string on a vertical line"
+MODELS = {"": "model.yaml", LINE: "straight.yaml"}
 
 
 def swinging(t, y):
@@ -26,41 +27,47 @@ def swinging(t, y):
     return [speed, turning, R * bend + (length * turning**2 + G * cos(tilt)) / 2, bend]
 
 
-@ask("(a) In symbols, just after release")
+@ask("(a) How does it accelerate, in letters?")
 def symbolically(case):
     closed = {"hoop.y": "-g/2", "hoop.x": "0", "hoop.angle": "-g/(2*R)"}
-    yield from case.symbolically(
-        closed, "closed form: moments about the point where the string leaves", at_rest=True, set={"tilt": 0}
-    )
+    against = "closed form: moments about the point where the string leaves"
+    yield from case.symbolically(closed, against, at_rest=True, set={"tilt": 0})
 
 
-@ask("(a) y_G at time t")
+@ask("(a) Where is G at time t?")
 def height(case):
-    for of, file in MODELS.items():
+    for variant, file in MODELS.items():
         y = case.run(file).evaluate("y(hoop.centre)", TIMES)
-        yield Answer(f"at 0.2, 0.5, 0.8 s, string {of}", y, "m", [-G * t**2 / 4 for t in TIMES], AGAINST, 1e-12)
+        says = "At 0.2, 0.5 and 0.8 s: y_G = {}."
+        yield Answer("y_G", y, "m", [-G * t**2 / 4 for t in TIMES], AGAINST, 1e-12, says=says, variant=variant)
 
 
-@ask("(b) Whether G moves sideways")
+@ask("(b) Does G move sideways?")
 def sideways(case):
-    for of, file in MODELS.items():
+    against = "closed form: vertical forces"
+    for variant, file in MODELS.items():
         x = case.run(file).evaluate("x(hoop.centre)", TIMES)
-        yield Answer(f"x_G at 0.2, 0.5, 0.8 s, string {of}", x, "m", [0.0] * 3, "closed form: vertical forces", 1e-12, R)
+        says = "No: at 0.2, 0.5 and 0.8 s it is {} beside its line, although the string may swing."
+        says = "It is {} beside its line." if variant else says
+        yield Answer("x_G", x, "m", [0.0] * 3, against, 1e-12, R, says=says, variant=variant)
     push = case.run("straight.yaml").evaluate("string.Fn", TIMES)
-    yield Answer("push of the line on the hoop, not needed", push, "N", [0.0] * 3, "closed form: vertical forces", 1e-12, M * G)
+    says = "The line pushes with {}: it is not needed."
+    yield Answer("push", push, "N", [0.0] * 3, against, 1e-12, M * G, says=says, variant=LINE)
 
 
-@ask("Tension and spin")
+@ask("What does the string carry, and how fast does the hoop spin?")
 def tension(case):
-    for of, file in MODELS.items():
+    for variant, file in MODELS.items():
         run = case.run(file)
         pull = "string.tension" if file == "model.yaml" else "-string.Fs"
-        yield Answer(f"tension, string {of}", run.evaluate(pull, TIMES), "N", [M * G / 2] * 3, AGAINST, 1e-12)
-        spin = -run.evaluate("omega(hoop)", TIMES)
-        yield Answer(f"spin, clockwise, string {of}", spin, "rad/s", [G * t / (2 * R) for t in TIMES], AGAINST, 1e-12)
+        says = "The string carries {}."
+        yield Answer("T", run.evaluate(pull, TIMES), "N", [M * G / 2] * 3, AGAINST, 1e-12, says=says, variant=variant)
+        spin, check = -run.evaluate("omega(hoop)", TIMES), [G * t / (2 * R) for t in TIMES]
+        says = "At 0.2, 0.5 and 0.8 s it spins clockwise at {}."
+        yield Answer("ω", spin, "rad/s", check, AGAINST, 1e-12, says=says, variant=variant)
 
 
-@ask("(b) The string 0.1 rad off plumb at the start: it swings, and G with it")
+@ask("(b) What if the string is 0.1 rad off plumb at the start?")
 def off_plumb(case):
     tilt = 0.1
     run = case.run(parameters={"tilt": tilt})
@@ -71,7 +78,8 @@ def off_plumb(case):
     y = [R * sin(p) - n * cos(p) - y0 for n, p, _, _ in states]
     pull = [M * (n * w**2 + G * cos(p)) / 2 for n, p, _, w in states]
     spin = [w - v / R for _, _, v, w in states]
-    yield Answer("x_G at 0.2, 0.5, 0.8 s", run.evaluate("x(hoop.centre)", TIMES), "m", x, against, 1e-10)
+    says = "It swings, and G with it: at 0.2, 0.5 and 0.8 s x_G = {}."
+    yield Answer("x_G", run.evaluate("x(hoop.centre)", TIMES), "m", x, against, 1e-10, says=says)
     yield Answer("y_G", run.evaluate("y(hoop.centre)", TIMES), "m", y, against, 1e-10)
-    yield Answer("spin", run.evaluate("omega(hoop)", TIMES), "rad/s", spin, against, 1e-10)
-    yield Answer("tension", run.evaluate("string.tension", TIMES), "N", pull, against, 1e-10)
+    yield Answer("ω", run.evaluate("omega(hoop)", TIMES), "rad/s", spin, against, 1e-10)
+    yield Answer("T", run.evaluate("string.tension", TIMES), "N", pull, against, 1e-10)

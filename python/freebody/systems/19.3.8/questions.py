@@ -17,7 +17,7 @@ T = M * (G - A)
 AGAINST = "closed form: Mg − T = Mÿ, Tr = Iÿ/r"
 
 
-@ask("In symbols, just after release")
+@ask("What are the acceleration, the angular acceleration and the tension, in letters?")
 def symbolically(case):
     below = "(R^2 + 2*r^2)"
     closed = {
@@ -28,36 +28,42 @@ def symbolically(case):
     yield from case.symbolically(closed, "closed form: moments about the point where the cable leaves", at_rest=True)
 
 
-@ask("Acceleration of the mass centre, tension, angular acceleration")
+@ask("What is the acceleration of the mass centre, the tension, the angular acceleration?")
 def at_release(case):
     now = case.instant()
     acceleration = [now["ax(disk.centre)"], now["ay(disk.centre)"]]
-    yield Answer("acceleration x, y", acceleration, "m/s²", [0.0, -A], AGAINST, 1e-12)
-    yield Answer("tension", now["cable.tension"], "N", T, AGAINST, 1e-12)
-    yield Answer("angular acceleration, clockwise", -now["alpha(disk)"], "rad/s²", A / r, AGAINST, 1e-12)
-    thin = case.instant(parameters={"R": 0.03, "r": 0.02})
+    says = "The mass centre accelerates at {} along x and {} along y."
+    yield Answer("a", acceleration, "m/s²", [0.0, -A], AGAINST, 1e-12, says=says)
+    yield Answer("T", now["cable.tension"], "N", T, AGAINST, 1e-12, says="The cable carries {}.")
+    yield Answer("α", -now["alpha(disk)"], "rad/s²", A / r, AGAINST, 1e-12, says="Clockwise it gains {}.")
+    thick = case.instant(parameters={"R": 0.03, "r": 0.02})
     check = -G / (1 + 0.03**2 / (2 * 0.02**2))
-    yield Answer("acceleration for R = 0.03, r = 0.02", thin["ay(disk.centre)"], "m/s²", check, AGAINST, 1e-12)
+    yield Answer("a_y", thick["ay(disk.centre)"], "m/s²", check, AGAINST, 1e-12, variant="R = 0.03 m, r = 0.02 m")
 
 
-@ask("Drop, speed and spin at 0.5 s; energy")
+@ask("How far has it dropped after 0.5 s, how fast, with what spin and energy?")
 def half_second(case):
     run, t = case.run(), 0.5
-    yield Answer("drop", -run.evaluate("y(disk.centre)", t), "m", A * t**2 / 2, AGAINST, 1e-11)
-    yield Answer("speed", run.evaluate("speed(disk.centre)", t), "m/s", A * t, AGAINST, 1e-11)
-    yield Answer("spin, clockwise", -run.evaluate("omega(disk)", t), "rad/s", A * t / r, AGAINST, 1e-11)
-    energy = M * G * A * t**2 / 2
-    yield Answer("kinetic energy", run.evaluate("kinetic()", t), "J", energy, "conservation: Mg × drop", 1e-11)
+    yield Answer("drop", -run.evaluate("y(disk.centre)", t), "m", A * t**2 / 2, AGAINST, 1e-11, says="It has dropped by {}.")
+    yield Answer("v", run.evaluate("speed(disk.centre)", t), "m/s", A * t, AGAINST, 1e-11, says="It falls at {}.")
+    says = "It spins clockwise at {}."
+    yield Answer("ω", -run.evaluate("omega(disk)", t), "rad/s", A * t / r, AGAINST, 1e-11, says=says)
+    energy, says = M * G * A * t**2 / 2, "Its kinetic energy is {}, what the weight has worked."
+    yield Answer("E", run.evaluate("kinetic()", t), "J", energy, "conservation: Mg × drop", 1e-11, says=says)
 
 
-@ask("Until no cable is left")
+@ask("When is no cable left on the drum, and how does it move then?")
 def all_off(case):
     run = case.run()
     event = next(e for e in run.events if e.name == "no cable left")
-    yield Answer("time", event.t, "s", sqrt(2 * WOUND / A), AGAINST, 1e-11)
-    yield Answer("turns of the disk", -event.q["disk.angle"], "rad", WOUND / r, "closed form: wound length/r", 1e-12)
-    yield Answer("place x, y", [event.q["disk.x"], event.q["disk.y"]], "m", [0.0, -WOUND], "closed form: straight down", 1e-11)
-    yield Answer("speed", -event.u["disk.y"], "m/s", sqrt(2 * A * WOUND), AGAINST, 1e-11)
-    yield Answer("spin, clockwise", -event.u["disk.angle"], "rad/s", sqrt(2 * A * WOUND) / r, AGAINST, 1e-11)
-    yield Answer("tension just before", run.evaluate("cable.tension", event.t - 1e-6), "N", T, AGAINST, 1e-9)
-    yield Answer("the run ends there", float(run.edges[-1]), "s", sqrt(2 * WOUND / A), AGAINST, 1e-11)
+    says = "The run ends after {}, by the event `no cable left`."
+    yield Answer("t", [float(run.edges[-1])], "s", sqrt(2 * WOUND / A), AGAINST, 1e-11, says=says)
+    turned, says = -event.q["disk.angle"], "It has turned by {}."
+    yield Answer("angle", turned, "rad", WOUND / r, "closed form: wound length/r", 1e-12, says=says)
+    place, says = [event.q["disk.x"], event.q["disk.y"]], "It is at x = {}, y = {}."
+    yield Answer("place", place, "m", [0.0, -WOUND], "closed form: straight down", 1e-11, says=says)
+    yield Answer("v", -event.u["disk.y"], "m/s", sqrt(2 * A * WOUND), AGAINST, 1e-11, says="It falls at {}.")
+    says = "It spins clockwise at {}."
+    yield Answer("ω", -event.u["disk.angle"], "rad/s", sqrt(2 * A * WOUND) / r, AGAINST, 1e-11, says=says)
+    says = "The cable carries {} until then."
+    yield Answer("T", run.evaluate("cable.tension", event.t - 1e-6), "N", T, AGAINST, 1e-9, says=says)
