@@ -154,3 +154,12 @@ def test_a_hanging_chain_approaches_the_rope_with_the_square_of_its_links(links)
     waves = jn_zeros(0, 3)[: len(order)] / n
     assert (np.abs(order - 2) < 0.35 * np.minimum(waves, 1) + 1e-3).all()
     assert (np.abs((4 * fine - coarse) / 3 - 1) < 0.1 * waves**4 + 1e-11).all()
+
+
+def test_a_start_at_which_nothing_holds_a_perturbation_and_one_that_is_far_off_come_to_rest():
+    """A level bar of a double pendulum, whose weight has no slope there; a drum many times its unbalance away: it hangs in two springs
+    at 45°, which together have the stiffness of one."""
+    (rest,) = store.mechanism("19.3.28/model").stability()
+    assert [np.sin(x) for x in rest.coordinates.values()] == pytest.approx([0, 0], abs=1e-9)
+    (rest,) = store.mechanism("GEN-SUSP/washer").stability(x="3 cm", y="-3 cm")
+    assert rest.coordinates == pytest.approx({"x": 0, "y": -40.5 * 9.81 / 4000, "theta": 0}, abs=1e-9)

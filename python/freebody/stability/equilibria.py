@@ -17,9 +17,11 @@ from freebody.stability.state_space import SingularConfiguration, StateSpace, st
 # Coordinates are angles in rad, and lengths as parts of the size of the mechanism.
 _STEPS = 60
 _LONGEST = 0.2
-"""Step of Newton's method beyond which it is shortened."""
+"""Step of Newton's method beyond which it is shortened; of lengths it doubles with every step."""
 _FOUND = 1e-11
 """Step below which the place is found."""
+_HALF = 0.5
+"""Part of the accelerations that a step may leave by its linear equations; there it is singular if it leaves more."""
 _SMALL = 1e-9
 """Part of the largest slope below which nothing holds a perturbation."""
 _SAME = 1e-6
@@ -77,8 +79,8 @@ def equilibria(
     outputs: Sequence[str] = (),
 ) -> tuple[list[Equilibrium], list[State]]:
     """All places of rest that are found where coordinates are within ``bounds``, in their order: by Newton's method from starts that
-    fill the bounds, and between any two of these, of a mechanism of one freedom, between which the acceleration changes its sign; and those that are singular, of which no linear equations say whether they
-    are stable."""
+    fill the bounds, and from between any two of these, of a mechanism of one freedom, where the acceleration changes its sign; and those
+    that are singular, of which no linear equations say whether they are stable."""
     names, units = _named(source, state)
     if wrong := [name for name in bounds if name not in names]:
         raise ValueError(f"no coordinate is called {wrong[0]!r}; there are {', '.join(names)}")
@@ -131,29 +133,38 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
             raise np.linalg.LinAlgError("what touches does not close there")
         return found
 
+    turns, is_pulled = np.array([c["dimension"] == "rad" for c in source.metadata["coordinates"]], bool), False
     try:
         rest = state.at(closed(np.array(state.q, dtype=float)) if by_contacts else np.array(state.q, dtype=float))
-        for _ in range(_STEPS):
-            change, own = newton_step(source, rest)
-            longest = float(np.abs(change / units).max(initial=0.0))
+        for k in range(_STEPS):
+            change, own, is_enough = newton_step(source, rest)
+            if not (is_enough or is_pulled):  # where nothing holds a perturbation, the way on is that of the loads
+                pull, is_pulled = source.instant(rest).accelerations / units, True
+                rest = rest.at(closed(rest.q + _LONGEST * units * pull / np.abs(pull).max()))
+                continue
+            sizes = np.abs(change / units)
+            longest = np.where(turns, _LONGEST, _LONGEST * 2.0**k)  # a length may be far off, an angle comes round again
+            part = float((longest / np.maximum(sizes, longest)).min(initial=1.0))
             p = np.append(rest.p[: len(rest.p) - len(own)], rest.p[len(rest.p) - len(own) :] + own)
-            rest = replace(rest, p=p).at(closed(rest.q + change * min(1.0, _LONGEST / (longest or 1.0))))
-            if longest < _FOUND and np.abs(own).max(initial=0.0) <= _FOUND * np.abs(p).max(initial=1.0):
+            rest = replace(rest, p=p).at(closed(rest.q + part * change))
+            if sizes.max(initial=0.0) < _FOUND and np.abs(own).max(initial=0.0) <= _FOUND * np.abs(p).max(initial=1.0):
                 return rest if _rests(source, rest) else None
     except (MotionError, np.linalg.LinAlgError, SingularConfiguration):
         pass
     return None
 
 
-def newton_step(source: CompiledModel, state: State) -> tuple[Array, Array]:
+def newton_step(source: CompiledModel, state: State) -> tuple[Array, Array, bool]:
     """What Newton's method changes of the coordinates, and of the model's own states, for accelerations and rates of these to vanish, along
-    perturbations that keep loops closed; the least change where nothing holds some."""
+    perturbations that keep loops closed; the least change where nothing holds some. With it whether it brings them to vanish."""
     space, own = state_space(source, state), source.metadata["states"]
     free, last = len(space.free), len(space.states) - len(own)
     rates = [*(f"accel({quote(name)})" for name in space.moving), *(f"rate({quote(name)})" for name in own)]
     slopes = space.a[free:, [*range(free), *range(last, len(space.states))]]
-    change = np.linalg.lstsq(slopes, -source.evaluate(rates, state), rcond=_SMALL)[0]
-    return space.places[:, :free] @ change[:free], change[free:]
+    left = source.evaluate(rates, state)
+    change = np.linalg.lstsq(slopes, -left, rcond=_SMALL)[0]
+    is_enough = np.linalg.norm(slopes @ change + left) <= _HALF * np.linalg.norm(left)
+    return space.places[:, :free] @ change[:free], change[free:], bool(is_enough)
 
 
 def _starts(source: CompiledModel, state: State, bounds: Mapping[str, tuple[float, float]]) -> Iterator[State]:
