@@ -217,17 +217,20 @@ class Moving:
     def find(
         self: Builder, of: str, target: Any, *, vary: str, within: tuple[Any, Any], points: int = 33, **changes: Any
     ) -> Found:
-        """All values of a parameter or of the start within bounds for which a quantity of the motion is the target:
-        ``m.find("x(ball.G) @ lands", "12 m", vary="angle", within=("10 deg", "80 deg"))``; see ``freebody.find.find``."""
-        from freebody.find import find
+        """All values of a parameter, a coordinate of the start or its ``rate(…)`` within bounds for which a quantity of the motion is the
+        target: ``m.find("x(ball.G) @ lands", "12 m", vary="angle", within=("10 deg", "80 deg"))``.
 
-        return find(self, of, target, vary=vary, within=within, points=points, changes=changes)
+        ``of`` is what a line of a report says: ``theta @ 1 s``, ``max of A.Fx over 1 s .. 2 s``, ``A.Fx @ start``, or the label of such
+        a line of the model. ``points`` is the first grid; ``changes`` are those of ``simulate``, settings among them."""
+        from freebody.find import Response, find
+
+        return find(Response(self, of, vary, changes), target, within, points)
 
     def extremes(self: Builder, of: str, *, vary: str, within: tuple[Any, Any], points: int = 33, **changes: Any) -> Extremes:
         """The extremes of a quantity of the motion over a parameter or a value of the start, with where; see ``find``."""
-        from freebody.find import extremes
+        from freebody.find import Response, extremes
 
-        return extremes(self, of, vary=vary, within=within, points=points, changes=changes)
+        return extremes(Response(self, of, vary, changes), within, points)
 
     def limit(
         self: Builder,
@@ -239,14 +242,14 @@ class Moving:
         begin: Any = None,
         **changes: Any,
     ) -> Limit:
-        """What an expression, or ``integral of`` one, tends to as t → ∞, with its error; or a quantity as in ``find`` as a parameter or
+        """What an expression, or ``integral of`` one, tends to as t → ∞, with an estimate of its error; or a quantity as in ``find`` as a parameter or
         value of the start goes from ``begin`` ``towards`` a value, by default infinity. See ``freebody.find``."""
-        from freebody.find import limit, limit_over
+        from freebody.find import RTOL, Response, limit, limit_over
 
-        if vary is not None:
-            end = {} if until is None else {"until": until}
-            return limit_over(self, of, vary=vary, towards=towards, begin=begin, changes=changes | end)
-        return limit(self, of, until=until, changes=changes)
+        if vary is None:
+            return limit(self, of, until, changes)
+        end = {} if until is None else {"until": until}
+        return limit_over(Response(self, of, vary, {"rtol": RTOL, **changes, **end}), begin, towards)
 
     def periodic(self: Builder, returns: Mapping[str, str] | Sequence[str] | None = None, **asked: Any) -> Periodic:
         """Motions that come back, with their multipliers: after a ``period`` (s, or an expression of parameters), or just after the event,

@@ -2,7 +2,21 @@
 them; and where a motion tends to as time goes on."""
 
 from .extremes import Extreme, Extremes, extremes
-from .limits import Limit, NoLimit, limit, limit_over
+from .limits import RTOL, Limit, NoLimit, limit, limit_over
+from .response import Response
 from .roots import Found, Root, find
 
-__all__ = ["Extreme", "Extremes", "Found", "Limit", "NoLimit", "Root", "extremes", "find", "limit", "limit_over"]
+__all__ = [
+    "RTOL",
+    "Extreme",
+    "Extremes",
+    "Found",
+    "Limit",
+    "NoLimit",
+    "Response",
+    "Root",
+    "extremes",
+    "find",
+    "limit",
+    "limit_over",
+]

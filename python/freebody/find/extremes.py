@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar
 
 from freebody.find.curve import Curve
 from freebody.find.response import Response, Sample
 from freebody.find.roots import followed, lowest
 from freebody.solve.figures import Known, figure
-from freebody.solve.rich_tables import PlainText, captured, table
-
-if TYPE_CHECKING:
-    from freebody.model.builder import Builder
+from freebody.solve.rich_tables import PlainText, table
 
 
 @dataclass(frozen=True)
@@ -36,6 +33,7 @@ class Extremes(PlainText):
     units: tuple[str, str]
     curve: Curve = field(repr=False)
     all: list[Extreme]
+    width: ClassVar[int] = 130
 
     @property
     def greatest(self) -> Extreme:
@@ -79,24 +77,12 @@ class Extremes(PlainText):
         yield table("", [*heads, " "], rows, heads[1:], edge=True)
         yield f"Looked at {self.curve.sentence(self.units[0])}."
 
-    def __str__(self) -> str:
-        return captured(self, 130)
 
-
-def extremes(
-    mechanism: Builder,
-    of: str,
-    *,
-    vary: str,
-    within: tuple[Any, Any],
-    points: int = 33,
-    changes: Mapping[str, Any] | None = None,
-) -> Extremes:
-    """The local extremes of a quantity over ``vary`` ``within`` two places, its edges among them; the words are those of ``find``."""
-    respond = Response(mechanism, of, vary, changes or {})
+def extremes(respond: Response, within: tuple[Any, Any], points: int = 33) -> Extremes:
+    """The local extremes of a quantity ``within`` two places, its edges among them; ``points`` as in ``find``."""
     curve = followed(respond, within, points)
     found = [each for piece in curve.pieces for each in _of_piece(respond, piece)]
-    return Extremes(of, vary, (respond.unit, respond.quantity_unit), curve, found)
+    return Extremes(respond.of, respond.varied, (respond.unit, respond.quantity_unit), curve, found)
 
 
 def _of_piece(respond: Response, piece: list[Sample]) -> Iterator[Extreme]:

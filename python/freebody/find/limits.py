@@ -17,7 +17,7 @@ from freebody.find.response import Response
 from freebody.model.start import quantity
 from freebody.run.records import Window, integral, over_time, unit_of
 from freebody.solve.figures import Known, figure
-from freebody.solve.rich_tables import PlainText, captured
+from freebody.solve.rich_tables import PlainText
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -34,6 +34,8 @@ _SETTLED = 1e-14
 """Part of the size of a quantity that is round-off."""
 _LESS = 0.9
 """What is left of a swing when the time has doubled, at most, where there is a limit."""
+RTOL = 1e-12
+"""Of the runs of a limit, unless another is asked for."""
 _LOOKS = 64
 """Times in the quarter before the last half; twice as many in that."""
 
@@ -44,7 +46,8 @@ class NoLimit(ValueError):
 
 @dataclass(frozen=True)
 class Limit(PlainText):
-    """What a quantity ``of`` a motion tends to (SI): ``value`` with its error. ``tail`` says how it gets there; up to ``until`` (s, or
+    """What a quantity ``of`` a motion tends to (SI): ``value`` with an estimate of its error, no bound: what the motion does later is
+    not known. ``tail`` says how it gets there; up to ``until`` (s, or
     the value of what is ``varied``) it was followed, where the quantity was ``last``."""
 
     of: str
@@ -59,14 +62,14 @@ class Limit(PlainText):
     def sentence(self) -> str:
         """The answer, with its unit."""
         unit = f" {self.unit}" if self.unit else ""
-        told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to {self.value.error:.0e}"
+        told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to an estimated {self.value.error:.0e}"
         return f"{told}: {self.tail}; it was {figure(self.last, 8)} at {self.varied}{figure(self.until)}{'' if self.varied else ' s'}."
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, in SI."""
         figures = {
             "value": float(self.value),
-            "error": self.value.error,
+            "estimated_error": self.value.error,
             "unit": self.unit,
             "until": self.until,
             "last": self.last,
@@ -77,15 +80,13 @@ class Limit(PlainText):
         yield self.sentence
 
     def __str__(self) -> str:
-        return captured(self, 130).strip()
+        return self.sentence
 
 
-def limit_over(
-    mechanism: Builder, of: str, *, vary: str, towards: Any, begin: Any, changes: Mapping[str, Any] | None = None
-) -> Limit:
-    """What a quantity of the motion, as in ``find``, tends to as ``vary`` goes from ``begin`` ``towards`` a value, or infinity: it is
-    looked at where what is left of the way halves, or where the value doubles. Raises ``NoLimit``."""
-    respond = Response(mechanism, of, vary, {"rtol": 1e-12, **(changes or {})})
+def limit_over(respond: Response, begin: Any, towards: Any) -> Limit:
+    """What a quantity of the motion tends to as what is varied goes from ``begin`` ``towards`` a value, or infinity: it is looked at
+    where what is left of the way halves, or where the value doubles. Raises ``NoLimit``."""
+    of, vary = respond.of, respond.varied
     first, to = respond.place(begin), math.inf if towards in (math.inf, "inf") else respond.place(towards)
     steps = np.arange(_TERMS + 1)
     places = first * 2.0**steps if to == math.inf else to + (first - to) * 2.0**-steps
@@ -109,7 +110,7 @@ def limit_over(
     return Limit(of, found, respond.quantity_unit, tail, float(places[-1]), float(values[-1]), f"{vary} = ")
 
 
-def limit(mechanism: Builder, of: str, *, until: Any = None, changes: Mapping[str, Any] | None = None) -> Limit:
+def limit(mechanism: Builder, of: str, until: Any, changes: Mapping[str, Any]) -> Limit:
     """What an expression, or ``integral of`` one, tends to as t → ∞. It is followed to times that double, at most to ``until`` (s, or a
     quantity) or 16 000 s, as far as it takes; what is extrapolated of a part of the motion must hold for all that follows.
 
@@ -120,7 +121,7 @@ def limit(mechanism: Builder, of: str, *, until: Any = None, changes: Mapping[st
     text = of.removeprefix("integral of ").strip()
     end = min(most, 8 * _FIRST)
     while True:
-        run = mechanism.simulate(end, **{"rtol": 1e-12, **(changes or {})})
+        run = mechanism.simulate(end, **{"rtol": RTOL, **changes})
         if run.edges[-1] < end:
             raise NoLimit(f"{of} has no limit t → ∞: the motion ends at {run.edges[-1]:g} s: {run.outcome.sentence}")
         read = _integrated(run, text) if summed else partial(run.evaluate, text)

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import groupby, pairwise
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar
 
 from freebody.find.curve import Break, Curve
 from freebody.find.response import Response, Sample
 from freebody.solve.figures import Known, figure
-from freebody.solve.rich_tables import PlainText, captured, table
-
-if TYPE_CHECKING:
-    from freebody.model.builder import Builder
+from freebody.solve.rich_tables import PlainText, table
 
 _TOUCHES = 3.0
 """Errors of the quantity within which its extreme is the target."""
@@ -46,6 +43,7 @@ class Found(PlainText):
     curve: Curve = field(repr=False)
     roots: list[Root]
     throughout: list[tuple[float, float]]
+    width: ClassVar[int] = 130
 
     @property
     def values(self) -> list[float]:
@@ -103,9 +101,6 @@ class Found(PlainText):
         yield from (f"At {self.varied} = {figure(each.x, 10)} it {_broken(each)}." for each in self.breaks)
         yield f"Looked at {self.curve.sentence(self.units[0])}."
 
-    def __str__(self) -> str:
-        return captured(self, 130)
-
 
 def _broken(each: Break) -> str:
     jumps = each.below.is_known and each.above.is_known
@@ -113,30 +108,15 @@ def _broken(each: Break) -> str:
     return f"{what}: {each.reason}"
 
 
-def find(
-    mechanism: Builder,
-    of: str,
-    target: Any,
-    *,
-    vary: str,
-    within: tuple[Any, Any],
-    points: int = 33,
-    changes: Mapping[str, Any] | None = None,
-) -> Found:
-    """All values of ``vary`` (a parameter, a coordinate of the start, or its ``rate(…)``) ``within`` two for which a quantity is the
-    ``target``.
-
-    ``of`` is what a line of a report says: ``theta @ 1 s``, ``x(ball.G) @ lands``, ``max of A.Fx over 1 s .. 2 s``, ``A.Fx @ start``,
-    or the label of such a line of the model. Numbers are SI or quantities (``"30 deg"``). ``points`` is the first grid; ``changes``
-    are those of ``simulate``, settings among them. Raises ``ValueError`` where there is no motion at all to ask.
-    """
-    respond = Response(mechanism, of, vary, changes or {})
+def find(respond: Response, target: Any, within: tuple[Any, Any], points: int = 33) -> Found:
+    """All values of what is varied ``within`` two for which a quantity is the ``target``; numbers are SI or quantities (``"30 deg"``).
+    ``points`` is the first grid. Raises ``ValueError`` where there is no motion at all to ask."""
     goal, curve = respond.target(target), followed(respond, within, points)
     level = max(curve.level, 1e-9 * abs(goal))
     throughout = list(_throughout(curve, goal, level))
     inside = lambda x: any(a <= x <= b for a, b in throughout)
     found = [root for root in roots(respond, curve, goal) if not inside(float(root.where))]
-    return Found(of, goal, vary, (respond.unit, respond.quantity_unit), curve, found, throughout)
+    return Found(respond.of, goal, respond.varied, (respond.unit, respond.quantity_unit), curve, found, throughout)
 
 
 def followed(respond: Response, within: tuple[Any, Any], points: int) -> Curve:
@@ -144,7 +124,7 @@ def followed(respond: Response, within: tuple[Any, Any], points: int) -> Curve:
     start, end = map(respond.place, within)
     if not start < end or points < 4:
         raise ValueError(
-            f"{respond.varied} is looked at from {start:g} to {end:g}, at {points} places: write within=(less, more)"
+            f"{respond.varied} is looked at from {start:g} to {end:g}, at {points} places: give the lower bound first, and 4 places or more"
         )
     curve = Curve(respond, start, end, points)
     reasons = {sample.why for sample in curve.samples}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from collections.abc import Collection, Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -20,7 +20,12 @@ _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what roundin
 
 
 class PlainText:
-    """What a notebook shows as its text, line by line."""
+    """What is printed for rich in ``width`` columns, and what a notebook shows as that, line by line."""
+
+    width: ClassVar[int] = 100
+
+    def __str__(self) -> str:
+        return captured(self, self.width)
 
     def _repr_html_(self) -> str:
         return f'<div style="white-space: pre-wrap">{html.escape(str(self))}</div>'

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from freebody.core import State
 from freebody.model.start import quantity
-from freebody.solve.rich_tables import PlainText, captured, table
+from freebody.solve.rich_tables import PlainText, table
 from freebody.stability import modes
 from freebody.stability.continuation import STEPS, Curve, follow
 from freebody.stability.equilibria import Equilibrium, equilibria, equilibrium
@@ -36,9 +36,6 @@ class Stability(PlainText):
 
     equilibria: tuple[Equilibrium, ...]
     looked: str
-
-    def __str__(self) -> str:
-        return captured(self, 100)
 
     def __iter__(self) -> Iterator[Equilibrium]:
         return iter(self.equilibria)
@@ -79,9 +76,6 @@ class Curves(PlainText):
         cut = [f"curve {i} goes on: {STEPS} steps were made" for i, curve in enumerate(self.curves, 1) if curve.is_cut]
         more = f"{len(self.curves)} curves were followed; at {self.left} more branch points others may begin"
         return cut + [more] * (self.left > 0)
-
-    def __str__(self) -> str:
-        return captured(self, 100)
 
     def __iter__(self) -> Iterator[Curve]:
         return iter(self.curves)
