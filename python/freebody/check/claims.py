@@ -38,7 +38,7 @@ _NEWTON = 20  # steps by which premises are made true
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
-    given, claim = _defined(text.strip())
+    given, claim = _defined(_AS_CONSTANT.sub(r"constant: \1", text.strip()))
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
             said = (part.strip() for part in found.groups())
@@ -233,6 +233,8 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
+_AS_CONSTANT = re.compile(r"(?:[^=:;\n]+=\s*)*([^=:;\n]+?)\s*=\s*const(?:ant\b|\b\.?)(?=\s*$|\s+where\b|\s+with\b)")
+"""``E = T + V = const``, as people write that something is constant."""
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",
