@@ -43,7 +43,7 @@ def rest(u):
     return quad(lambda w: 1 / growth(-np.log(w)) / w if w > 0 else 2 * sqrt(WHOLE / M) / A, 0, exp(-u), epsabs=0, epsrel=1e-13)[0]
 
 
-@ask("R, θ, Ṙ, θ̇ at 1, 2, 5, 10, 100, 1000 s")
+@ask("What are R, θ, Ṙ, θ̇ at 1, 2, 5, 10, 100, 1000 s?")
 def states(case):
     run = case.run()
     for t in TIMES:
@@ -54,14 +54,14 @@ def states(case):
             yield Answer(f"{text} at {t:g} s", run.evaluate(text, t), unit, expected, "quadrature", 1e-9)
 
 
-@ask("(a) First-order form: the rates of R, θ, v = Ṙ, ω = θ̇")
+@ask("(a) What is the first-order form, with v = Ṙ, ω = θ̇ beside v̇ = R̈, ω̇ = θ̈?")
 def first_order(case):
     """Ṙ = v, θ̇ = ω by definition; v̇ and ω̇ are the equations of motion, solved."""
     closed = {"R": "R*rate(theta)^2", "theta": "-2*m*R*rate(R)*rate(theta)/(I_O + m*R^2)"}
     yield from case.symbolically(closed, "closed form: (I_O + m R²) θ̇ is constant, no force along the slot")
 
 
-@ask("(a) First-order form as a program: dy/dt of y = (θ, R, ω, v), as `freebody code` writes it")
+@ask("(a) What does the program give that `freebody code` writes of it: dy/dt of y = (θ, R, ω, v)?")
 def as_code(case):
     written = {}
     exec(case.mechanism().code(), written)
@@ -71,19 +71,14 @@ def as_code(case):
         yield Answer(f"R = {R:g}, ω = {omega:g}, v = {v:g}", value, "SI", check, "closed form: the two equations solved", 1e-14)
 
 
-@ask("(b) The net angle is finite: the limit of the run, its error, and what remains at 1000 s")
+@ask("(b) Is the net angle finite, how large, with what error, and how much of it remains at 1000 s?")
 def net_angle(case):
     found, passed = case.mechanism().limit("theta"), case.run().evaluate("theta", 1000.0)
-    yield Answer(f"θ as t → ∞: {found.tail}", found.value, "rad", rest(0.0), "quadrature", 1e-9)
-    yield Answer("the same", found.value, "rad", ellipk(I / WHOLE), "closed form: K(I/(I + ma²))", 1e-9)
-    off = abs(found.value - ellipk(I / WHOLE)) <= found.value.error
-    yield Answer(
-        "its error is within the bound that is told",
-        off,
-        "",
-        1,
-        "closed form: K(I/(I + ma²))",
-        0.0,
-        said=f"to {found.value.error:.0e} rad",
-    )
-    yield Answer("angle that remains at 1000 s", found.value - passed, "rad", rest(at(1000.0)[-1]), "quadrature", 1e-5)
+    exact, closed = ellipk(I / WHOLE), "closed form: K(I/(I + ma²))"
+    yield Answer("θ", found.value, "rad", exact, closed, 1e-9, says=f"It is: θ tends to {{}}; {found.tail}.")
+    within = bool(abs(found.value - exact) <= found.value.error)
+    says = f"From the run alone that is known to {found.value.error:.0e} rad."
+    yield Answer("within", within, "", True, closed, 0.0, says=says)
+    says = "At 1000 s {} remain."
+    yield Answer("rest", found.value - passed, "rad", rest(at(1000.0)[-1]), "quadrature", 1e-5, says=says)
+    yield Answer("θ", found.value, "rad", rest(0.0), "quadrature", 1e-9, says="By quadrature the whole is the same, {}.")

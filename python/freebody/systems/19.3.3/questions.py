@@ -17,6 +17,7 @@ M, K = 1.0, 4.0
 R0, V0 = np.array([0.1, 0.05]), np.array([-0.1, 0.25])
 W = sqrt(K / M)
 TIMES = [1.0, 2.0, 5.0, 10.0]
+VARIANTS = {"model.yaml": "", "polar.yaml": "in polar coordinates"}
 
 
 def place(t):
@@ -27,7 +28,7 @@ def speeds(t):
     return V0 * cos(W * t) - W * R0 * sin(W * t)
 
 
-@ask("(a, b) In symbols, Cartesian and polar")
+@ask("What are the equations of motion in (a) Cartesian, (b) polar form?")
 def symbolically(case):
     against = "Newton's law; a_r = r̈ − r φ̇², a_φ = r φ̈ + 2 ṙ φ̇"
     yield from case.symbolically({"x": "-k*x/m", "y": "-k*y/m"}, against)
@@ -35,7 +36,7 @@ def symbolically(case):
     yield from case.symbolically(polar, against, "polar.yaml")
 
 
-@ask("(a, b) Accelerations at the start, Cartesian and polar")
+@ask("(a, b) What accelerations do they give at the start?")
 def accelerations(case):
     """Polar: r̈ − rφ̇² = −kr/m and rφ̈ + 2ṙφ̇ = 0, with r, ṙ, φ̇ from the start."""
     flat, polar = case.instant(), case.instant("polar.yaml")
@@ -47,18 +48,20 @@ def accelerations(case):
     yield Answer("φ̈", polar.accelerations["phi"], "rad/s²", -2 * rdot * phidot / r, against, 1e-12)
 
 
-@ask("(c–e) Angular momentum about the origin at 1, 2, 5, 10 s")
+@ask("(c, d) Is the angular momentum about the origin conserved?")
 def angular_momentum(case):
     """The force points at the origin: m(xẏ − yẋ) = mr²φ̇ keeps its first value."""
     start = M * (R0[0] * V0[1] - R0[1] * V0[0])
-    for file, text in [("model.yaml", "m*(x*rate(y) - y*rate(x))"), ("polar.yaml", "m*r^2*rate(phi)")]:
-        run = case.run(file)
-        for what in (text, "angular_momentum(ground.O)"):
-            values = run.evaluate(what, TIMES)
-            yield Answer(f"{what}, {file}", values, "N·m·s", [start] * len(TIMES), "conservation", 1e-10)
+    for file, text, words in (
+        ("model.yaml", "m*(x*rate(y) - y*rate(x))", "(c) m (x ẏ − y ẋ)"),
+        ("polar.yaml", "m*r^2*rate(phi)", "(d) m r² φ̇"),
+        ("model.yaml", "angular_momentum(ground.O)", "Of the bodies it"),
+    ):
+        values, says = case.run(file).evaluate(text, TIMES), f"{words} is {{}} at 1, 2, 5, 10 s."
+        yield Answer(text, values, "N·m·s", [start] * len(TIMES), "its value at the start", 1e-10, says=says)
 
 
-@ask("(e, h) Conservation follows from the equations of motion: (c, f) from (a), (d, g) from (b)")
+@ask("(e, h) Does conservation follow from the equations of motion: (c, f) from (a), (d, g) from (b)?")
 def consequences(case):
     """Each rate is a sum of the equations of motion times lengths or speeds, whatever the motion: the two sides are
     the same by themselves. With a wrong sign they are so in the true motion only, or not at all."""
@@ -74,22 +77,24 @@ def consequences(case):
     }
     for label, (file, line, signs) in lines.items():
         verdicts = [case.mechanism(file).check(line.format(sign)) for sign in signs]
-        value = [float(verdict.ok and "the same by themselves" in verdict.reason) for verdict in verdicts]
-        yield Answer(f"{label}: follows (1) or not (0)", value, "", [1, 0], "closed form: derivative of a product", 0.0)
+        value = [verdict.ok and "the same by themselves" in verdict.reason for verdict in verdicts]
+        says = f"{label}: {line.format(signs[0])}." if value[0] else f"{label} does not follow."
+        yield Answer(label, value, "", [True, False], "closed form: derivative of a product", 0.0, says=says)
 
 
-@ask("(f–h) Energy at 1, 2, 5, 10 s")
+@ask("(f, g) Is the energy conserved?")
 def energy(case):
     """½m v² + ½k r² keeps its first value."""
     start = M / 2 * V0 @ V0 + K / 2 * R0 @ R0
-    for file in ("model.yaml", "polar.yaml"):
-        yield Answer(file, case.run(file).evaluate("energy()", TIMES), "J", [start] * len(TIMES), "conservation", 1e-10)
+    for file, part in (("model.yaml", "(f)"), ("polar.yaml", "(g)")):
+        values, says = case.run(file).evaluate("energy()", TIMES), f"{part} At 1, 2, 5, 10 s it is {{}}."
+        yield Answer(part, values, "J", [start] * len(TIMES), "its value at the start", 1e-10, says=says)
 
 
-@ask("(i) The general motion and all paths, as consequences of the equations of motion")
+@ask("(i) What is the general motion, and what are all possible paths, as consequences of the equations of motion?")
 def general(case):
-    """By `check`, from any start: the motion; that the path A x² − 2B xy + C y² = h² keeps its A, B, C and h, and that it is closed: AC − B² ≥ 0.
-    Each beside the same with a slip. So it is an ellipse, or with h = 0 a segment; a circle where ẋ = −ωy, ẏ = ωx."""
+    """By `check`, from any start: the motion; that the path A x² − 2B xy + C y² = h² keeps its A, B, C and h, and that it is closed,
+    AC − B² ≥ 0: an ellipse, or with h = 0 a segment; a circle where ẋ = −ωy, ẏ = ωx. Each beside the same with another sign."""
     letters = {
         "ω": "sqrt(k/m)",
         "A": "rate(y)^2 + k/m*y^2",
@@ -98,30 +103,37 @@ def general(case):
         "h": "x*rate(y) - y*rate(x)",
     }
     lines = {
-        "if from the start: x = x0 cos(ω t) {} vx0/ω sin(ω t)": "+−",
-        "if from the start: y = y0 cos(ω t) {} vy0/ω sin(ω t)": "+−",
-        "constant: ẏ^2 {} ω^2 y^2": "+−",
-        "constant: ẋ ẏ {} ω^2 x y": "+−",
-        "constant: ẋ^2 {} ω^2 x^2": "+−",
-        "constant: x ẏ {} y ẋ": "−+",
-        "A x^2 {} 2 B x y + C y^2 = h^2": "−+",
-        "A C {} B^2 = ω^2 h^2": "−+",
-        "if x ẏ {} y ẋ = 0: constant: y/x": "−+",
-        "if ẋ = {}ω y, ẏ = ω x: constant: x^2 + y^2": "−+",
+        "if from the start: x = x0 cos(ω t) {} vx0/ω sin(ω t)": ("+−", "The motion is x = x0 cos ωt + (vx0/ω) sin ωt,"),
+        "if from the start: y = y0 cos(ω t) {} vy0/ω sin(ω t)": ("+−", "y = y0 cos ωt + (vy0/ω) sin ωt."),
+        "A x^2 {} 2 B x y + C y^2 = h^2": ("−+", "Its path is A x² − 2B xy + C y² = h²,"),
+        "constant: ẏ^2 {} ω^2 y^2": ("+−", "of which A = ẏ² + ω²y² is constant,"),
+        "constant: ẋ ẏ {} ω^2 x y": ("+−", "B = ẋẏ + ω²xy,"),
+        "constant: ẋ^2 {} ω^2 x^2": ("+−", "C = ẋ² + ω²x²"),
+        "constant: x ẏ {} y ẋ": ("−+", "and h = xẏ − yẋ, too."),
+        "A C {} B^2 = ω^2 h^2": ("−+", "AC − B² = ω²h² is never below 0: it is an ellipse;"),
+        "if x ẏ {} y ẋ = 0: constant: y/x": ("−+", "where h = 0, a segment, y/x constant;"),
+        "if ẋ = {}ω y, ẏ = ω x: constant: x^2 + y^2": ("−+", "where ẋ = −ωy, ẏ = ωx, a circle."),
     }
-    for line, signs in lines.items():
+    for line, (signs, says) in lines.items():
         value = [case.mechanism().check(line.format(sign), letters=letters).ok for sign in signs]
-        said = line.format(signs[0]).replace("constant: ", "constant is ").replace("if from the start: ", "")
-        yield Answer("true, and not with the other sign", value, "", [1, 0], "closed form: two harmonic motions", 0.0, said=said)
+        yield Answer(line, value, "", [True, False], "closed form: two harmonic motions", 0.0, says=says)
 
 
-@ask("(i) The motion, and the axes of its path")
+@ask("(i) What are this motion and the axes of its path?")
 def paths(case):
     against = "closed form: r₀ cos ωt + (v₀/ω) sin ωt"
     for file in ("model.yaml", "polar.yaml"):
         run = case.run(file)
         for text, i in [("x(P.centre)", 0), ("y(P.centre)", 1)]:
-            yield Answer(f"{text}, {file}", run.evaluate(text, TIMES), "m", [place(t)[i] for t in TIMES], against, 1e-9)
+            yield Answer(
+                f"{'xy'[i]} at 1, 2, 5, 10 s",
+                run.evaluate(text, TIMES),
+                "m",
+                [place(t)[i] for t in TIMES],
+                against,
+                1e-9,
+                variant=VARIANTS[file],
+            )
 
     longer, shorter = np.linalg.svd(np.column_stack([R0, V0 / W]), compute_uv=False)
     run = case.run()
@@ -133,10 +145,12 @@ def paths(case):
 
     circle = case.run(parameters={"vx0": -W * R0[1], "vy0": W * R0[0]})
     extremes = [circle.report[f"{which} distance"].value for which in ("least", "greatest")]
-    yield Answer("circle: least and greatest distance", extremes, "m", [hypot(*R0)] * 2, "closed form: |v₀| = ω|r₀|", 1e-9)
+    yield Answer(
+        "distance", extremes, "m", [hypot(*R0)] * 2, "closed form: |v₀| = ω|r₀|", 1e-9, variant="r₀ ⟂ v₀, |v₀| = ω|r₀|: a circle"
+    )
 
 
-@ask("(j) Back and forth on an oblique line")
+@ask("(j) Can it go back and forth on an oblique line?")
 def oblique(case):
     """With v₀ = λ r₀ the motion is r₀ (cos ωt + (λ/ω) sin ωt): both components keep their ratio."""
     lam = 0.7
@@ -144,8 +158,10 @@ def oblique(case):
     along = [cos(W * t) + lam / W * sin(W * t) for t in TIMES]
     size, across = hypot(*R0), atan2(R0[1], R0[0])
     u, v = f"x*{cos(across)!r} + y*{sin(across)!r}", f"y*{cos(across)!r} - x*{sin(across)!r}"
-    yield Answer("along the line", run.evaluate(u, TIMES), "m", [size * a for a in along], "closed form", 1e-9)
-    yield Answer("off the line", run.evaluate(v, TIMES), "m", [0.0] * len(TIMES), "closed form", 1e-12, size)
+    against = "closed form: r₀ (cos ωt + (λ/ω) sin ωt)"
+    says = "Yes, with v₀ along r₀: at 1, 2, 5, 10 s it is {} off the line."
+    yield Answer("off the line", run.evaluate(v, TIMES), "m", [0.0] * len(TIMES), against, 1e-12, size, says=says)
+    yield Answer("along the line", run.evaluate(u, TIMES), "m", [size * a for a in along], against, 1e-9)
 
 
 def finite(D):
@@ -182,18 +198,19 @@ def first_order():
     return np.array([part(0), part(1)])
 
 
-@ask("State at 2 s with springs of finite length, and the order of convergence")
+@ask("Where is it at 2 s, with springs of finite length, too, and how fast do these approach the ideal?")
 def long_springs(case):
     texts = ("x", "y", "rate(x)", "rate(y)")
     ideal = np.array([case.run().evaluate(text, 2.0) for text in texts])
-    yield Answer("x, y, ẋ, ẏ, ideal", ideal, "m, m/s", [*place(2), *speeds(2)], "closed form", 1e-10)
+    yield Answer("x, y, ẋ, ẏ", ideal, "m, m/s", [*place(2), *speeds(2)], "closed form", 1e-10)
     gaps = {}
     for D in (50.0, 5000.0):
         run = case.run("finite.yaml", parameters={"D": D})
         state = np.array([run.evaluate(text, 2.0) for text in texts])
         gaps[D] = state[:2] - ideal[:2]
         check = motion(finite(D), [*R0, *V0], [2.0])[0]
-        yield Answer(f"x, y, ẋ, ẏ, D = {D:g}", state, "m, m/s", check, "other route: balances by hand, SciPy", 1e-9)
+        against = "other route: balances by hand, SciPy"
+        yield Answer("x, y, ẋ, ẏ", state, "m, m/s", check, against, 1e-9, variant=f"D = {D:g} m")
     order = np.log(np.linalg.norm(gaps[50.0]) / np.linalg.norm(gaps[5000.0])) / np.log(100)
-    yield Answer("order in 1/D", order, "", 1.0, "closed form: first order", 1e-2)
-    yield Answer("deviation × D as D → ∞", 5000 * gaps[5000.0], "m²", first_order(), "quadrature", 1e-3)
+    yield Answer("order", order, "", 1.0, "closed form: first order", 1e-2, says="The difference falls with the power {} of 1/D.")
+    yield Answer("difference in x and y times D", 5000 * gaps[5000.0], "m²", first_order(), "quadrature", 1e-3)
