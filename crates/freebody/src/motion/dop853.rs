@@ -11,7 +11,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 7,
     estimate_order: Some(8),
     symplectic: false,
-    growth_threshold: 1.0,
+    implicit: false,
     stage_gap: 0.466,
     stepper: |n| Explicit::boxed(&TABLE, n),
 };

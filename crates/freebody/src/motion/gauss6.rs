@@ -16,7 +16,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 5,
     estimate_order: None,
     symplectic: true,
-    growth_threshold: 1.0,
+    implicit: true,
     stage_gap: 0.3,
     stepper: |n| Box::new(Gauss6::new(n)),
 };

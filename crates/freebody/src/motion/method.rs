@@ -19,8 +19,8 @@ pub struct Method {
     pub estimate_order: Option<u32>,
     /// Needs [`System::canonical`].
     pub symplectic: bool,
-    /// The step is kept unless it may grow by more than this factor.
-    pub(super) growth_threshold: f64,
+    /// The stages are solved for: the control of steps is predictive, and keeps a step for the sake of its factors.
+    pub(super) implicit: bool,
     /// The fraction of a step farthest from where the rate is evaluated.
     pub(super) stage_gap: f64,
     pub(super) stepper: fn(usize) -> Box<dyn Stepper>,

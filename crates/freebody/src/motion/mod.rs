@@ -4,6 +4,7 @@
 //! entry of [`METHODS`] and one file. [`run()`] is the only way in.
 
 mod chatter;
+mod collocation;
 mod dense;
 mod dop853;
 mod event_location;

@@ -32,13 +32,18 @@ impl Norm {
     /// Tolerated error of each component for a step between two points.
     pub fn weights(&self, from: &Point, to: &Point, out: &mut [f64]) {
         let h = to.t - from.t;
-        let floor = (FLOOR * self.rtol).max(ROUND_OFF).max(self.noise.min(self.rtol));
         for (i, weight) in out.iter_mut().enumerate() {
             let known = from.y[i].abs().max((h * from.dy[i]).abs());
             let reached = to.y[i].abs().max((h * to.dy[i]).abs());
-            let size = known.max(reached.min(GROWTH * known.max(self.scale[i])));
-            *weight = self.rtol * size + floor * self.scale[i];
+            *weight = self.tolerated(i, known, reached);
         }
+    }
+
+    /// Tolerated error of a component of a size that is known at the start of the step, and of another within it.
+    pub fn tolerated(&self, i: usize, known: f64, reached: f64) -> f64 {
+        let floor = (FLOOR * self.rtol).max(ROUND_OFF).max(self.noise.min(self.rtol));
+        let size = known.max(reached.min(GROWTH * known.max(self.scale[i])));
+        self.rtol * size + floor * self.scale[i]
     }
 
     /// Tolerated error of each component at the physical size of the system.
@@ -62,7 +67,7 @@ pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
 /// Part of the tolerance, of the physical size, that is tolerated of a component that is zero but for round-off,
 const FLOOR: f64 = 1e-6;
 /// and at least this part of it: a few roundings of a rate.
-const ROUND_OFF: f64 = 1e-15;
+pub(super) const ROUND_OFF: f64 = 1e-15;
 /// How many times the size known at its start, or the physical one, the end of a step may count as.
 const GROWTH: f64 = 10.0;
 /// Parts of the system's own time for a first step where nothing gives its length, and where nothing moves.

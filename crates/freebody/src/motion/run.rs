@@ -18,6 +18,10 @@ const LAST: f64 = 1.0 + 1e-6;
 /// Part of its gap by which a step across a singular place may be short: less than a rejection shortens, lest the same step be
 /// tried again.
 const SHORT_OF_GAP: f64 = 1.05;
+/// Change of a step that could not be made, where nothing tells by how much it was too long,
+const FAILED: f64 = 0.25;
+/// and where Newton's method did not converge: its error grows with the step.
+const NOT_CONVERGED: f64 = 0.5;
 
 /// What may be chosen about a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,7 +102,7 @@ impl<'a> Runner<'a> {
             chatter: Chatter::new(t0, system.time_scale()),
             detector: EventDetector::new(system, method.estimate_order.map_or(0.0, |_| options.rtol)),
             norm: Norm::new(system, options.rtol),
-            steps: StepController::new(method.estimate_order, method.growth_threshold, options.max_step),
+            steps: StepController::new(method.estimate_order, method.implicit, options.max_step),
             estimate_order: method.estimate_order,
             singular_stage: (method.stage_gap, None),
             next: now.clone(),
@@ -201,11 +205,12 @@ impl<'a> Runner<'a> {
                     cause = Outcome::StepUnderflow;
                     self.steps.rejected(h, error);
                 }
-                Ok(_) => self.steps.failed(h),
+                Ok(_) => self.steps.failed(h, FAILED),
                 Err(failure) if self.steps.is_fixed() => return Err(ending(failure)),
                 Err(failure) => {
+                    self.steps
+                        .failed(h, if matches!(failure, Failure::NoConvergence) { NOT_CONVERGED } else { FAILED });
                     cause = ending(failure);
-                    self.steps.failed(h);
                 }
             }
             self.run.rejected += 1;

@@ -11,32 +11,37 @@ const GROWTH: f64 = 6.0;
 const LEAST_ERROR: f64 = 1e-10;
 /// Least earlier error that steers, and that assumed at the start, as in Hairer's codes.
 const LEAST_LAST_ERROR: f64 = 1e-4;
-/// Change of a step that could not be made: nothing tells by how much it was too long.
-const FAILED: f64 = 0.25;
+/// The same of an implicit method (HW IV.8), which keeps a step unless it may grow by more than this.
+const LEAST_LAST_ERROR_IMPLICIT: f64 = 1e-2;
+const LEAST_GROWTH: f64 = 1.2;
 
 /// Proportional-integral step control (HNW I, IV.2 in part II; Gustafsson 1991): after an error e,
-/// in units of the tolerance, h ← 0.9·h·e^(−0.85/k)·e₋₁^(0.2/k), between 0.2·h and 6·h.
+/// in units of the tolerance, h ← 0.9·h·e^(−0.85/k)·e₋₁^(0.2/k), between 0.2·h and 6·h. Of an implicit method
+/// predictive control (Gustafsson 1994; HW IV.8), h ← 0.9·h·e^(−1/k)·min(1, h/h₋₁·(e₋₁/e)^(1/k)).
 pub(super) struct StepController {
     /// Length of the next step, with the sign of the run.
     pub h: f64,
     exponent: Option<f64>,
-    growth_threshold: f64,
+    implicit: bool,
     max_step: f64,
     last_error: f64,
+    /// Length of the last accepted step; none at the start.
+    last_h: Option<f64>,
     was_rejected: bool,
 }
 
 impl StepController {
-    pub fn new(estimate_order: Option<u32>, growth_threshold: f64, max_step: f64) -> Self {
+    pub fn new(estimate_order: Option<u32>, implicit: bool, max_step: f64) -> Self {
         let exponent = estimate_order.map(|k| 1.0 / f64::from(k));
         let was_rejected = false;
-        Self { h: 0.0, exponent, growth_threshold, max_step, last_error: LEAST_LAST_ERROR, was_rejected }
+        Self { h: 0.0, exponent, implicit, max_step, last_error: LEAST_LAST_ERROR, last_h: None, was_rejected }
     }
 
     /// Starts afresh with a step of length `h`.
     pub fn restart(&mut self, h: f64) {
         self.h = h.clamp(-self.max_step, self.max_step);
         self.last_error = LEAST_LAST_ERROR;
+        self.last_h = None;
         self.was_rejected = false;
     }
 
@@ -48,14 +53,24 @@ impl StepController {
     pub fn accepted(&mut self, error: f64) {
         let Some(exponent) = self.exponent else { return };
         let error = error.max(LEAST_ERROR);
-        let factor = SAFETY * real::powf(error, -0.85 * exponent) * real::powf(self.last_error, 0.2 * exponent);
+        let factor = if self.implicit { self.predicted(error, exponent) } else { self.integrated(error, exponent) };
         let most = if self.was_rejected { 1.0 } else { GROWTH };
         let factor = factor.clamp(SHRINK, most);
-        if factor < 1.0 || factor > self.growth_threshold {
+        let least = if self.implicit { LEAST_LAST_ERROR_IMPLICIT } else { LEAST_LAST_ERROR };
+        (self.last_h, self.last_error) = (Some(self.h), error.max(least));
+        if !self.implicit || factor < 1.0 || factor > LEAST_GROWTH {
             self.h = (self.h * factor).clamp(-self.max_step, self.max_step);
         }
-        self.last_error = error.max(LEAST_LAST_ERROR);
         self.was_rejected = false;
+    }
+
+    fn integrated(&self, error: f64, exponent: f64) -> f64 {
+        SAFETY * real::powf(error, -0.85 * exponent) * real::powf(self.last_error, 0.2 * exponent)
+    }
+
+    fn predicted(&self, error: f64, exponent: f64) -> f64 {
+        let trend = self.last_h.map_or(1.0, |h| self.h / h * real::powf(self.last_error / error, exponent));
+        SAFETY * real::powf(error, -exponent) * trend.min(1.0)
     }
 
     /// After a step of length `h` whose error was too large.
@@ -65,9 +80,9 @@ impl StepController {
         self.was_rejected = true;
     }
 
-    /// After a step of length `h` that could not be made.
-    pub fn failed(&mut self, h: f64) {
-        self.h = FAILED * h;
+    /// After a step of length `h` that could not be made: the part of it to try.
+    pub fn failed(&mut self, h: f64, part: f64) {
+        self.h = part * h;
         self.was_rejected = true;
     }
 }
