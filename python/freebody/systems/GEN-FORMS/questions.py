@@ -3,7 +3,7 @@
 A body has three balances, a particle two: c in all. With n coordinates of the tree, of which loops, motions and contacts leave f free, brute
 force has c + (n − f) equations, as many as accelerations and forces; most brute force 2c − f, as every joint stands as a constraint. What
 is redundant adds a force. A clever set has f equations without reactions; where loops leave none, those of the tree hold what is passed
-where the loops are cut, n − f components.
+where the loops are cut: as many components as the loops hold accelerations.
 """
 
 from functools import cache
@@ -31,9 +31,10 @@ def every(case):
     return [(name, m, SymbolicState(m.source(), m.moment(**MOMENT.get(name, {}))[0])) for name, m in mechanisms]
 
 
-def free(subject):
-    """Accelerations that loops, motions and contacts leave free, and those they hold, by rank at a state near by."""
-    rows = np.array([list(row.coefficients.values()) for row in subject.neighbours[-1].rows])
+def free(subject, but=()):
+    """Accelerations that loops, motions and contacts leave free, and those they hold, by rank at a state near by; ``but`` are names of
+    what is left out."""
+    rows = np.array([list(row.coefficients.values()) for row in subject.neighbours[-1].rows if row.name not in but])
     held = np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max()) if rows.size else 0
     return len(subject.names) - held, held
 
@@ -89,7 +90,8 @@ def unavoidable(case):
         if form.least:
             left, held = free(subject)
             stay = ", ".join(x.name for x in minimal(subject).system.unknowns if not x.dots)
-            yield Answer(f"{name}: {stay}", form.least, "", held, "closed form: components where the loops are cut", 0.0)
+            cut = free(subject, but=mechanism.model.motions)[1]
+            yield Answer(f"{name}: {stay}", form.least, "", cut, "closed form: components where the loops are cut", 0.0)
             yield Answer(f"{name}: by virtual power", form.virtual, "", left, COUNT, 0.0)
 
 
