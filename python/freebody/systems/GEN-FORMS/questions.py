@@ -88,7 +88,7 @@ def unavoidable(case):
     for name, mechanism, subject in every(case):
         form = mechanism.minimal_form(**MOMENT.get(name, {}))
         if form.least:
-            left, held = free(subject)
+            left, _ = free(subject)
             stay = ", ".join(x.name for x in minimal(subject).system.unknowns if not x.dots)
             cut = free(subject, but=mechanism.model.motions)[1]
             yield Answer(f"{name}: {stay}", form.least, "", cut, "closed form: components where the loops are cut", 0.0)
