@@ -1,91 +1,29 @@
-"""What can be asked of a mechanism once it is described: one instant, a motion, a drawing."""
+"""What can be found out about a mechanism: its equations, values that meet a target, periodic motions, stability, inverse dynamics."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import fields, replace
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import MotionError, Settings
-from freebody.model.answers import fault, numbers
-from freebody.model.errors import ModelFileError, Problem
-from freebody.model.start import many_turns, quantity
-
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from freebody.check import Verdict
-    from freebody.core import CompiledModel, FreeBodies, State
+    from freebody.core import FreeBodies
     from freebody.equations.answers import Answers
     from freebody.equations.balances.minimal import MinimalForm
     from freebody.equations.balances.smallest import SmallestSet
     from freebody.equations.derivation.derive import Equations
     from freebody.equations.derivation.first_integrals import FirstIntegral
     from freebody.find import Extremes, Found, Limit
-    from freebody.impact.applied_impulse import AppliedImpulse
-    from freebody.impact.impacts import Impact
     from freebody.inverse import InverseDynamics
     from freebody.inverse.laws import Law
     from freebody.model.builder import Builder
     from freebody.periodic.ask import Periodic
-    from freebody.run.sampling import Times
-    from freebody.run.simulation import Progress, Run
-    from freebody.solve.instant import Instant
+    from freebody.run.simulation import Run
     from freebody.stability.answers import Curves, Stability
-    from freebody.views.diagram import Diagram
 
 
-class Moving:
-    """The part of ``Mechanism`` that computes."""
-
-    def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
-        """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
-        and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
-        given = self.initial_state(changes, initial)
-        p, turns = given.pop("p"), many_turns(self.lowered().start, initial, changes)
-        with self.core_errors():
-            state, notes = self.compile().assemble(p, t, **given)
-        return state, [*turns, *notes]
-
-    def moment(
-        self: Builder,
-        at: float | str | None = None,
-        *,
-        before: str | None = None,
-        after: str | None = None,
-        initial: Mapping[str, Any] | None = None,
-        t: float = 0.0,
-        **changes: Any,
-    ) -> tuple[State, list[str]]:
-        """A state of the motion from ``start``, and what is worth saying about that: at a time ``at`` (s, or ``"200 ms"``), after
-        what happens then; just ``before`` or ``after`` the first event or mode change of a name (``"start"``: what happens there);
-        by default at the start, after the events there. Raises ``ValueError`` for what the motion does not reach."""
-        from freebody.run.moments import state_of
-
-        state, notes = self.start(initial, t, **changes)
-        with self.core_errors():
-            return state_of(self, state, self.source(), at, before, after), notes
-
-    def solve(
-        self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
-    ) -> Instant:
-        """Accelerations and every reaction at one instant, by default the start, after the events there.
-
-        ``changes`` are coordinates or parameters (``phi2="90 deg"``), or the words of ``initial`` (``rates={"phi1": 2}``); ``at``,
-        ``before`` and ``after`` are those of ``moment``. ``route`` is ``minimal``, ``newton_euler`` or ``constraints``.
-        """
-        from freebody.solve.instant import Instant
-
-        state, notes = self.moment(initial=initial, t=t, **changes)
-        with self.core_errors():
-            return Instant(replace(self.compile(), notes=tuple(notes)), state, route)
-
-    def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
-        """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
-        state, _ = self.moment(initial=initial, t=t, **changes)
-        with self.core_errors():
-            return self.compile().free_bodies(state)
+class Analysis:
+    """The part of ``Mechanism`` that derives and finds; words that are not explained are those of ``Moving``."""
 
     def smallest(
         self: Builder,
@@ -165,45 +103,6 @@ class Moving:
         with self.core_errors():
             return nearby(self.source(), state), self.compile().points(state.p)
 
-    def opening(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> Run | None:
-        """A moment of motion from ``start``: at its start the events there have happened (``changes``, ``instant``); None where the
-        model has no such event."""
-        from freebody.run.moments import opening
-
-        state, notes = self.start(initial, t, **changes)
-        with self.core_errors():
-            return opening(self, state, self.source(notes))
-
-    def simulate(
-        self: Builder,
-        until: float | str | None = None,
-        *,
-        initial: Mapping[str, Any] | None = None,
-        t_eval: Times | None = None,
-        progress: Progress | None = None,
-        t: float = 0.0,
-        **settings: Any,
-    ) -> Run:
-        """The motion from the start to ``until`` (s, or a quantity like ``"200 ms"``) or to an event that ends it.
-
-        ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
-        ``impacts``, ``painleve``; any others are changes as in ``solve``. ``initial`` replaces the section of that name. ``t_eval``
-        fixes the output times and never changes the steps. Where an event continues with another model, its run is ``next`` of this
-        one.
-        """
-        from freebody.run.model_sequence import Stage, follow
-
-        words = {field.name for field in fields(Settings)}
-        changes = {name: settings.pop(name) for name in settings.keys() - words}
-        state, notes = self.start(initial, t, **changes)
-        if initial is None and not changes and self.lowered().start.equilibrium:
-            self.check_equilibrium(state)
-        for file in self.lowered().hand_over.values():
-            self.handed(file).compile()  # what is wrong there is said before anything moves
-        stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
-        with self.core_errors():
-            return follow(stage, stage.run(state, notes))
-
     def first_integrals(self: Builder, **changes: Any) -> list[FirstIntegral]:
         """What stays constant besides energy and momenta: momenta less what a known force gives them, and Jacobi's integral relative to
         prescribed motions; see ``freebody.equations.derivation.first_integrals``. ``changes`` as in ``solve``."""
@@ -213,6 +112,19 @@ class Moving:
         state, notes = self.moment(**changes)
         with self.core_errors():
             return first_integrals(SymbolicState(self.source(notes), state))
+
+    def check(
+        self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None, **asked: Any
+    ) -> Verdict:
+        """Whether an equation, lines of them or a claim is true of every motion in which all is in place and holds as at a moment, by
+        default the start, after the events there; see ``freebody.check.Checker``.
+
+        ``letters`` are own symbols, like ``{"phi": "theta - alpha"}``; ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t``
+        and changes, as in ``solve``. Raises ``StatementError``, ``ModelProblem``, and ``ValueError`` for a moment that there is not.
+        """
+        from freebody.check import Checker
+
+        return Checker(self, letters, **asked).check(text)
 
     def find(
         self: Builder, of: str, target: Any, *, vary: str, within: tuple[Any, Any], points: int = 33, **changes: Any
@@ -316,119 +228,3 @@ class Moving:
 
         with self.core_errors():
             return inverse(self, motion, actuators, limits, least, until, initial, t, settings)
-
-    def check_equilibrium(self: Builder, state: State) -> None:
-        """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""
-        from freebody.solve.instant import Instant
-
-        instant = Instant(self.compile(), state)
-        if moving := instant.nonequilibrium():
-            stated = ", ".join(f"`{name}` {value}" for name, value in moving.items())
-            hint = "look for a load that nothing carries, or leave `equilibrium` out"
-            raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {stated}", hint)
-
-    def check(
-        self: Builder, text: str, letters: Mapping[str, str | Sequence[str | float]] | None = None, **asked: Any
-    ) -> Verdict:
-        """Whether an equation, lines of them or a claim is true of every motion in which all is in place and holds as at a moment, by
-        default the start, after the events there; see ``freebody.check.Checker``.
-
-        ``letters`` are own symbols, like ``{"phi": "theta - alpha"}``; ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t``
-        and changes, as in ``solve``. Raises ``StatementError``, ``ModelProblem``, and ``ValueError`` for a moment that there is not.
-        """
-        from freebody.check import Checker
-
-        return Checker(self, letters, **asked).check(text)
-
-    @contextmanager
-    def core_errors(self: Builder) -> Iterator[None]:
-        """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
-        try:
-            yield
-        except MotionError as error:
-            if error.path:
-                error.where = self.lowered().where(error.path)
-            raise
-
-    def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
-        """A labelled drawing of the mechanism at the start."""
-        from freebody.views.draw import drawing
-
-        state, notes = self.start()
-        return drawing(self.source(notes), state, ax, layers)
-
-    def diagram(
-        self: Builder,
-        of: str | Sequence[str] | None = None,
-        at: float | str | None = None,
-        *,
-        to_scale: bool = False,
-        effective: bool = True,
-        column: float = 160.0,
-        initial: Mapping[str, Any] | None = None,
-        **changes: Any,
-    ) -> Diagram:
-        """Free-body diagrams: symbolic, with symbols in their positive sense, or ``to_scale``, with what acts.
-
-        ``of`` is a body, a group cut free together (``"crank+coupler"``), ``"all"``, or a list of these; by default each body
-        by itself. Drawn is the moment that ``at``, ``before`` and ``after`` name, by default the start, with ``changes``, as in
-        ``solve``.
-        ``effective`` draws m a and I α beside. ``column`` is the width of the text in which it will stand, mm: the drawings are
-        made for it, letters keep their size. Raises ``ValueError`` for a body that is none, for a time that the motion does not
-        reach and for a column that is too narrow.
-        """
-        from freebody.views.diagram import diagram, groups, points
-
-        state, _ = self.moment(at, initial=initial, **changes)
-        with self.core_errors():
-            free = self.compile().free_bodies(state)
-        return diagram(self.source(), state, free, groups(of, free), to_scale, effective, points(column))
-
-    def blow(self: Builder, number: int = 1, *, of: str | None = None, at: float | str | None = None) -> Impact:
-        """The impact of a ``number``, from 1, in the run of the model: of all, of those of one contact, string or stop, or of those
-        from a time on (s, or ``"200 ms"``). Raises ``NoImpact``."""
-        from freebody.impact.impacts import find
-
-        return find(self.simulate(), number, of=of, after=None if at is None else quantity("at", at, "s"))
-
-    def strike(self: Builder, point: str, direction: Any = 0, impulse: Any = 1.0, *, frame: str = "fixed") -> AppliedImpulse:
-        """What an ``impulse`` (N·s) at a named point does to the model, which stands still as at its start; see
-        ``freebody.impact.applied_impulse.strike``."""
-        from freebody.impact.applied_impulse import strike
-
-        return strike(self, self.start()[0], point, direction, impulse, frame)
-
-    def impulse_diagram(
-        self: Builder,
-        of: str | Sequence[str] | None = None,
-        number: int = 1,
-        *,
-        at: float | str | None = None,
-        to_scale: bool = False,
-        effective: bool = True,
-        column: float = 160.0,
-    ) -> Diagram:
-        """Impulse diagrams of an impact, chosen as in ``blow`` by ``number`` and ``at``; all else as in ``diagram``, with m Δv and I Δω
-        in place of m a and I α."""
-        from freebody.views.diagram import groups, points
-        from freebody.views.diagram.impulses import impulse_diagram
-
-        found = self.blow(number, at=at)
-        return impulse_diagram(found, groups(of, found.impulses), to_scale, effective, points(column))
-
-    def source(self: Builder, notes: Sequence[str] = ()) -> CompiledModel:
-        """The compiled mechanism with all that views want to know of it."""
-        model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
-        return replace(self.compile(), model=model, report=tuple(self.report_items()), notes=tuple(notes))
-
-    def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
-        """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""
-        asked = self.run_numbers()
-        end = asked.until if until is None else quantity("until", until, "s")
-        if end is None:
-            hint = "add `run: {until: 5 s}` to the model, or say until=5 (--until 5)"
-            raise ModelFileError([Problem(self.lowered().where("run"), "the run has no end", hint)])
-        settings = replace(asked, until=end, **numbers(overrules, {}))
-        if wrong := fault(settings):
-            raise self.error(("run", wrong[0]), *wrong[1:])
-        return settings

@@ -8,17 +8,18 @@ from itertools import count
 from typing import Any
 
 import freebody.views.figures  # noqa: F401, registers how the figures of derivations are drawn
-from freebody.analysis import Moving
+from freebody.analysis import Analysis
 from freebody.core import cards
 from freebody.model import elements, schema
 from freebody.model.builder import Builder
 from freebody.model.handles import Body, Element
 from freebody.model.scope import coordinate_names
+from freebody.moving import Moving
 
 
-class Mechanism(Moving, Builder):
+class Mechanism(Moving, Analysis, Builder):
     """A mechanism under construction; see ``Builder``. Each shape, joint and force is a method: ``rod``, ``hinge`` …;
-    ``Moving`` solves, simulates and draws it."""
+    ``Moving`` solves, simulates and draws it, ``Analysis`` derives its equations and finds what is asked of its motions."""
 
 
 _POSITIONAL, _KEYWORD = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY

@@ -37,7 +37,7 @@ def inverse(
     t: float,
     settings: Mapping[str, Any],
 ) -> InverseDynamics:
-    """See ``Moving.inverse``."""
+    """See ``Analysis.inverse``."""
     names = [actuators] if isinstance(actuators, str) else list(actuators)
     chosen = mechanism.model.run.model_fields_set if mechanism.model.run else set()
     given = settings if "rtol" in chosen else {"rtol": RTOL, **settings}
