@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from typing import Annotated, Any
 
 import typer
 
-from freebody.cli.models import opened
+from freebody.cli.models import opened, ranges
 from freebody.cli.options import AsJson, Changes, Model, Until
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import NOT_TRUE, UserError
-
-_RANGE = re.compile(r"(.+?)=(.+?)\.\.(.+)")
 
 
 def find(
@@ -36,17 +33,14 @@ def find(
     """All values of a parameter or of the start for which a quantity is what it is asked to be; without --is, its extremes."""
     mechanism = opened(model, changes)
     asked: dict[str, Any] = {name: value for name, value in (("until", until), ("rtol", rtol)) if value is not None}
-    stated = _RANGE.fullmatch(vary or "")
-    if (vary or not to_infinity) and not stated:
-        raise UserError(f"--vary {vary or ''}: between which values?", "write it like --vary 'angle=10 deg..80 deg'")
-    name, *within = (part.strip() for part in stated.groups()) if stated else ("",)
+    ((name, within),) = ranges([vary or ""], "--vary").items() if vary or not to_infinity else (("", ()),)
     if to_infinity:
         if target:
             raise UserError("--limit says what it tends to, and --is what it shall be", "give one of them")
-        asked |= {"vary": name, "begin": within[0], "towards": within[1]} if stated else {}
+        asked |= {"vary": name, "begin": within[0], "towards": within[1]} if within else {}
         found, is_answered = mechanism.limit(of, **asked), True
     else:
-        asked |= {"vary": name, "within": tuple(within), "points": points}
+        asked |= {"vary": name, "within": within, "points": points}
         found = mechanism.extremes(of, **asked) if target is None else mechanism.find(of, target, **asked)
         is_answered = target is None or bool(found.roots or found.throughout)
     if as_json:

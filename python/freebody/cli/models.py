@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +50,19 @@ def obtained(path: Path) -> Run:
     from freebody.run.storage import FORMATS
 
     return Run.load(path) if path.suffix in FORMATS else simulated(path)
+
+
+_RANGE = re.compile(r"\s*(.+?)\s*=\s*(.+?)\s*\.\.\s*(.+?)\s*")
+
+
+def ranges(texts: list[str] | None, option: str) -> dict[str, tuple[str, str]]:
+    """Bounds by name, from ``NAME=A..B``. Raises ``UserError``."""
+    found = {}
+    for text in texts or ():
+        if not (stated := _RANGE.fullmatch(text)):
+            raise UserError(f"{option} {text}: between which values?", f"write it like {option} 'theta=-90 deg..90 deg'")
+        found[stated[1]] = (stated[2], stated[3])
+    return found
 
 
 def pairs(texts: list[str] | None) -> dict[str, str]:

@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from freebody.cli.models import opened, pairs
+from freebody.cli.models import opened, pairs, ranges
 from freebody.cli.options import AsJson, Changes, Model
 from freebody.cli.terminal import print_json
-from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,20 +54,10 @@ def periodic(
         ((name, first),) = pairs([limit]).items()
         _show_limit(name, asked.limit(name, first), as_json)
     elif boundary:
-        ((name, bounds),) = _bounds([boundary], "--boundary").items()
+        ((name, bounds),) = ranges([boundary], "--boundary").items()
         _show_crossings(name, asked.boundary(name, bounds), as_json)
     else:
-        _show_motions(asked.find_all(_bounds(within, "--within"), starts) if within else [asked.find()], as_json)
-
-
-def _bounds(texts: list[str], option: str) -> dict[str, tuple[str, str]]:
-    found = {}
-    for name, text in pairs(texts).items():
-        low, dots, high = text.partition("..")
-        if not dots:
-            raise UserError(f"{option} {name}={text}: between which values?", f"write it like {option} 'omega=0.5..3'")
-        found[name] = (low.strip(), high.strip())
-    return found
+        _show_motions(asked.find_all(ranges(within, "--within"), starts) if within else [asked.find()], as_json)
 
 
 def _show_motions(found: Sequence[PeriodicMotion], as_json: bool) -> None:

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from freebody.cli.models import opened, pairs, written
+from freebody.cli.models import opened, pairs, ranges, written
 from freebody.cli.options import AsJson, Changes, Model
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import UserError
-
-_RANGE = re.compile(r"\s*(.+?)\s*=\s*(.+?)\s*\.\.\s*(.+?)\s*")
 
 
 def stability(
@@ -49,11 +46,10 @@ def stability(
             "--along follows curves and gives nothing else", "ask for the rest without it, or with --set at one value"
         )
     if along:
-        name, *within = _range(along, "--along")
-        found: Any = mechanism.equilibria_along(name, tuple(within), **near)
+        ((name, within),) = ranges([along], "--along").items()
+        found: Any = mechanism.equilibria_along(name, within, **near)
     else:
-        limits = {name: (low, high) for name, low, high in (_range(text, "--bounds") for text in bounds or [])}
-        found = mechanism.stability(bounds=limits, inputs=inputs or (), outputs=outputs or (), **near)
+        found = mechanism.stability(bounds=ranges(bounds, "--bounds"), inputs=inputs or (), outputs=outputs or (), **near)
     asked: list[Any] = []
     stated = found.to_json()
     for rest, plain in () if along else zip(found, stated["equilibria"], strict=True):
@@ -90,12 +86,6 @@ def stability(
 def _paths(path: Path, count: int) -> list[Path]:
     """One file for each equilibrium."""
     return [path] if count == 1 else [path.with_name(f"{path.stem}-{i}{path.suffix}") for i in range(1, count + 1)]
-
-
-def _range(text: str, option: str) -> tuple[str, ...]:
-    if not (stated := _RANGE.fullmatch(text)):
-        raise UserError(f"{option} {text}: between which values?", f"write it like {option} 'theta=-90 deg..90 deg'")
-    return stated.groups()
 
 
 def _numbers(texts: list[str], option: str, hint: str, kind: type = float) -> list[Any]:

@@ -73,7 +73,7 @@ def crossings(
     def slopes(by: ReturnMap, value: float) -> Array:
         nonlocal place  # each motion is sought from the last
         motion = find(by, place, **{**others, parameter: value})
-        place = np.array(list(motion.values.values()))
+        place = motion.start
         return motion.slopes
 
     scanned = [slopes(rough, value) for value in values.tolist()]

@@ -35,7 +35,7 @@ def limit(returns: ReturnMap, parameter: str, first: float, start: Sequence[floa
     at = first * 0.5 ** np.arange(_TERMS)
     for value in at.tolist():
         motion = find(returns, place, **{**others, parameter: value})
-        place = np.array(list(motion.values.values()))
+        place = motion.start
         found.append(np.concatenate([place, [motion.period], motion.slopes.ravel()]))
     columns = [np.array(found)]
     for order in range(1, _TERMS):

@@ -57,6 +57,11 @@ class PeriodicMotion:
     returned: Return
 
     @property
+    def start(self) -> Array:
+        """The values of the unknowns (k,)."""
+        return np.array(list(self.values.values()))
+
+    @property
     def stable(self) -> bool:
         """Whether all perturbations die out."""
         return bool(np.abs(self.multipliers).max() < 1)
@@ -168,21 +173,21 @@ def find_all(returns: ReturnMap, within: Sequence[tuple[float, float]], starts: 
         miss = _Miss(returns, others)
         curve = Curve(miss, *within[0], max(starts, 4) + 1)
         points, tried = [[float(root.where)] for root in roots(miss, curve, 0.0)], len(curve.samples)
-        lost = sum(not sample.is_known for sample in curve.samples)
-        looked = f"looked for at {curve.sentence('')}; at {lost} of the places the motion does not come back"
     else:
         points = low + (high - low) * qmc.Sobol(len(low), scramble=False).random_base2(int(np.ceil(np.log2(starts))) + 1)[1:]
         tried = len(points)
     reached = [motion for point in points if (motion := _reached(returns, point, others)) is not None]
-    if len(within) > 1:
+    if len(within) == 1:
+        lost = sum(not sample.is_known for sample in curve.samples)
+        looked = f"looked for at {curve.sentence('')}; at {lost} of the places the motion does not come back"
+    else:
         lost = tried - len(reached)
         looked = f"from {tried} starts; from {lost} of these Newton's method came to none. There may be others: more starts look further"
     found: list[PeriodicMotion] = []
-    for motion, values in ((each, np.array(list(each.values.values()))) for each in reached):
-        apart = (np.abs(values - np.array(list(known.values.values()))) / (high - low) for known in found)
-        if ((low <= values) & (values <= high)).all() and all(each.max() > _SAME for each in apart):
+    for motion in (each for each in reached if ((low <= each.start) & (each.start <= high)).all()):
+        if all((np.abs(motion.start - known.start) / (high - low)).max() > _SAME for known in found):
             found.append(motion)
-    return PeriodicMotions(tuple(sorted(found, key=lambda each: next(iter(each.values.values())))), tried, lost, looked)
+    return PeriodicMotions(tuple(sorted(found, key=lambda each: each.start[0])), tried, lost, looked)
 
 
 def _reached(returns: ReturnMap, point: Sequence[float] | Array, others: Mapping[str, Any]) -> PeriodicMotion | None:
