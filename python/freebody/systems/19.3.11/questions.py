@@ -16,7 +16,8 @@ from scipy.integrate import quad
 from freebody.catalogue import Answer, ask
 
 G, R, H = 9.81, 1.2, 2.0
-MASSES = ((100.0, 5.0), (1.0, 1.0))
+MASSES = ((100.0, 5.0, ""), (1.0, 1.0, "M = m = 1 kg"))
+FILES = {"model.yaml": "", "wall.yaml": "the ball against the outer wall"}
 CONSERVED = "conservation: energy, momentum"
 
 
@@ -40,100 +41,94 @@ def leaving(run, name="exit"):
     return next(event.t for event in run.events if event.name == name)
 
 
-@ask("(a, b) Speeds at the exit, of ball and cart and of the ball relative to the cart")
+@ask("(a) How fast are ball and cart at the exit, and (b) the ball relative to the cart?")
 def speeds(case):
-    for M, m in MASSES:
+    for M, m, masses in MASSES:
         w, V = shot(M, m)
-        for of, file in (("guided", "model.yaml"), ("against the wall", "wall.yaml")):
-            run = case.run(file, {"M": M, "m": m})
+        for file, how in FILES.items():
+            run, of = case.run(file, {"M": M, "m": m}), ", ".join(filter(None, (masses, how)))
             t = leaving(run)
             ball, cart = (run.evaluate(f"vx({point})", t) for point in ("ball.centre", "cart.C"))
-            of = f"M = {M:g}, m = {m:g}, {of}"
-            yield Answer(f"ball, {of}", ball, "m/s", V + w, CONSERVED, 1e-10)
-            yield Answer(f"cart, {of}", cart, "m/s", V, CONSERVED, 1e-10)
-            yield Answer(f"relative, {of}", ball - cart, "m/s", w, CONSERVED, 1e-10)
-            rise = run.evaluate("vy(ball.centre)", t)
-            yield Answer(f"ball upwards, {of}", rise, "m/s", 0.0, "closed form: the exit is level", 1e-10, w)
-
-
-@ask("(a, b) The same, where the drop is H")
-def deep(case):
-    for M, m in MASSES:
+            says = "(a) The ball flies at {}," * (not of)
+            yield Answer("ball", ball, "m/s", V + w, CONSERVED, 1e-10, says=says, variant=of)
+            says = "the cart rolls at {}." * (not of)
+            yield Answer("cart", cart, "m/s", V, CONSERVED, 1e-10, says=says, variant=of)
+            says = "(b) Relative to the cart the ball has {} forwards" * (not of)
+            yield Answer("relative", ball - cart, "m/s", w, CONSERVED, 1e-10, says=says, variant=of)
+            rise, says = run.evaluate("vy(ball.centre)", t), "and {} upwards." * (not of)
+            yield Answer("upwards", rise, "m/s", 0.0, CONSERVED, 1e-10, w, says=says, variant=of)
         w, V = shot(M, m, H)
-        run, of = case.run(parameters={"M": M, "m": m, "R": H}), f"M = {M:g}, m = {m:g}"
+        run, of = case.run(parameters={"M": M, "m": m, "R": H}), ", ".join(filter(None, (masses, "the drop is H")))
         ball, cart = (run.evaluate(f"vx({point})", leaving(run)) for point in ("ball.centre", "cart.C"))
-        yield Answer(f"ball, cart, {of}", [ball, cart], "m/s", [V + w, V], CONSERVED, 1e-10)
-        yield Answer(f"relative, {of}", ball - cart, "m/s", w, CONSERVED, 1e-10)
+        yield Answer("ball, cart", [ball, cart], "m/s", [V + w, V], CONSERVED, 1e-10, variant=of)
+        yield Answer("relative", ball - cart, "m/s", w, CONSERVED, 1e-10, variant=of)
 
 
-@ask("(c) Two balls: at once, and one after the other")
+@ask("(c) How fast is the cart when two balls go together, and when one goes after the other? Is it the same?")
 def two_balls(case):
-    for M, m in MASSES:
-        _, together = shot(M, 2 * m)
-        run, of = case.run(parameters={"M": M, "m": 2 * m}), f"M = {M:g}, m = {m:g}"
-        value = run.evaluate("vx(cart.C)", leaving(run))
-        yield Answer(f"cart, both at once, {of}", value, "m/s", together, CONSERVED, 1e-10)
-        run = case.run("two.yaml", {"M": M, "m": m})
-        w, first = shot(M + m, m)
-        yield Answer(
-            f"cart, one has left, {of}", run.evaluate("vx(cart.C)", leaving(run, "exit 1")), "m/s", first, CONSERVED, 1e-10
-        )
-        held = run.evaluate("x(second.centre) - x(cart.C)", leaving(run, "exit 1"))
-        yield Answer(f"the second held at, from the middle, {of}", held, "m", -R, "it is held", 1e-10)
-        end = leaving(run, "exit 2")
-        cart, second = (run.evaluate(f"vx({point})", end) for point in ("cart.C", "second.centre"))
-        more, recoil = shot(M, m)
-        yield Answer(f"cart, both have left, {of}", cart, "m/s", first + recoil, CONSERVED, 1e-10)
-        yield Answer(f"difference to both at once, {of}", cart - value, "m/s", first + recoil - together, CONSERVED, 1e-8)
-        yield Answer(f"second ball relative to the cart, {of}", second - cart, "m/s", more, CONSERVED, 1e-10)
-        yield Answer(f"first ball, {of}", run.evaluate("vx(first.centre)", end), "m/s", first + w, CONSERVED, 1e-10)
+    for M, m, of in MASSES:
+        _, both = shot(M, 2 * m)
+        run = case.run(parameters={"M": M, "m": 2 * m})
+        together, says = run.evaluate("vx(cart.C)", leaving(run)), "Together: {}." * (not of)
+        yield Answer("together", together, "m/s", both, CONSERVED, 1e-10, says=says, variant=of)
+        run, (w, first), (more, recoil) = case.run("two.yaml", {"M": M, "m": m}), shot(M + m, m), shot(M, m)
+        one, two = leaving(run, "exit 1"), leaving(run, "exit 2")
+        says = "One by one: {} when the first has left," * (not of)
+        yield Answer("one left", run.evaluate("vx(cart.C)", one), "m/s", first, CONSERVED, 1e-10, says=says, variant=of)
+        cart, second = (run.evaluate(f"vx({point})", two) for point in ("cart.C", "second.centre"))
+        says = "and {} when both have." * (not of)
+        yield Answer("both left", cart, "m/s", first + recoil, CONSERVED, 1e-10, says=says, variant=of)
+        says = "Not the same: one by one the cart gets {} less." * (not of)
+        yield Answer("less", cart - together, "m/s", first + recoil - both, CONSERVED, 1e-8, says=says, variant=of)
+        says = "The second leaves the cart at {}," * (not of)
+        yield Answer("second, relative", second - cart, "m/s", more, CONSERVED, 1e-10, says=says, variant=of)
+        speed, says = run.evaluate("vx(first.centre)", two), "the first flies at {}." * (not of)
+        yield Answer("first ball", speed, "m/s", first + w, CONSERVED, 1e-10, says=says, variant=of)
+        held = run.evaluate("x(second.centre) - x(cart.C)", one)
+        says = "Until the first has left the second is held at {} from the exit." * (not of)
+        yield Answer("held at", held, "m", -R, "it is held", 1e-10, says=says, variant=of)
 
 
-@ask("(c) Why: at the end of both, where is the energy 2mgR that both balls gave?")
+@ask("(c) Why is it not the same?")
 def why(case):
-    """The momentum is 0 and the energy the same in both. Two balls that leave one after the other have different speeds, and what is in their
-    motion against each other, m(v₁ − v₂)²/4, the cart does not get."""
-    claim = "at {}: M V^2/2 + (M V)^2/({}) {} = {} m g R"
-    for M, m in MASSES:
-        of = f"M = {M:g}, m = {m:g}"
+    """The momentum is 0 and the energy the same in both. Two balls that leave one after the other have different speeds, and what is in
+    their motion against each other, m(v₁ − v₂)²/4, the cart does not get."""
+    balls = {"V": "rate(X)", "v_1": "vx(first.centre)", "v_2": "vx(second.centre)"}
+    for M, m, of in MASSES:
         run = case.run("two.yaml", {"M": M, "m": m})
-        end = leaving(run, "exit 2")
+        apart = run.evaluate("m*(vx(first.centre) - vx(second.centre))^2/4", leaving(run, "exit 2"))
         first, (second, recoil) = shot(M + m, m)[0], shot(M, m)
-        apart = run.evaluate("m*(vx(first.centre) - vx(second.centre))^2/4", end)
+        says = "The balls leave at different speeds: {} go into their motion against each other, and not into the cart's."
         check = m * (first - recoil - second) ** 2 / 4
-        yield Answer(f"energy of the balls against each other, {of}", apart, "J", check, CONSERVED, 1e-10)
-        for parameters, file, letters, event, twice, count, apart_said in (
-            ({"M": M, "m": 2 * m}, "model.yaml", {"V": "rate(X)"}, "exit", "2 m", "1", ""),
-            (
-                {"M": M, "m": m},
-                "two.yaml",
-                {"V": "rate(X)", "v_1": "vx(first.centre)", "v_2": "vx(second.centre)"},
-                "exit 2",
-                "4 m",
-                "2",
-                "+ m (v_1 − v_2)^2/4",
-            ),
+        yield Answer("energy", apart, "J", check, CONSERVED, 1e-10, says=says, variant=of)
+        for words, file, mass, letters, claim in (
+            ("Together", "model.yaml", 2 * m, {"V": "rate(X)"}, "at exit: M V^2/2 + (M V)^2/(2 m) = m g R"),
+            ("One by one", "two.yaml", m, balls, "at exit 2: M V^2/2 + (M V)^2/(4 m) + m (v_1 − v_2)^2/4 = 2 m g R"),
         ):
-            says = claim.format(event, twice, apart_said, count)
-            value = case.mechanism(file, **parameters).check(says, letters=letters).ok
-            yield Answer(f"{file}, {of}", value, "", 1, CONSERVED, 0.0, said=says)
+            holds = case.mechanism(file, M=M, m=mass).check(claim, letters=letters).ok
+            yield Answer(words, holds, "", True, CONSERVED, 0.0, says=f"{words}, {claim}.", variant=of)
 
 
-@ask("Time in the tube, way of the cart, tube force, range")
+@ask(
+    "How long is the ball in the tube, how far does the cart go, how hard does the tube push at the exit, how far does the ball fly?"
+)
 def tube(case):
-    for M, m in MASSES:
+    for M, m, masses in MASSES:
         w, V = shot(M, m)
         force, flight = m * G + m * w**2 / R, sqrt(2 * H / G)
-        for of, file, push in (("guided", "model.yaml", "tube.F"), ("against the wall", "wall.yaml", "wall.N")):
-            run = case.run(file, {"M": M, "m": m})
-            t, of = leaving(run), f"M = {M:g}, m = {m:g}, {of}"
-            yield Answer(f"time in the tube, {of}", t, "s", tube_time(M, m), "quadrature", 1e-10)
-            way = run.evaluate("x(cart.C)", t)
-            yield Answer(f"cart has moved, {of}", way, "m", -m * R / (M + m), "conservation: mass centre", 1e-10)
-            closed = "closed form: m(g + w²/R)"
-            yield Answer(f"tube force at the exit, {of}", run.evaluate(push, t - 1e-8), "N", force, closed, 1e-7)
-            landing = run.events[-1].t
+        for file, how in FILES.items():
+            run, of = case.run(file, {"M": M, "m": m}), ", ".join(filter(None, (masses, how)))
+            t, push = leaving(run), "tube.F" if file == "model.yaml" else "wall.N"
+            says = "It is in the tube for {}." * (not of)
+            yield Answer("t", t, "s", tube_time(M, m), "quadrature", 1e-10, says=says, variant=of)
+            way, says = run.evaluate("x(cart.C)", t), "The cart has moved by {}." * (not of)
+            yield Answer("X", way, "m", -m * R / (M + m), "conservation: mass centre", 1e-10, says=says, variant=of)
+            closed, says = "closed form: m(g + w²/R)", "The tube pushes with {}." * (not of)
+            yield Answer("N", run.evaluate(push, t - 1e-8), "N", force, closed, 1e-7, says=says, variant=of)
+            landing, closed = run.events[-1].t, "closed form: parabola"
             flown = run.evaluate("x(ball.centre)", landing) - run.evaluate("x(ball.centre)", t)
-            yield Answer(f"range from the exit, {of}", flown, "m", (V + w) * flight, "closed form: parabola", 1e-10)
+            says = "The ball flies {} far," * (not of)
+            yield Answer("range", flown, "m", (V + w) * flight, closed, 1e-10, says=says, variant=of)
             ahead = run.evaluate("x(ball.centre) - x(cart.exit)", landing)
-            yield Answer(f"from the exit of the moving cart, {of}", ahead, "m", w * flight, "closed form: parabola", 1e-10)
+            says = "to {} before the exit of the moving cart." * (not of)
+            yield Answer("ahead", ahead, "m", w * flight, closed, 1e-10, says=says, variant=of)

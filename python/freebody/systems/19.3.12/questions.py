@@ -48,10 +48,9 @@ def states(case):
     run = case.run()
     for t in TIMES:
         *check, _ = at(t)
-        for text, unit, expected in zip(
-            ("R", "theta", "rate(R)", "rate(theta)"), ("m", "rad", "m/s", "rad/s"), check, strict=True
-        ):
-            yield Answer(f"{text} at {t:g} s", run.evaluate(text, t), unit, expected, "quadrature", 1e-9)
+        quantities = (("R", "R", "m"), ("θ", "theta", "rad"), ("Ṙ", "rate(R)", "m/s"), ("θ̇", "rate(theta)", "rad/s"))
+        for (label, text, unit), expected in zip(quantities, check, strict=True):
+            yield Answer(label, run.evaluate(text, t), unit, expected, "quadrature", 1e-9, variant=f"at {t:g} s")
 
 
 @ask("(a) What is the first-order form, with v = Ṙ, ω = θ̇ beside v̇ = R̈, ω̇ = θ̈?")
@@ -68,7 +67,8 @@ def as_code(case):
     for theta, R, omega, v in ((0.0, 1.0, 1.0, 0.0), (1.3, 2.0, 0.6, -0.4), (2.0, 30.0, 0.003, 1.7)):
         check = [omega, v, -2 * M * R * v * omega / (I + M * R**2), R * omega**2]
         value = written["derivative"](0.0, [theta, R, omega, v])
-        yield Answer(f"R = {R:g}, ω = {omega:g}, v = {v:g}", value, "SI", check, "closed form: the two equations solved", 1e-14)
+        at_state, against = f"at R = {R:g}, ω = {omega:g}, v = {v:g}", "closed form: the two equations solved"
+        yield Answer(at_state, value, "", check, against, 1e-14)
 
 
 @ask("(b) Is the net angle finite, how large, with what error, and how much of it remains at 1000 s?")

@@ -19,7 +19,7 @@ FLOOR = N_RATIO * M * G + FORCE * cos(ALPHA)
 LOWER, UPPER = -FORCE * sin(ALPHA) / (N_RATIO * M), FORCE * sin(ALPHA) / M
 BALANCE = "closed form: momentum of each prism"
 HEIGHTS = {"a": 1 / tan(ALPHA), "b": 0.4 / tan(ALPHA)}
-READINGS = {"a, b widths": ({}, 1.0, 0.4), "a, b heights": (HEIGHTS, HEIGHTS["a"], HEIGHTS["b"])}
+READINGS = {"": ({}, 1.0, 0.4), "a, b taken as heights": (HEIGHTS, HEIGHTS["a"], HEIGHTS["b"])}
 
 
 def resultants(a, b, slid):
@@ -31,7 +31,7 @@ def resultants(a, b, slid):
     return from_edge, a / 3 + FORCE * moment / FLOOR
 
 
-@ask("In symbols: accelerations from rest")
+@ask("How do the prisms accelerate, in letters?")
 def symbolically(case):
     below = "(n + sin(alpha)^2)"
     closed = {
@@ -42,48 +42,54 @@ def symbolically(case):
     yield from case.symbolically(closed, "closed form: momentum along x, the slope's direction, the prism's balance along it")
 
 
-@ask("Velocities just before touch-down, time and displacements")
+@ask("How fast are both just before touch-down, when is it, and where are they?")
 def touch_down(case):
+    conserved, centre = "conservation: energy, momentum", "conservation: mass centre stays over its place"
     for of, (parameters, a, b) in READINGS.items():
         event = case.run(parameters=parameters).events[-1]
         drop = (a - b) * tan(ALPHA)
         V = sqrt(2 * G * drop / (N_RATIO**2 + N_RATIO + (1 + N_RATIO) ** 2 * tan(ALPHA) ** 2))
         lower, upper = ([event.u[f"{body}.{axis}"] for axis in "xy"] for body in ("lower", "upper"))
-        check = [N_RATIO * V, -(1 + N_RATIO) * V * tan(ALPHA)]
-        yield Answer(f"lower prism, x and y, {of}", lower, "m/s", [-V, 0.0], "conservation: energy, momentum", 1e-11)
-        yield Answer(f"upper prism, x and y, {of}", upper, "m/s", check, "conservation: energy, momentum", 1e-11)
-        time = sqrt(2 * (a - b) / (UPPER - LOWER))
-        yield Answer(f"time, {of}", event.t, "s", time, BALANCE, 1e-11)
+        says = "The lower one has {} along x and {} along y,"
+        yield Answer("lower", lower, "m/s", [-V, 0.0], conserved, 1e-11, says=says, variant=of)
+        check, says = [N_RATIO * V, -(1 + N_RATIO) * V * tan(ALPHA)], "the upper one {} and {}."
+        yield Answer("upper", upper, "m/s", check, conserved, 1e-11, says=says, variant=of)
+        time, says = sqrt(2 * (a - b) / (UPPER - LOWER)), "It takes {}."
+        yield Answer("t", event.t, "s", time, BALANCE, 1e-11, says=says, variant=of)
         ways = [event.q["lower.x"], event.q["upper.x"], event.q["upper.y"] - a * tan(ALPHA)]
         share = (a - b) / (1 + N_RATIO)
-        check = [-share, N_RATIO * share, -drop]
-        yield Answer(f"lower x, upper x and y, {of}", ways, "m", check, "conservation: mass centre stays over its place", 1e-11)
+        says = "The lower one has moved by {} along x, the upper one by {} along x and {} along y."
+        yield Answer("ways", ways, "m", [-share, N_RATIO * share, -drop], centre, 1e-11, says=says, variant=of)
 
 
-@ask("Contact and floor forces, at the start, half the time and just before touch-down")
+@ask("What forces act between them and from the floor, and what accelerations do they give?")
 def forces(case):
-    run = case.run()
+    """At the start, half the time and just before touch-down."""
+    run, fall = case.run(), FORCE * cos(ALPHA) / M - G
     times = [run.events[-1].t * part for part in (0, 0.5, 0.999)]
-    yield Answer("between the prisms", run.evaluate("slope.N", times), "N", [FORCE] * 3, BALANCE, 1e-12)
-    yield Answer("floor", run.evaluate("floor.N", times), "N", [FLOOR] * 3, BALANCE, 1e-12)
-    yield Answer("acceleration of the lower prism", run.evaluate("ax(lower.G)", times), "m/s²", [LOWER] * 3, BALANCE, 1e-12)
-    across, down = run.evaluate("ax(upper.G)", times), run.evaluate("ay(upper.G)", times)
-    fall = FORCE * cos(ALPHA) / M - G
-    yield Answer("acceleration of the upper prism, x", across, "m/s²", [UPPER] * 3, BALANCE, 1e-12)
-    yield Answer("acceleration of the upper prism, y", down, "m/s²", [fall] * 3, BALANCE, 1e-12)
+    for text, unit, check, says in (
+        ("slope.N", "N", FORCE, "Between the prisms {}, at all times,"),
+        ("floor.N", "N", FLOOR, "from the floor {}."),
+        ("ax(lower.G)", "m/s²", LOWER, "The lower one accelerates at {},"),
+        ("ax(upper.G)", "m/s²", UPPER, "the upper one at {} along x"),
+        ("ay(upper.G)", "m/s²", fall, "and {} along y."),
+    ):
+        yield Answer(text, run.evaluate(text, times), unit, [check] * 3, BALANCE, 1e-12, says=says)
 
 
-@ask("Where the forces act within the faces: does either prism tip?")
+@ask("Where within the faces do the forces act: does either prism tip?")
 def tipping(case):
     for of, (parameters, a, b) in READINGS.items():
         run = case.run(parameters=parameters)
         end, against = run.events[-1].t, "closed form: moments about each mass centre"
-        for name, part in (("start", 0.0), ("half the time", 0.5), ("touch-down", 0.999)):
-            t = end * part
-            face, base = resultants(a, b, (UPPER - LOWER) * t**2 / 2)
-            at_face = run.evaluate("slope.x - x(upper.origin)", t)
-            at_base = run.evaluate("floor.x - x(lower.origin)", t)
-            yield Answer(f"from the thin edge, of {b:.4g} m: {name}, {of}", at_face, "m", face, against, 1e-11)
-            yield Answer(f"from the vertical face, of {a:.4g} m: {name}, {of}", at_base, "m", base, against, 1e-11)
         turned = [run.evaluate(f"angle({body})", end) for body in ("lower", "upper")]
-        yield Answer(f"turned in the end, {of}", turned, "rad", [0.0, 0.0], "both forces within the faces", 1e-12, 1.0)
+        says = "Neither tips: in the end they have turned by {}."
+        yield Answer("turned", turned, "rad", [0.0, 0.0], "both forces within the faces", 1e-12, 1.0, says=says, variant=of)
+        times = [end * part for part in (0.0, 0.5, 0.999)]
+        check = [resultants(a, b, (UPPER - LOWER) * t**2 / 2) for t in times]
+        face, base = run.evaluate("slope.x - x(upper.origin)", times), run.evaluate("floor.x - x(lower.origin)", times)
+        when = "at the start, half the time and touch-down"
+        says = f"From the thin edge, of {b:.4g} m in all, {when}: {{}}."
+        yield Answer("slope", face, "m", [x for x, _ in check], against, 1e-11, says=says, variant=of)
+        says = f"From the vertical face, of {a:.4g} m in all: {{}}."
+        yield Answer("floor", base, "m", [x for _, x in check], against, 1e-11, says=says, variant=of)
