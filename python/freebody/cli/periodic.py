@@ -111,6 +111,7 @@ def _motion(found: PeriodicMotion) -> dict[str, Any]:
 def _show_crossings(name: str, found: list[Crossing], as_json: bool) -> None:
     from rich.console import Console
 
+    from freebody.solve.figures import figure
     from freebody.solve.rich_tables import table
 
     if as_json:
@@ -120,5 +121,5 @@ def _show_crossings(name: str, found: list[Crossing], as_json: bool) -> None:
     if not found:
         console.print("no multiplier reaches the unit circle within these bounds")
         return
-    rows = [[each.value, each.kind, each.miss] for each in found]
+    rows = [[figure(each.value, 12), each.kind, each.miss] for each in found]
     console.print(table("boundaries of stability", [f"{name} [SI]", "a multiplier leaves the unit circle", "condition"], rows))

@@ -67,14 +67,8 @@ class Limit(PlainText):
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, in SI."""
-        figures = {
-            "value": float(self.value),
-            "estimated_error": self.value.error,
-            "unit": self.unit,
-            "until": self.until,
-            "last": self.last,
-        }
-        return {"of": self.of, "sentence": self.sentence, "tail": self.tail} | figures
+        stated = {name: getattr(self, name) for name in ("of", "sentence", "tail", "unit", "until", "last")}
+        return stated | {"value": float(self.value), "estimated_error": self.value.error}
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         yield self.sentence

@@ -37,21 +37,13 @@ class Crossing:
     miss: float
 
 
-def _at_one(slopes: Array) -> float:
-    return float(np.linalg.det(slopes - np.eye(len(slopes))))
-
-
-def _at_minus_one(slopes: Array) -> float:
-    return float(np.linalg.det(slopes + np.eye(len(slopes))))
-
-
-def _as_pair(slopes: Array) -> float:
-    """The product of μᵢ μⱼ − 1 over all pairs (Kuznetsov, *Elements of Applied Bifurcation Theory*, §10.2)."""
-    return float(np.prod([a * b - 1 for a, b in combinations(np.linalg.eigvals(slopes), 2)]).real)
-
-
-CONDITIONS: Mapping[str, Callable[[Array], float]] = {"at 1": _at_one, "at -1": _at_minus_one, "as a pair": _as_pair}
-"""What vanishes where a multiplier is on the unit circle."""
+CONDITIONS: Mapping[str, Callable[[Array], float]] = {
+    "at 1": lambda slopes: float(np.linalg.det(slopes - np.eye(len(slopes)))),
+    "at -1": lambda slopes: float(np.linalg.det(slopes + np.eye(len(slopes)))),
+    "as a pair": lambda slopes: float(np.prod([a * b - 1 for a, b in combinations(np.linalg.eigvals(slopes), 2)]).real),
+}
+"""What vanishes where a multiplier is on the unit circle; for a pair the product of μᵢ μⱼ − 1 over all pairs (Kuznetsov, *Elements of
+Applied Bifurcation Theory*, §10.2)."""
 
 
 def crossings(
