@@ -36,43 +36,43 @@ def quarter():
     return quad(integrand, 0, sqrt(pi / 2), epsabs=0, epsrel=1e-13)[0]
 
 
-@ask("In symbols, at release")
-def symbolically(case):
-    yield from case.symbolically(
-        {"theta": "3*g/(2*l)", "x": "0"}, "closed form: the cart feels no force along x", at_rest=True, set={"theta": 0}
-    )
-
-
-@ask("At release")
+@ask("How do rod and cart accelerate at release?")
 def release(case):
     """About the hinge, which cannot move sideways yet: θ̈ = mgc/(I + mc²) = 3g/2ℓ."""
-    value = case.instant().accelerations["theta"]
-    yield Answer("angular acceleration, clockwise", value, "rad/s²", 3 * G / (4 * C), "closed form: 3g/2ℓ", 1e-12)
+    closed = {"theta": "3*g/(2*l)", "x": "0"}
+    yield from case.symbolically(closed, "closed form: the cart feels no force along x", at_rest=True, set={"theta": 0})
+    value, says = case.instant().accelerations["theta"], "That is {}, clockwise."
+    yield Answer("θ̈", value, "rad/s²", 3 * G / (4 * C), "closed form: 3g/2ℓ", 1e-12, says=says)
 
 
-@ask("(a, b) The rod vertical")
+@ask(
+    "With the rod vertical: (a) how fast does it turn, (b) how far and fast has the cart moved, what does the hinge carry, when is it?"
+)
 def vertical(case):
-    run = case.run()
+    run, conserved = case.run(), "conservation: energy, momentum"
     event = next(e for e in run.events if e.name == "vertical")
-    said = {label: reported.value for label, reported in run.report.items()}
-    speed = m * C * OMEGA / (M + m)
-    yield Answer("angular speed", said["angular speed when vertical"], "rad/s", OMEGA, "conservation", 1e-10)
-    yield Answer("displacement of the cart", said["cart when vertical"], "ft", m / (M + m), "conservation", 1e-10)
-    yield Answer("time", event.t, "s", quarter(), "quadrature", 1e-10)
-    yield Answer("speed of the cart", said["cart speed when vertical"], "ft/s", speed / FOOT, "conservation", 1e-10)
-    force = m * (G + C * OMEGA**2) / LBF
-    yield Answer(
-        "hinge force on the rod, up", said["hinge force on the rod when vertical"], "lbf", force, "closed form: m(g + cθ̇²)", 1e-10
-    )
+    said = {label.removesuffix(" when vertical"): reported.value for label, reported in run.report.items()}
+    yield Answer("ω", said["angular speed"], "rad/s", OMEGA, conserved, 1e-10, says="(a) It turns at {}.")
+    yield Answer("x", said["cart"], "ft", m / (M + m), conserved, 1e-10, says="(b) The cart has moved by {},")
+    yield Answer("v", said["cart speed"], "ft/s", m * C * OMEGA / (M + m) / FOOT, conserved, 1e-10, says="at {}.")
+    yield Answer("t", event.t, "s", quarter(), "quadrature", 1e-10, says="It is {} after release.")
+    force, against = m * (G + C * OMEGA**2) / LBF, "closed form: m(g + cθ̇²), by symmetry nothing sideways"
+    says = "The hinge pulls the rod with {} upwards"
+    yield Answer("Fy", said["hinge force on the rod"], "lbf", force, against, 1e-10, says=says)
     sideways = run.evaluate("pin.Fx", event.t) / LBF
-    yield Answer("hinge force on the rod, sideways", sideways, "lbf", 0.0, "closed form: symmetry", 1e-9, force)
+    yield Answer("Fx", sideways, "lbf", 0.0, against, 1e-9, force, says="and {} sideways.")
 
 
-@ask("(c) The rod level again, on the left, where it only just comes")
+@ask("(c) Where is the cart when the rod is next horizontal, on the left, and does the rod pass there?")
 def level(case):
     run = case.run()
     event = next(e for e in run.events if e.name == "level")
-    yield Answer("displacement of the cart", run.report["cart when level"].value, "ft", 2 * m / (M + m), "conservation", 1e-10)
-    yield Answer("time", event.t, "s", 2 * quarter(), "quadrature: twice that to the vertical", 1e-9)
-    rest = [event.u["theta"] * FOOT, event.u["x"]]
-    yield Answer("ℓθ̇/2, ẋ then", rest, "m/s", [0.0, 0.0], "conservation", 1e-7, OMEGA * C)
+    moved, says = run.report["cart when level"].value, "The cart has moved by {}."
+    yield Answer("x", moved, "ft", 2 * m / (M + m), "conservation", 1e-10, says=says)
+    against = "quadrature: twice that to the vertical"
+    yield Answer("t", event.t, "s", 2 * quarter(), against, 1e-9, says="It is {} after release.")
+    rest, says = (
+        [event.u["theta"] * FOOT, event.u["x"]],
+        "The rod only just comes there: its middle has {} against the cart, and the cart {}.",
+    )
+    yield Answer("ℓθ̇/2, ẋ", rest, "m/s", [0.0, 0.0], "conservation", 1e-7, OMEGA * C, says=says)

@@ -10,6 +10,7 @@ import numpy as np
 from freebody.catalogue import Answer, ask
 
 L, M, G = 1.0, 2.0, 9.81
+CLOCKWISE = "θ clockwise from the upward vertical"
 THETA, OMEGA, V = pi / 2, 1.0, 2.0
 
 
@@ -34,46 +35,40 @@ def free_accelerations():
     return np.linalg.solve(matrix, [M * L / 2 * s * OMEGA**2, -M * G * L / 2 * s])
 
 
-@ask("(a) Kinetic energy, (b) linear momentum")
+@ask("(a) What is the kinetic energy, (b) the linear momentum?")
 def state(case):
-    for file, sense in [("model.yaml", 1), ("clockwise.yaml", -1)]:
+    for file, sense, of in [("model.yaml", 1, ""), ("clockwise.yaml", -1, CLOCKWISE)]:
         now = case.instant(file)
-        yield Answer(f"kinetic energy, {file}", now["kinetic()"], "J", energy(), "closed form: ½mẋ² + ½mv² + ½Iω²", 1e-14)
-        value = [now["momentum_x()"], now["momentum_y()"]]
-        yield Answer(f"momentum, {file}", value, "kg·m/s", momentum(sense), "closed form: mẋ i + m v", 1e-14)
+        against, says = "closed form: ½mẋ² + ½mv² + ½Iω²", "(a) It is {}."
+        yield Answer("E", now["kinetic()"], "J", energy(), against, 1e-14, says=says, variant=of)
+        value, says = [now["momentum_x()"], now["momentum_y()"]], "(b) It is {} along x and {} along y."
+        yield Answer("L", value, "kg·m/s", momentum(sense), "closed form: mẋ i + m v", 1e-14, says=says, variant=of)
 
 
-@ask("Rate of change of momentum for ẍ = 3, θ̈ = 2")
+@ask("What is the rate of change of momentum for ẍ = 3 m/s², θ̈ = 2 rad/s²?")
 def given(case):
     """m ẍ i + m a_G with a_G = (ẍ + (ℓ/2)(cos θ θ̈ − sin θ θ̇²), (ℓ/2)(sin θ θ̈ + cos θ θ̇²))."""
     now, xdd, thetadd = case.instant("driven.yaml"), 3.0, 2.0
-    c, s = cos(THETA), sin(THETA)
+    c, s, against = cos(THETA), sin(THETA), "closed form: sum of m a"
     check = [2 * M * xdd + M * L / 2 * (c * thetadd - s * OMEGA**2), M * L / 2 * (s * thetadd + c * OMEGA**2)]
-    value = [now[f"m*(a{axis}(block.origin) + a{axis}(rod.G))"] for axis in "xy"]
-    yield Answer("from the accelerations", value, "N", check, "closed form: sum of m a", 1e-14)
+    value, says = [now[f"m*(a{axis}(block.origin) + a{axis}(rod.G))"] for axis in "xy"], "From the accelerations {} and {}."
+    yield Answer("L̇", value, "N", check, against, 1e-14, says=says)
     # the push along x, the floor's force and the weight are all that acts from outside
-    outside = [now["push.force"], now["floor.Fn"] - 2 * M * G]
-    yield Answer("from the forces of drive, floor and gravity", outside, "N", check, "closed form: sum of m a", 1e-12)
+    outside, says = [now["push.force"], now["floor.Fn"] - 2 * M * G], "From the forces of drive, floor and gravity {} and {}."
+    yield Answer("L̇", outside, "N", check, against, 1e-12, says=says)
 
 
 @ask("Do these accelerations belong to a free motion?")
 def free(case):
     """They would if they were those of the free system, and no push and no torque were needed."""
-    now = case.instant()
+    now, against = case.instant(), "other route: balances by hand"
     xdd, thetadd = free_accelerations()
-    value = [now.accelerations["x"], now.accelerations["theta"]]
-    yield Answer("ẍ, θ̈ of the free motion: no", value, "m/s², rad/s²", [xdd, thetadd], "other route: balances by hand", 1e-13)
-    turned = case.instant("clockwise.yaml").accelerations["theta"]
-    yield Answer("θ̈ clockwise from the upward vertical", turned, "rad/s²", -thetadd, "other route: balances by hand", 1e-13)
-    driven = case.instant("driven.yaml")
-    c, s = cos(THETA), sin(THETA)
+    value, says = [now.accelerations["x"], now.accelerations["theta"]], "No: in free motion ẍ, θ̈ are {}."
+    yield Answer("ẍ, θ̈", value, "m/s², rad/s²", [xdd, thetadd], against, 1e-13, says=says)
+    driven, c, s = case.instant("driven.yaml"), cos(THETA), sin(THETA)
     push = 2 * M * 3 + M * L / 2 * (c * 2 - s * OMEGA**2)
     turn = M * L**2 / 3 * 2 + M * L / 2 * c * 3 + M * G * L / 2 * s
-    yield Answer(
-        "force and torque it takes",
-        [driven["push.force"], driven["turn.force"]],
-        "N, N·m",
-        [push, turn],
-        "other route: balances by hand",
-        1e-13,
-    )
+    value, says = [driven["push.force"], driven["turn.force"]], "They take a force and a torque: {}."
+    yield Answer("force, torque", value, "N, N·m", [push, turn], against, 1e-13, says=says)
+    turned = case.instant("clockwise.yaml").accelerations["theta"]
+    yield Answer("θ̈", turned, "rad/s²", -thetadd, against, 1e-13, variant=CLOCKWISE)
