@@ -79,72 +79,79 @@ def moment(motion, name):
     return next(event.t for event in motion.events if event.name == name)
 
 
-@ask("Unwinding: spin, tension and free length")
+@ask("While the strings unwind, what are spin, free length and tension?")
 def unwinding(case):
     times = np.array([0.05, 0.2, 0.4, 0.6, 0.74])
     free = R * W * times
     for sense in SENSES:
         motion = run(case, sense)
         value = motion.evaluate("rate(theta)", times)
-        yield Answer(f"spin at 0.05 … 0.74 s, {sense}", value, "rad/s", [spin(sense, x) for x in free], CONSERVED, 1e-9)
+        yield Answer(f"{sense} spin at 0.05 … 0.74 s", value, "rad/s", [spin(sense, x) for x in free], CONSERVED, 1e-9)
         value = motion.evaluate("sqrt(r^2 - R^2)", times)
-        yield Answer(f"free length at 0.05 … 0.74 s, {sense}", value, "m", free, CONSERVED, 1e-8)
+        yield Answer(f"{sense} free length at 0.05 … 0.74 s", value, "m", free, CONSERVED, 1e-8)
         check = [tension(sense, x) for x in free]
         for name in "pq":
             value = motion.evaluate(f"{name}.tension", times)
-            yield Answer(f"tension of {name} at 0.05 … 0.74 s, {sense}", value, "N", check, CONSERVED, 1e-8, 1.0)
+            yield Answer(f"{sense} tension of {name} at 0.05 … 0.74 s", value, "N", check, CONSERVED, 1e-8, 1.0)
 
 
-@ask("Unwound: time, spin and tension; the spin of a satellite released then")
+@ask("When are they unwound, with what spin and tension, and with what spin is the satellite left if they are released then?")
 def unwound(case):
     for sense in SENSES:
         motion = run(case, sense)
         t = moment(motion, "unwound")
-        yield Answer(f"time, {sense}", t, "s", UNWOUND, CONSERVED, 1e-8)
-        yield Answer(f"spin, {sense}", motion.evaluate("rate(theta)", t), "rad/s", spin(sense, L), CONSERVED, 1e-8)
+        yield Answer(f"{sense} time", t, "s", UNWOUND, CONSERVED, 1e-8)
+        yield Answer(f"{sense} spin", motion.evaluate("rate(theta)", t), "rad/s", spin(sense, L), CONSERVED, 1e-8)
         pull = motion.evaluate("p.tension", t)
-        yield Answer(f"tension, {sense}", pull, "N", tension(sense, L), CONSERVED, 1e-8, 1.0)
+        yield Answer(f"{sense} tension", pull, "N", tension(sense, L), CONSERVED, 1e-8, 1.0)
         after = run(case, sense, release=1).evaluate("rate(theta)", 1.5)
-        yield Answer(f"spin long after release, {sense}", after, "rad/s", spin(sense, L), CONSERVED, 1e-8)
+        yield Answer(f"{sense} spin long after release", after, "rad/s", spin(sense, L), CONSERVED, 1e-8)
 
 
-@ask("Swing about the attachment: spin over time, and when radial")
+@ask("While they swing about their attachments, what is the spin, and what when they are radial?")
 def swinging(case):
     for sense in SENSES:
         motion, tau = run(case, sense), to_radius(sense)
         times = np.array([0.1, 0.2, 0.4, 0.5])
         check = reference.motion(swing, start_of_swing(sense), times)[:, 2]
         value = motion.evaluate("rate(theta)", UNWOUND + times)
-        yield Answer(f"spin 0.1 … 0.5 s after unwinding, {sense}", value, "rad/s", check, SCIPY, OFF)
+        yield Answer(f"{sense} spin 0.1 … 0.5 s after unwinding", value, "rad/s", check, SCIPY, OFF)
         t = moment(motion, "radial")
-        yield Answer(f"time when radial, {sense}", t, "s", UNWOUND + tau, SCIPY, 1e-8)
-        yield Answer(f"spin when radial, {sense}", motion.evaluate("rate(theta)", t), "rad/s", radial(sense), CONSERVED, OFF)
+        yield Answer(f"{sense} time when radial", t, "s", UNWOUND + tau, SCIPY, 1e-8)
+        yield Answer(f"{sense} spin when radial", motion.evaluate("rate(theta)", t), "rad/s", radial(sense), CONSERVED, OFF)
         omega = radial(sense)
         turning = ((KAPPA * W - I / (2 * m) * omega) / (R + L) - R * omega) / L
         pull = m * (R * omega**2 + L * turning**2)
         value = motion.evaluate("p.tension", t)
-        yield Answer(f"tension when radial, {sense}", value, "N", pull, "closed form: acceleration towards the centre", OFF)
+        yield Answer(f"{sense} tension when radial", value, "N", pull, "closed form: acceleration towards the centre", OFF)
         after = run(case, sense, release=2).evaluate("rate(theta)", 1.5)
-        yield Answer(f"spin long after release, {sense}", after, "rad/s", radial(sense), CONSERVED, OFF)
+        yield Answer(f"{sense} spin long after release", after, "rad/s", radial(sense), CONSERVED, OFF)
 
 
-@ask("Never released: the strings wind on in the other sense")
+@ask("Never released, how do the strings wind on in the other sense?")
 def rewinding(case):
     for sense in SENSES:
         motion, tau = run(case, sense), to_radius(sense)
-        yield Answer(f"time of the first touch, {sense}", moment(motion, "winds on"), "s", UNWOUND + 2 * tau, SCIPY, 1e-8)
+        yield Answer(f"{sense} time of the first touch", moment(motion, "winds on"), "s", UNWOUND + 2 * tau, SCIPY, 1e-8)
         end = 2 * (UNWOUND + tau)
         times = np.array([1.4, 1.7, 1.9, 2.0])
         free = R * W * (end - times)
         value = motion.evaluate("sqrt(r^2 - R^2)", times)
-        yield Answer(f"free length at 1.4 … 2 s, {sense}", value, "m", free, "closed form: unwinding backwards", OFF)
+        yield Answer(f"{sense} free length at 1.4 … 2 s", value, "m", free, "closed form: unwinding backwards", OFF)
         value = motion.evaluate("rate(theta)", times)
-        yield Answer(f"spin at 1.4 … 2 s, {sense}", value, "rad/s", [spin(sense, x) for x in free], CONSERVED, OFF)
+        yield Answer(f"{sense} spin at 1.4 … 2 s", value, "rad/s", [spin(sense, x) for x in free], CONSERVED, OFF)
         back = 2.0 + motion.evaluate("sqrt(r^2 - R^2)", 2.0) / (R * W)
-        yield Answer(f"when the particles are back on the rim, {sense}", back, "s", end, "closed form: unwinding backwards", OFF)
+        yield Answer(
+            f"{sense} when the particles are back on the rim",
+            back,
+            "s",
+            end,
+            "closed form: unwinding backwards",
+            OFF,
+        )
 
 
-@ask("Back on the rim: the strings now lie in the other sense, (a) goes on as (b) and (b) as (a)")
+@ask("And once the particles are back on the rim, the strings in the other sense: does (a) go on as (b) and (b) as (a)?")
 def again(case):
     """At the rim the particles are as they were at the start."""
     for sense, other in (("(a)", "(b)"), ("(b)", "(a)")):
@@ -153,34 +160,35 @@ def again(case):
         after = np.array([0.2, 0.4, 0.6, 0.74])
         value = motion.evaluate("rate(theta)", back + after)
         check = [spin(other, R * W * dt) for dt in after]
-        yield Answer(f"spin 0.2 … 0.74 s after, {sense}", value, "rad/s", check, CONSERVED, OFF)
+        yield Answer(f"{sense} spin 0.2 … 0.74 s after", value, "rad/s", check, CONSERVED, OFF)
         value = motion.evaluate("sqrt(r^2 - R^2)", back + after)
-        yield Answer(f"free length 0.2 … 0.74 s after, {sense}", value, "m", R * W * after, CONSERVED, OFF)
+        yield Answer(f"{sense} free length 0.2 … 0.74 s after", value, "m", R * W * after, CONSERVED, OFF)
         t = [event.t for event in motion.events if event.name == "radial"][1]
         value = motion.evaluate("rate(theta)", t)
-        yield Answer(f"spin when radial again, {sense}", value, "rad/s", radial(other), CONSERVED, OFF, W)
+        yield Answer(f"{sense} spin when radial again", value, "rad/s", radial(other), CONSERVED, OFF, W)
 
 
-@ask("Which lengths of strings leave no spin, from 0.5 to 8 m: found")
+@ask("Which lengths of strings, from 0.5 to 8 m, leave no spin?")
 def none(case):
     """Tangential: ℓ² = κ; radial: (R + L)² = κ; in (a) none."""
-    for how, length in (("unwound", np.sqrt(KAPPA)), ("radial", np.sqrt(KAPPA) - R)):
-        for sense, file in (("(a)", "with_spin.yaml"), ("(b)", "model.yaml")):
-            bounds, words = (0.5, 8.0), {"until": 4.0, "points": 9, "rtol": 1e-12}
-            found = case.mechanism(file).find(f"rate(theta) @ {how}", 0.0, vary="L", within=bounds, **words)
-            of = f"released {'when tangential' if how == 'unwound' else 'when radial'}, {sense}"
-            check = [length] if sense == "(b)" else []
-            yield Answer(f"how many, {of}", len(found.values), "", len(check), CONSERVED, 1e-15)
-            if check:
-                yield Answer(f"L, {of}", found.values, "m", check, CONSERVED, OFF)
+    bounds, words = (0.5, 8.0), {"until": 4.0, "points": 9, "rtol": 1e-12}
+    for sense, file in (("(a)", "with_spin.yaml"), ("(b)", "model.yaml")):
+        for how, event, length in (("tangential", "unwound", np.sqrt(KAPPA)), ("radial", "radial", np.sqrt(KAPPA) - R)):
+            found = case.mechanism(file).find(f"rate(theta) @ {event}", 0.0, vary="L", within=bounds, **words)
+            if sense == "(a)":
+                says = f"(a) Released when {how}: {len(found.values) or 'none'}."
+                yield Answer("how many", len(found.values), "", 0, CONSERVED, 0.0, 1.0, says=says)
+            else:
+                says = f"(b) Released when {how}: only {{}}."
+                yield Answer("L", found.values, "m", [length], CONSERVED, OFF, says=says)
 
 
-@ask("Long strings: the spin that is left as L → ∞")
+@ask("What spin is left as L → ∞?")
 def long(case):
     for sense, sigma in SENSES.items():
         file = "with_spin.yaml" if sense == "(a)" else "model.yaml"
         for how, release, check in (("tangential", 1, sigma * W), ("radial", 2, sigma * W * np.sqrt(1 + 2 * m * R**2 / I))):
-            found = case.mechanism(file).limit(
-                "rate(theta) @ end", vary="L", begin=8.0, release=release, until=1100.0, rtol=1e-12
-            )
-            yield Answer(f"spin after a {how} release, {sense}: {found.tail}", found.value, "rad/s", check, CONSERVED, 1e-6)
+            words = {"begin": 8.0, "release": release, "until": 1100.0, "rtol": 1e-12}
+            found = case.mechanism(file).limit("rate(theta) @ end", vary="L", **words)
+            says = f"{sense} Released when {how}: {{}}; {found.tail}."
+            yield Answer("spin", found.value, "rad/s", check, CONSERVED, 1e-6, says=says)
