@@ -25,6 +25,13 @@ report:
 AMPLITUDE, PHASE = float(np.hypot(0.3, 0.75)), float(np.arctan2(0.75, 0.3))
 """s = A cos(2 t − φ); h = 3 t − t²."""
 
+MEANS = """
+report:
+  mean: mean of s over 2 s .. 5 s
+  rms: {rms: s, over: [2 s, 5 s]}
+  sum: integral of s over 2 s .. 5 s
+"""
+
 CRANK_ROCKER = """
 freebody: 1
 parameters: {a: 0.1 m, b: 0.25 m, c: 0.3 m, d: 0.35 m}
@@ -41,6 +48,17 @@ initial: {phi: 0.5, guess: {beta: 0.9, psi: 1.9}}
 run: {until: 4}
 report: {most: max of psi, least: min of psi}
 """
+
+
+def test_means_over_a_window():
+    """s = A cos τ with τ = 2 t − φ: ∫ s dt = A/2 sin τ, ∫ s² dt = A² (τ/2 + sin 2τ/4)/2."""
+    found = fb.Mechanism.loads(OSCILLATOR[: OSCILLATOR.index("report:")] + MEANS).simulate(rtol=1e-12).report
+    first, last = 2 * 2 - PHASE, 2 * 5 - PHASE
+    area = AMPLITUDE / 2 * (np.sin(last) - np.sin(first))
+    squares = AMPLITUDE**2 / 2 * ((last - first) / 2 + (np.sin(2 * last) - np.sin(2 * first)) / 4)
+    assert [found[name].value for name in ("mean", "rms", "sum")] == pytest.approx(
+        [area / 3, np.sqrt(squares / 3), area], abs=1e-11
+    )
 
 
 @pytest.mark.parametrize("rtol", [1e-9, 1e-12])

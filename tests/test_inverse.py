@@ -168,6 +168,18 @@ def test_a_pendulum_that_turns_steadily():
     assert found.run.unit_of("hypot(pin.Fx, pin.Fy)") == "N" and found.run.unit_of("pin.Fx*sin(a)/2") == "N"
 
 
+def test_a_pendulum_that_speeds_up_shakes_its_ground_by_its_motor():
+    """T = (m l²/3) α + m g l/2 cos a by the motor, whose couple on the ground is the whole moment there about the pin."""
+    model = fb.Mechanism("pendulum")
+    model.rod("bar", length=0.6, mass=2)
+    model.hinge("ground.O", "bar.start", coordinate="a")
+    found = model.inverse({"a": "1.5*t^2"}, until=1)
+    t = np.linspace(0.1, 0.9, 5)
+    torque = 2 * 0.6**2 / 3 * 3 + 2 * 9.81 * 0.3 * np.cos(1.5 * t**2)
+    assert found.evaluate("'motion of a'.force", t) == pytest.approx(torque, rel=1e-10)
+    assert found.values(list(found.shaking), t)[:, 2] == pytest.approx(-torque, rel=1e-10)
+
+
 @pytest.mark.parametrize("law", ["max(0, t)", "if(t < 0, 0, t)", "abs(t)", "min(t, 9)"])
 def test_a_law_that_switches_just_at_the_start_is_on_the_side_to_which_it_goes(law):
     model = fb.Mechanism("pendulum", gravity="none")

@@ -70,6 +70,7 @@ def test_bounces_without_end_end():
     (rest,) = changes(run, "rest")
     assert rest.t == pytest.approx(fall * (1 + e) / (1 - e), abs=1e-9)
     assert len(changes(run)) <= 200
+    assert rest.lost > 0 and run.energy["impacts"][-1] == pytest.approx(-sum(change.lost for change in changes(run)), rel=1e-13)
     after = run.motion.sample(np.linspace(rest.t, 5, 50))
     assert np.abs(after[0]).max() < 1e-15 and (after[1] == 0).all()
     assert run.evaluate("floor.N", 4.0) == pytest.approx(G, rel=1e-14)

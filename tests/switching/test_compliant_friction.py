@@ -108,6 +108,28 @@ TUMBLING = SLOPE.replace(
 )
 
 
+def test_a_ball_on_spring_and_damper_leaves_where_they_cease_to_push():
+    """m ÿ = −k y − c ẏ from y = 0, ẏ = −v without gravity: y = −(v/ω) e^(−δ t) sin ω t; it leaves where k y + c ẏ = 0."""
+    m, k, c, v = 0.5, 200.0, 3.0, 2.0
+    text = f"""
+gravity: none
+bodies: {{ball: {{shape: particle, mass: {m}}}}}
+ground: {{lines: {{floor: {{through: O, angle: 0}}}}}}
+contacts: {{floor: {{of: [ball, ground.floor], stiffness: {k}, damping: {c}}}}}
+initial: {{ball.x: 0, ball.y: 1, rates: {{ball.y: {-v}}}}}
+"""
+    run, delta = model(text).simulate(until=1.5, rtol=1e-12), c / (2 * m)
+    omega = np.sqrt(k / m - delta**2)
+    t = np.linspace(0.01, 0.1, 7)
+    y = -v / omega * np.exp(-delta * t) * np.sin(omega * t)
+    rate = -v * np.exp(-delta * t) * (np.cos(omega * t) - delta / omega * np.sin(omega * t))
+    assert run.evaluate("ball.y", 0.5 + t) == pytest.approx(y, abs=1e-10)
+    assert run.evaluate("floor.N", 0.5 + t) == pytest.approx(-k * y - c * rate, abs=1e-7)
+    leaves = (np.pi - np.arctan2(2 * omega * delta, omega**2 - delta**2)) / omega  # tan ω t = 2 ω δ/(δ² − ω²)
+    (lift,) = [change for change in changes(run) if change.kind == "lift-off"]
+    assert lift.t == pytest.approx(0.5 + leaves, abs=1e-9)
+
+
 def test_newtons_laws_hold_while_a_box_comes_to_rest_on_springs():
     # Of a motion with twenty stiff contacts the ledger leaves some 1.5 times the tolerance.
     run = motion(TUMBLING, 2.0, {"rtol": 1e-10}, alpha=0.1)

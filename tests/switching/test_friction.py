@@ -45,6 +45,24 @@ def test_stick_and_slip_on_a_belt(v):
     assert np.abs(run.evaluate("grip.T", sliding)) == pytest.approx(0.2 * G, rel=1e-12)
 
 
+SLED = """
+bodies: {box: {shape: rectangle, width: 1 m, height: 0.5 m, mass: 2 kg}}
+ground: {lines: {floor: {through: O, angle: 0}}}
+contacts: {floor: {of: [box, ground.floor], friction: 0.3}}
+initial: {box.x: 0.2, box.y: 0.25, box.angle: 0, rates: {box.x: SPEED}}
+"""
+
+
+@pytest.mark.parametrize("speed", [3.0, -3.0])
+def test_a_box_that_slides_is_borne_ahead_of_its_centre(speed):
+    """T is along the normal turned clockwise, x here, and so −μ N sgn v; its moment μ N h/2 is that of N, μ h/2 ahead of the centre."""
+    mechanism, ahead = model(SLED.replace("SPEED", str(speed))), math.copysign(1, speed)
+    texts = ["floor.N", "floor.T", "floor.Fx", "floor.Fy", "floor.x", "floor.y", "floor.slip"]
+    weight = 2 * G
+    expected = [weight, -0.3 * weight * ahead, -0.3 * weight * ahead, weight, 0.2 + 0.3 * 0.25 * ahead, 0, speed]
+    assert mechanism.source().evaluate(texts, mechanism.solve().state) == pytest.approx(np.array(expected), abs=1e-12)
+
+
 def test_a_belt_does_the_work_that_friction_takes():
     """Over a period the block's energy is as before: the drive gives what friction loses, μ m g times the way slid."""
     omega, a, v = 10.0, 0.2 * G / 100, 0.1

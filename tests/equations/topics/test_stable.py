@@ -9,7 +9,10 @@ import pytest
 from models import SYSTEMS
 
 import freebody as fb
+from freebody.equations.stability import stability
 from freebody.equations.topics import topic
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.tree import ZERO, Sym
 
 CART = """
 freebody: 1
@@ -153,3 +156,22 @@ def test_a_hand_that_follows_a_law_is_part_of_what_is_left() -> None:
     for root in roots:
         assert f"{abs(root.imag):.5g} i 1/s" in stated, (root, stated[-300:])
     assert "the law of hold last" in stated
+
+
+@pytest.mark.parametrize(("order", "even"), [(1, False), (2, False), (3, False), (4, False), (2, True), (4, True)])
+def test_conditions_hold_just_where_all_roots_do(order: int, even: bool) -> None:
+    """Of polynomials with drawn roots: all to the left; of those with even powers alone all imaginary and apart."""
+    names, rng, seen = [Sym(f"a{i}") for i in range(order, -1, -1)], np.random.default_rng(order), set()
+    told = stability([ZERO if even and i % 2 else name for i, name in enumerate(names)], positive=[names[0].name])
+    for _ in range(200):
+        squares = rng.uniform(-3, 1, order // 2) if even else []
+        pairs = [complex(*rng.uniform(-2, 0.5, 2)) for _ in range(order // 2)]
+        real = rng.uniform(-2, 0.5, order % 2 if rng.random() < 0.7 else order)
+        roots = [*np.concatenate([x for p in pairs for x in ([p], [p.conjugate()])] or [[]]), *real][-order:]
+        roots = [root for x in squares for root in (np.sqrt(x + 0j), -np.sqrt(x + 0j))] if even else roots
+        polynomial = rng.uniform(0.5, 2) * np.poly(roots).real
+        values = dict(zip(names, polynomial.tolist(), strict=True))
+        holds = bool((np.roots(polynomial).real < 0).all()) if not even else bool((np.array(squares) < 0).all())
+        seen.add(holds)
+        assert all(evaluate(each, values) > 0 for each in told.conditions) == holds, (polynomial, told)
+    assert seen == {True, False}
