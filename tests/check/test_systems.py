@@ -21,7 +21,8 @@ FILES = {path.parent.name: path for path in sorted(FOLDER.glob("*/statements.yam
 STATED = {
     "BLOCK": 8, "ARM": 5, "WEDGE": 11, "GUN": 9, "SLOPE": 6, "MOTOR": 4, "WHEEL": 4, "BAR": 14, "CART": 1, "LEGS": 1, "GEN": 2,
 }  # fmt: skip
-"""How many statements there are of each kind; one that says several things has several entries, `BLOCK-8a`, `BLOCK-8b`."""
+"""How many printed statements there are of each kind; one that says several things has several entries, `BLOCK-8a`, `BLOCK-8b`. All
+others are what a solution would claim."""
 
 
 @cache
@@ -48,7 +49,8 @@ def test_what_is_wrong_is_mended_or_shown(system: str) -> None:
 
 
 def test_no_statement_is_left_out() -> None:
-    stated = {re.sub("[a-z]$", "", statement.id) for path in FILES.values() for statement in read(path).statements}
+    names = [statement.id for path in FILES.values() for statement in read(path).statements]
+    stated = {re.sub("[a-z]$", "", name) for name in names if name.partition("-")[0] in STATED}
     assert stated == {f"{kind}-{number}" for kind, count in STATED.items() for number in range(1, count + 1)}
 
 

@@ -112,6 +112,26 @@ def follows(case):
         yield Answer(f"least tension, x_s = {of}", least, "N", exact.least_tension(5), "quadrature", 1e-8)
 
 
+@ask("By what factor does the spin grow in a turn, and by how much for a small stroke?")
+def factor(case):
+    """The return map from one turn to the next: it has one slope for every spin."""
+    for of, (p, q) in LAWS.items():
+        turning = case.mechanism(bs=p, bc=q).periodic({"omega0": "rate(theta)"}, section="turn")
+        slopes = [turning.step({"omega0": spin}).slopes.item() for spin in (1.0, W)]
+        yield Answer(
+            "factor a turn from 1 rad/s and from 2π rad/s",
+            slopes,
+            "",
+            [exp(Pumped(p, q).gain)] * 2,
+            "quadrature",
+            1e-9,
+            variant=f"x_s = {of}",
+        )
+    limit = case.mechanism().limit("ln(rate(theta)/omega0)/(5*bs) @ last", vary="bs", begin=-0.1, towards=0)
+    says = "For a small stroke x_s = p sin θ the logarithm of the spin grows by {} × p in a turn: p < 0 speeds the mass up."
+    yield Answer("growth", limit.value, "1/m", -pi / L, "closed form: −π/ℓ", 1e-7, says=says)
+
+
 def swept(length, alpha, b=0.2):
     def rates(t, s):
         phase, speed = W * t + alpha * t**2 / 2, W + alpha * t

@@ -12,6 +12,8 @@ floor; held, the floor would pull. No motion is possible; a foot with friction s
 """
 
 import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq, minimize_scalar
 
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import event, motion
@@ -137,6 +139,27 @@ def pushed(case):
         yield Answer(f"{text} until 0.9 s", run.evaluate(text, TIMES), "rad", check[:, i], SCIPY, 1e-9)
     for i, text in enumerate(("foot.T", "foot.N")):
         yield Answer(f"{text} until 0.9 s", run.evaluate(text, TIMES), "N", [legs.foot(y)[i] for y in check], SCIPY, 1e-9)
+
+
+@ask("From which starts is the foot pressed on the floor for a whole second?")
+def every_start(case):
+    """The hinged foot's least push, by the rate that the stance leg starts with; the floor has to pull in all other motions."""
+    found = case.mechanism().find("min of foot.Fy over 0 s .. 1 s", 0, vary="rate(theta1)", within=(-4, 3), until=1, rtol=1e-11)
+    check = [brentq(least_push, root - 0.05, root + 0.05, xtol=1e-12) for root in found.values]
+    says = "From rates of the stance leg of {} it just is, between them all the time, from others the floor would have to pull."
+    yield Answer("θ̇1", found.values, "rad/s", check, SCIPY, 1e-7, says=says)
+
+
+def least_push(rate):
+    legs = Legs()
+    solution = solve_ivp(
+        legs.rates, (0, 1), [*START[:2], rate, START[3]], method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True
+    )
+    times = np.linspace(0, 1, 401)
+    pushes = [legs.foot(solution.sol(t))[1] for t in times]
+    i = int(np.argmin(pushes))
+    near = (times[max(i - 1, 0)], times[min(i + 1, 400)])
+    return minimize_scalar(lambda t: legs.foot(solution.sol(t))[1], bounds=near, method="bounded", options={"xatol": 1e-10}).fun
 
 
 def released(legs, y):

@@ -138,3 +138,25 @@ def knife(case):
     for a in (0.001, 0.01):
         moduli = abs(standing.find(a=a).multipliers)
         yield Answer(f"moduli of the multipliers, a = {a}", moduli, "", [1.0, 1.0], "closed form: a₀ < A = 0 < b₁", 1e-9)
+
+
+@ask("(h) And on a rough table, the knife on five points?")
+def rough_table(case):
+    """The points slide mostly along the knife, so that what is left of friction across it brakes the swing as a damper would."""
+    a, omega, mu, times = 0.03, 80.0, 0.2, [0.25, 0.5, 0.75, 1.0]
+
+    def rates(t, s):
+        moment = 0.0
+        for at in (0.25, 0.5, 0.75, 1.0):
+            across, along = at * s[1], a * omega * cos(omega * t) * cos(s[0])
+            slip = -a * omega * cos(omega * t) * sin(s[0])
+            moment -= at * mu * G / 5 * (across + slip) / np.hypot(across + slip, along)
+        return s[1], -1.5 * a * omega**2 * sin(omega * t) * sin(s[0]) + 3 * moment
+
+    check = motion(rates, [0.1, 0.0], times)
+    run = case.run("table.yaml")
+    yield Answer("θ at 0.25, 0.5, 0.75, 1 s", run.evaluate("theta", times), "rad", check[:, 0], SCIPY, 1e-7)
+    ends = np.linspace(0.9, 1.0, 201)
+    swing = [np.abs(run.evaluate("theta", ends)).max(), np.abs(motion(rates, [0.1, 0.0], ends)[:, 0]).max()]
+    says = "Friction does not make it fall: it still stands, and of its swing of 0.1 rad {} are left after a second."
+    yield Answer("swing", swing[0], "rad", swing[1], SCIPY, 1e-6, 0.1, says=says)

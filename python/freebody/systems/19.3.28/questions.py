@@ -13,6 +13,7 @@ import numpy as np
 
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
+from freebody.stability.state_space import state_space
 
 M, L, G = 1.0, 1.0, 9.81
 LETTERS = "closed form: −3g/2ℓ, mg/4, 5mg/4"
@@ -97,3 +98,26 @@ def other_reading(case):
     now, check = case.instant(**state), solve(pi / 2, pi, 0.0, 0.0)
     yield Answer("φ̈₁, φ̈₂", [now["accel(phi1)"], now["accel(phi2)"]], "rad/s²", check[:2], LETTERS, 1e-13)
     yield Answer("elbow on bar 2", [now["elbow.Fx"], now["elbow.Fy"]], "N", check[2:], "other route: balances by hand", 1e-12)
+
+
+@ask("How does it move from that start, and what are its linear equations there?")
+def from_the_other(case):
+    """The elbow falls faster than freely, so that bar 2 hangs upward: no small turn of it grows at first."""
+    run, times = case.run(initial={"phi1": "90 deg", "phi2": "180 deg", "at_rest": True}), [0.5, 1.0, 2.0, 3.0]
+    check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), [pi / 2, pi, 0.0, 0.0], times)
+    against = "other route: balances by hand, SciPy"
+    for i, text in enumerate(("phi1", "phi2")):
+        digits = run.digits(text, [3.0])[0]
+        label = f"{text} at 0.5, 1, 2, 3 s, of which {digits:.0f} digits hold"
+        yield Answer(label, run.evaluate(text, times), "rad", check[:, i], against, 1e-7)
+    found = state_space(case.mechanism().source(), run.motion.state(0.0)).a
+    step = 1e-5
+    slopes = np.zeros((4, 4))
+    slopes[:2, 2:] = np.eye(2)
+    start = np.array([pi / 2, pi, 0.0, 0.0])
+    for i, each in enumerate(np.eye(4)):
+        near = [solve(*(start + n * step * each))[:2] for n in (-2, -1, 1, 2)]
+        slopes[2:, i] = (near[0] - 8 * near[1] + 8 * near[2] - near[3]) / (12 * step)
+    value, check = (matrix[2:, :2].ravel() for matrix in (found, slopes))
+    label = "derivatives of φ̈₁, then φ̈₂, by φ₁ and φ₂ at the start"
+    yield Answer(label, value, "1/s²", check, "other route: differences of the balances by hand", 1e-7)

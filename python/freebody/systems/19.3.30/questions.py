@@ -24,6 +24,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from freebody import MotionError
 from freebody.catalogue import Answer, ask
+from freebody.catalogue.answers import formula
 
 M, I, R, G = 1.0, 0.5, 1.0, 9.81
 J = I + M * R**2
@@ -94,13 +95,6 @@ def steady(case, w, file="model.yaml", **parameters):
     section = "hit" if file == "hinged.yaml" else "foot"
     rolling = case.mechanism(file, **parameters).periodic({"omega": "-rate(wheel.angle)"}, section=section, horizon=3)
     return rolling.find({"omega": w})
-
-
-def over_the_top(found):
-    """The square of the least rate in a step that repeats itself."""
-    run = found.returned.run
-    least = minimize_scalar(lambda t: run.evaluate("rate(wheel.angle)^2", t), bounds=(0, found.period), options={"xatol": 1e-9})
-    return least.fun
 
 
 @ask("In symbols: a step of a hinged tip")
@@ -177,6 +171,18 @@ def slope(case):
             yield Answer(f"times, {of}", [c.t for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
 
 
+@ask("(c), (d) What is ω after the next collision, in letters, and which ω comes back?")
+def in_letters(case):
+    hinged = case.mechanism("hinged.yaml").periodic({"omega": "-rate(wheel.angle)"}, section="hit", horizon=3)
+    found, against = hinged.symbolic(), "closed form: moments about the new tip, energy in between"
+    eta = "(I + m*R^2*cos(2*pi/k))/(I + m*R^2)"
+    feed = f"({eta})^2*4*m*g*R*sin(pi/k)*sin(slope)/(I + m*R^2)"
+    yield formula("η = ω+/ω−", found.factor, eta, against)
+    yield formula("(next ω+)² − η²(ω+)²", found.feed, feed, against)
+    yield formula("(ω+)² that comes back", found.fixed, f"{feed}/(1 - ({eta})^2)", against)
+    yield formula("its multiplier", found.multiplier, f"({eta})^2", against)
+
+
 @ask("(e) Steady speed: reached from a push just past the first spoke, and found as the fixed point of the program's own map")
 def gait(case):
     for degrees in (5, 10):
@@ -211,26 +217,50 @@ def least_slope(k):
     return brentq(lambda degrees: Steps(k, degrees).steady - Steps(k, degrees).vault, 0.1, 180 / k, xtol=1e-12)
 
 
-@ask("(e) Any number of spokes: least slope for a steady speed; its multiplier and period a little above")
+@ask("(e) What is the least slope for a steady speed with any number of spokes, and what the steady speed a little above it?")
 def any_number(case):
-    """Nearer and nearer to the least slope the gait all but stops over the tip: where the square of its rate there, extrapolated by a
-    polynomial through six gaits, falls to 0."""
-    for k in range(4, 17):
-        file, bound = {"file": "hinged.yaml", "k": k, "n": 1}, least_slope(k)
-        slopes = [bound * factor for factor in (1.05, 1.1, 1.15, 1.2, 1.25, 1.3)]
-        gaits = [steady(case, 1.02 * Steps(k, d).steady, slope=f"{d!r} deg", **file) for d in slopes]
-        found = lagrange_at_0([over_the_top(gait) for gait in gaits], slopes)
-        yield Answer(f"least slope, k = {k}", found, "°", bound, "closed form: ω* just carries the centre over the tip", 1e-4)
-        steps, gait = Steps(k, slopes[-1]), gaits[-1]
-        of = f"k = {k}, {slopes[-1]:.3f}°"
-        yield Answer(f"ω+, {of}", gait.values["omega"], "rad/s", steps.steady, "closed form: fixed point", 1e-11)
-        yield Answer(f"multiplier, {of}", abs(gait.multipliers), "", [steps.eta**2], "closed form: η²", 1e-10)
-        yield Answer(f"time of a step, {of}", gait.period, "s", steps.time(steps.steady), "quadrature", 1e-10)
+    """On the least slope a wheel that comes from rest over one tip comes to rest over the next. Three spokes with this inertia have
+    η = 0: they stop at every collision."""
+    rest_over_the_next = "kinetic() - m*g*(y(ground.P[1]) + R - y(wheel.origin)) @ hit[1]"
+    from_rest = {"pin[0].angle": 0, "rates": {"pin[0].angle": -1e-7}}
+    for k in range(3, 17):
+        of, bound = f"k = {k}", least_slope(k) if k > 3 else 60.0
+        hinged = case.mechanism("hinged.yaml", k=k, n=1)
+        within = ("50 deg", "70 deg") if k == 3 else ("0.1 deg", f"{180 / k} deg")
+        found = hinged.find(rest_over_the_next, 0, vary="slope", within=within, points=4, initial=from_rest, until=20, rtol=1e-12)
+        against = "closed form: ω* just carries the centre over the tip"
+        tolerance = 1e-7 if k == 3 else 1e-9  # three spokes only touch it
+        yield Answer("least slope", np.degrees(found.values), "°", bound, against, tolerance, variant=of)
+        if k > 3:
+            degrees = 1.3 * bound
+            steps, gait = (
+                Steps(k, degrees),
+                steady(case, 1.02 * Steps(k, degrees).steady, "hinged.yaml", k=k, n=1, slope=f"{degrees!r} deg"),
+            )
+            above = f"{of}, {degrees:.3f}°"
+            yield Answer("ω+", gait.values["omega"], "rad/s", steps.steady, "closed form: fixed point", 1e-11, variant=above)
+            yield Answer("multiplier", abs(gait.multipliers), "", [steps.eta**2], "closed form: η²", 1e-10, variant=above)
+            yield Answer("time of a step", gait.period, "s", steps.time(steps.steady), "quadrature", 1e-10, variant=above)
 
 
-def lagrange_at_0(x, y):
-    """The polynomial through all points, read at 0."""
-    return float(sum(b * np.prod([c / (c - a) for c in x if c != a]) for a, b in zip(x, y, strict=True)))
+@ask("(e) What becomes of every start, k = 8 on 10°, the tips hinged?")
+def every_start(case):
+    """Too slow for the top it falls back; every other comes nearer to the one speed that repeats itself, by η² a step."""
+    steps, hinged = Steps(8, 10), case.mechanism("hinged.yaml", n=1, slope="10 deg")
+    over = hinged.find("kinetic() - m*g*(R - y(wheel.origin)) @ start", 0, vary="omega", within=(0, 6)).values
+    says = "Slower than {} it falls back on the tip behind, and rocks to rest."
+    yield Answer("vaults", over, "rad/s", [steps.vault], "closed form: energy of rest over the tip", 1e-10, says=says)
+    rolling = hinged.periodic({"omega": "-rate(wheel.angle)"}, section="hit", horizon=10)
+    gaits = rolling.find_all({"omega": (1.001 * over[0], 6)})
+    says = "Of all up to 6 rad/s only {} repeats itself."
+    spins = [gait.values["omega"] for gait in gaits]
+    yield Answer("steady", spins, "rad/s", [steps.steady], "closed form: fixed point", 1e-11, says=says)
+    starts = np.linspace(1.001 * over[0], 6, 12)
+    slopes = [rolling.step({"omega": w}).slopes.item() for w in starts]
+    check = [steps.eta**2 * w / steps.after(w) for w in starts]
+    says = "Everywhere a difference becomes smaller in a step, by factors from {} to {}: all come to it."
+    ends = [min(slopes), max(slopes)]
+    yield Answer("slope of the map", ends, "", [min(check), max(check)], "closed form: derivative of the map", 1e-9, says=says)
 
 
 @ask("(e) Which of these a foot that can only push and never slides can walk")

@@ -76,8 +76,9 @@ class HalfCar:
     m, inertia, m_w, J, R, k_t = 1200.0, 1800.0, 80.0, 1.2, 0.3, 360e3
     ahead, k, c = (1.2, -1.4), (40e3, 36e3), (3e3, 2.8e3)
 
-    def __init__(self, relaxed=(0.5, 0.5)):
-        self.relaxed = relaxed
+    def __init__(self, relaxed=(0.5, 0.5), only_pushes=False):
+        self.relaxed, self.only_pushes = relaxed, only_pushes
+        self.J = 0.0 if only_pushes else HalfCar.J  # smooth tyres do not turn the wheels
 
     def wheel(self, q, i):
         """X, Y of a wheel, their rows of derivatives, and Y″."""
@@ -96,6 +97,7 @@ class HalfCar:
         for i in range(2):
             _, height, x, y, curved = self.wheel(q, i)
             press = self.k_t * (height - self.R - road[i])
+            press = min(press, 0.0) if self.only_pushes else press
             mass = mass + (self.m_w + self.J / self.R**2) * np.outer(x, x) + self.m_w * np.outer(y, y)
             stiffness = stiffness + self.k_t * np.outer(y, y) + (self.m_w * G + press) * curved
             force = force - (self.m_w * G + press) * y
@@ -142,8 +144,9 @@ class HalfCar:
         return np.linalg.solve(np.column_stack([mass[:, 1:], torque]), right)
 
 
+NEAR = "G 0.5 m over the wheels' centres with relaxed springs"
 READINGS = {
-    "G 0.5 m over the wheels' centres with relaxed springs": HalfCar((0.5, 0.5)),
+    NEAR: HalfCar((0.5, 0.5)),
     "G there as the car stands": HalfCar((0.5 + 1200 * G * 1.4 / 2.6 / 40e3, 0.5 + 1200 * G * 1.2 / 2.6 / 36e3)),
 }
 
@@ -250,6 +253,33 @@ def one_sided(case):
     yield Answer("greatest height of the wheel", run.report["greatest height of the wheel"].value, "m", top, SCIPY, 1e-9)
     check = motion(rates, STANDING, SAMPLES, kink=lambda t, y: y[0] - 0.15)
     yield Answer("height of the body", run.evaluate("z", SAMPLES), "m", check[:, 1], SCIPY, 1e-8)
+
+
+@ask("The half car on one-sided tyres over a step of 0.15 m at 10 m/s: which wheel lifts off, and when?")
+def half_one_sided(case):
+    """Coasting on smooth tyres, from where it stands."""
+    start, times = standing(case, READINGS[NEAR]), [0.05, 0.2, 0.3, 0.5, 1.0, 2.0]
+    run = case.run("half_one_sided.yaml", initial={**start, "rates": {"x": "10 m/s", **dict.fromkeys(PLACES, 0)}})
+    car = HalfCar((0.5, 0.5), only_pushes=True)
+    rates, edges = car.rates(0.15)
+
+    def free(state, i):
+        """Height of a tyre, not pressed in, over the road."""
+        x, y = car.wheel(state[:5], i)[:2]
+        return y - car.R - (0.15 if x > 2.2 else 0.0)
+
+    def kink(t, state):
+        return edges(t, state) * free(state, 0) * free(state, 1)
+
+    begin = [*car.rest(), 10, 0, 0, 0, 0]
+    check = motion(rates, begin, times, kink=kink)
+    for i, (name, unit) in enumerate(zip(PLACES, ("m", "rad", "m", "m"), strict=True), start=1):
+        yield Answer(f"{name} at 0.05 … 2 s", run.evaluate(name, times), unit, check[:, i], SCIPY, 1e-7)
+    for i, end in enumerate(("front", "rear")):
+        lifts = [c.t for c in run.changes if c.kind == "lift-off" and f"{end} tyre" in c.of]
+        left = [free(motion(rates, begin, [t], kink=kink)[0], i) for t in lifts]
+        says = f"The {end} wheel lifts off at {', '.join(f'{t:.6g} s' for t in lifts)}: its tyre is not pressed in then, to {{}}."
+        yield Answer(end, left, "m", 0.0, SCIPY, 1e-9, 0.15, says=says)
 
 
 @ask("Washing machine: peak through resonance")

@@ -5,6 +5,8 @@ angular momentum hold only T and the force at D: bars BC and DC about B, DC abou
 forces follow from linear momentum. See ``_linkages.py``.
 """
 
+from math import pi
+
 import numpy as np
 
 from freebody.catalogue import Answer, ask
@@ -99,6 +101,26 @@ def three_balances(case):
         value = np.linalg.solve(np.array(rows)[:, :3], -np.array(rows)[:, 3])
         torque, *_, at_d = bars.forces(hand)
         yield Answer(f"T, D_x, D_y, {name}", value, "N·m, N", [torque, at_d.real, at_d.imag], "closed form: by hand", 1e-11)
+
+
+@ask("Which torque, and which forces at the pins, does AB ask for over a whole turn?")
+def over_a_turn(case):
+    """Both assemblies at a steady speed, by inverse dynamics, beside bar by bar."""
+    for side, of in ((1, "C to the left"), (-1, "C to the right")):
+        found = case.mechanism("driven.yaml", side=side, theta0=0, w0=4).inverse(until=pi / 2)
+        times = np.linspace(0, pi / 2, 24, endpoint=False)
+        bars = by_hand(side)
+        known = [bars.forces(bars.motion(4 * t, 4, 0)) for t in times]
+        torque = [each[0] for each in known]
+        against = "closed form: balances, bar by bar"
+        yield Answer("T every 15°", found.evaluate("drive.force", times), "N·m", torque, against, 1e-11, variant=of)
+        for i, pin in enumerate("ABCD", 1):
+            value = np.concatenate([found.evaluate(f"{pin}.{part}", times) for part in ("Fx", "Fy")])
+            check = [each[i].real for each in known] + [each[i].imag for each in known]
+            yield Answer(f"force at {pin} every 15°, along x, then y", value, "N", check, against, 1e-11, variant=of)
+        work = found.work("drive")
+        label = "work over the turn"
+        yield Answer(label, work, "J", 0.0, "closed form: the kinetic energy comes back", 1e-9, scale=1.0, variant=of)
 
 
 @ask("symbolically:  the torque, with the ratios of rates k = dβ/dθ, dφ/dθ and c = β̈, φ̈ for θ̈ = 0")
