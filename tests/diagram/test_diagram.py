@@ -65,16 +65,16 @@ ON_A_DOME = """
 freebody: 1
 ground: {curves: {dome: {x: "2*cos(s)", y: "WAY*2*sin(s)"}}}
 bodies: {wheel: {shape: disk, radius: 0.3, mass: 1}}
-joints: {touch: {type: cam, along: ground.dome, follower: {centre: wheel.G, radius: 0.3}, coordinates: [s, phi]}}
+joints: {touch: {type: cam, along: ground.dome, follower: {centre: wheel.G, radius: 0.3}, right: RIGHT, coordinates: [s, phi]}}
 initial: {s: WAY*90 deg, phi: 0}
 """
 
 
-@pytest.mark.parametrize(("way", "side"), [("-1", 1), ("1", -1)])
-def test_a_follower_is_drawn_on_its_side_and_its_force_where_it_touches(way, side):
-    """On the left of its curve: outside of a dome that is gone over clockwise, below one that is gone over counter-clockwise. What is
-    hatched lies on the other side."""
-    [cut] = Mechanism.loads(ON_A_DOME.replace("WAY", way)).diagram().cuts
+@pytest.mark.parametrize(("way", "right", "side"), [("-1", "false", 1), ("1", "false", -1), ("1", "true", 1), ("-1", "true", -1)])
+def test_a_follower_is_drawn_on_its_side_and_its_force_where_it_touches(way, right, side):
+    """On the left of its curve: outside of a dome that is gone over clockwise, below one that is gone over counter-clockwise; on its
+    right the other way round. What is hatched lies on the other side."""
+    [cut] = Mechanism.loads(ON_A_DOME.replace("WAY", way).replace("RIGHT", right)).diagram().cuts
     panel = cut.panels[0]
     normal = next(mark for mark in cut.forces if mark.action.name == "touch")
     assert normal.at == pytest.approx(panel.scenery.scale * np.array([0, 2]), abs=1e-6)

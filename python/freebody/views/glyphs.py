@@ -125,7 +125,7 @@ def _curve(sketch: Sketch, name: str, fields: Fields) -> None:
         margin = 12 * sketch.size / max(float(np.hypot(*(near[1] - near[0]))) / 1e-4, 1e-9)
         points = points_of_curve(sketch, curve, np.linspace(start - margin, end + margin, 181))
         if "follower" in fields:
-            sketch.hatched(curve["body"], points)
+            sketch.hatched(curve["body"], points[::-1] if fields.get("right") else points)
         else:
             sketch.figures[curve["body"]].add(points, "rail", closed=False)
     if "follower" in fields:

@@ -27,14 +27,21 @@ impl Joint for CurvedSlot {
     }
 }
 
-/// A circle of the second body that touches a curve of the first, on the curve's left side.
+/// A circle of the second body that touches a curve of the first, on one side of it.
 pub struct Cam;
 
 impl Joint for Cam {
     fn card(&self) -> Card {
-        Card::new("cam", "A round follower of the second body stays on a curve of the first, on its left side.")
+        Card::new("cam", "A round follower of the second body stays on a curve of the first, on one side of it.")
             .needs("along", FieldKind::Curve, Role::First, "m", "the curve of the first body")
             .needs("follower", FieldKind::Circle, Role::Second, "m", "the circle of the second body")
+            .takes(
+                "right",
+                FieldKind::Flag,
+                "",
+                "false",
+                "whether it stays on the right of the curve as `s` grows, not on its left",
+            )
             .coordinate("s", "")
             .turn()
             .row(RowCard::of(LoadCard::force("normal force", "Fn", "N")))
@@ -42,7 +49,8 @@ impl Joint for Cam {
     }
     fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         let (at, slope) = n.curve?.at(q[0]);
-        let centre = at + slope.perp() * (n.of[0] / slope.norm());
+        let side = S::one() - n.of[1].scale(2.0);
+        let centre = at + slope.perp() * (side * n.of[0] / slope.norm());
         Some(Relative { x: centre.x, y: centre.y, angle: q[1] })
     }
 }

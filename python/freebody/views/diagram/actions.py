@@ -111,7 +111,8 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
             return next(sketch.place(point) for point in fields["of"] if sketch.at[point][0] == part.body)
         if "follower" in fields:
             centre, size = sketch.place(fields["follower"]["centre"]), np.hypot(*part.force)
-            away = np.array(part.force) / size if part.body == load.of[1] else -np.array(part.force) / size
+            left = np.array(part.force) / size if part.body == load.of[1] else -np.array(part.force) / size
+            away = -left if fields.get("right") else left
             return centre - sketch.number(fields["follower"]["radius"]) * away
     if load.kind in ("force", "motion", "lock") and not any(part.force):
         between = {j["name"] for j in sketch.metadata["joints"] if {j["first"], j["second"]} == set(load.of)}
