@@ -89,3 +89,14 @@ def test_it_is_a_column_of_the_motion_with_and_without_the_release(kind, tmp_pat
             assert accel == pytest.approx(np.full(len(run.t), acceleration), abs=1e-6)
         for ending in ("csv", "nc"):
             assert fb.Run.load(run.save(tmp_path / f"run.{ending}"))["rate(X)"] == pytest.approx(rate, nan_ok=True)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in RELEASES if kind.endswith("released")])
+def test_what_is_released_stands_in_no_answer(kind, tmp_path):
+    """Neither its coordinate nor its reaction, and the freedom that it took is counted."""
+    (tmp_path / "m.yaml").write_text(models(kind)[1].replace("until: 1 s", "until: 2 s"))
+    path = str(tmp_path / "m.yaml")
+    solved, equations = (CliRunner().invoke(app, [word, path, "--after", "let go"]).stdout for word in ("solve", "equations"))
+    data = json.loads(CliRunner().invoke(app, ["solve", path, "--after", "let go", "--json"]).stdout)
+    assert not {"X", "guide"} & {*data["state"], *data["accelerations"], *data["reactions"]} and "guide" not in solved
+    assert data["freedom"] == 5 and f"has {data['freedom']} degrees of freedom" in " ".join(equations.split())

@@ -17,6 +17,8 @@ pub fn solution<'py>(
     let loads = joints.iter().map(|&joint| &solved.joints[joint]);
     let least: Vec<f64> = loads.flat_map(|l| [l.force.x, l.force.y, l.couple]).collect();
     let determinate: Vec<bool> = joints.iter().flat_map(|&joint| solved.determinate[joint]).collect();
+    let missing = joints.iter().filter(|joint| !solved.joints_in_place.contains(joint));
+    let released: Vec<&str> = missing.map(|&joint| m.joints[joint].name.as_str()).collect();
     let joints = joints.len();
     let known = |(x, sure): (&f64, &bool)| if *sure { *x } else { f64::NAN };
     // Of locks only those in place.
@@ -35,6 +37,7 @@ pub fn solution<'py>(
     answer.set_item("reactions", array(py, least.iter().zip(&determinate).map(known).collect(), [joints, 3])?)?;
     answer.set_item("least_reactions", array(py, least, [joints, 3])?)?;
     answer.set_item("determinate", array(py, determinate, [joints, 3])?)?;
+    answer.set_item("released", released)?;
     answer.set_item("motions", drives(DriveKind::Motion)?)?;
     answer.set_item("couplings", drives(DriveKind::Coupling)?)?;
     answer.set_item("locks", drives(DriveKind::Lock)?)?;

@@ -182,7 +182,7 @@ def _tables(instant: Instant, joint_axes: bool) -> list[Table]:
     accelerations, reactions, *limits, _ = instant.tables()
     if joint_axes:
         rows: list[Row] = []
-        for each in (each for each in instant.reactions.values() if each.carries):
+        for each in (each for name, each in instant.reactions.items() if each.carries and name not in instant.absent):
             along, across, couple = _parts(each, True).values()
             rows.append((each.name, each.second, along, across, couple if each.has_couple else None))
         reactions = table("reactions in joint axes", ["joint", "on", "along [N]", "across [N]", "couple [N·m]"], rows)
@@ -203,12 +203,16 @@ def apart(a: Instant, b: Instant) -> float:
 
 def _instant_as_dict(instant: Instant, joint_axes: bool) -> dict[str, Any]:
     values, accelerations = ({name: pair[i] for name, pair in instant.dependent.items()} for i in (0, 1))
+
+    def present(values: Mapping[str, Any]) -> dict[str, Any]:
+        return {name: value for name, value in values.items() if name not in instant.absent}
+
     return {
         "route": instant.route,
         "assembly": list(instant.core.notes),
-        "state": dict(zip(instant.accelerations, instant.state.q.tolist(), strict=True)) | values,
-        "accelerations": instant.accelerations | accelerations,
-        "reactions": {r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()},
+        "state": present(dict(zip(instant.accelerations, instant.state.q.tolist(), strict=True)) | values),
+        "accelerations": present(instant.accelerations | accelerations),
+        "reactions": present({r.name: {"on": r.second, **_parts(r, joint_axes)} for r in instant.reactions.values()}),
         "limits": {name: asdict(limit) for name, limit in instant.limits.items()},
         "motions": instant.motions,
         "couplings": instant.couplings,

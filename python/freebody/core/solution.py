@@ -106,6 +106,8 @@ class Solution:
     """(nj, 3) the member of least norm, where reactions are indeterminate."""
     determinate: NDArray[np.bool_]
     """(nj, 3)"""
+    released: list[str]
+    """Names of the joints that are not in place."""
     motions: dict[str, float]
     """Force or torque of each prescribed motion by name; NaN where indeterminate."""
     couplings: dict[str, float]

@@ -145,6 +145,8 @@ class Instant:
         self.core = core
         self._metadata = core.metadata
         self._solved = solved = core.instant(state, route)
+        self.absent = {*solved.released, *(c["name"] for c in _named(core) if c["joint"] in solved.released)}
+        """Names of the joints that are not in place, and of their coordinates."""
         self.limits = solved.limits
         """What every contact, string and stop does, by name."""
         self.motions = solved.motions
@@ -260,7 +262,7 @@ class Instant:
         """Accelerations, reactions on both bodies, what contacts, strings, stops, motions, couplings and locks do, and residuals, for
         rich."""
         found = self.accelerations | {name: acceleration for name, (_, acceleration) in self.dependent.items()}
-        named = [*self._metadata["coordinates"], *self.core.dependent_coordinates]
+        named = [c for c in _named(self.core) if c["name"] not in self.absent]
         coordinates = [(c["name"], found[c["name"]], f"{c['dimension']}/s²") for c in named]
         locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
         drives = (
@@ -271,7 +273,7 @@ class Instant:
         left = [(body, *(f"{value:.1e}" for value in row)) for body, row in self.residuals.items()]
         return [
             table("accelerations", ["coordinate", "value", "unit"], coordinates),
-            rich_tables.of_reactions(self.reactions.values()),
+            rich_tables.of_reactions(each for name, each in self.reactions.items() if name not in self.absent),
             rich_tables.of_limits(self.limits.values()),
             rich_tables.of_forces(self.limits.values()),
             *(table(title, [kind, "force or torque"], forces.items()) for title, kind, forces in drives),
@@ -286,6 +288,11 @@ class Instant:
 
     def __str__(self) -> str:
         return rich_tables.captured(self, 100)
+
+
+def _named(core: CompiledModel) -> list[dict[str, Any]]:
+    """The coordinates of the tree, and those that the model names beside them."""
+    return [*core.metadata["coordinates"], *core.dependent_coordinates]
 
 
 def _gap(one: Array, other: Array, size: float) -> float:

@@ -29,6 +29,8 @@ pub struct Instant {
     pub drives: Vec<f64>,
     /// Whether those are determinate.
     pub drives_determinate: Vec<bool>,
+    /// The joints in place.
+    pub joints_in_place: Vec<usize>,
     /// The couplings, motions and locks in place.
     pub drives_in_place: Vec<usize>,
     /// What is left of the momentum balance of each body, N, N, N·m.
@@ -100,6 +102,7 @@ impl Workspace<'_> {
         let mut accelerations = vec![0.0; self.m.freedom()];
         self.accelerations(&mut accelerations);
         let (joints, drives) = (self.solved_view().joint_loads(), self.solved_view().drive_forces());
+        let joints_in_place = (0..self.m.joints.len()).filter(|&j| self.at().mode.has(self.m.part_of(j))).collect();
         let drives_in_place = self.at().drives().map(|(drive, _)| drive).collect();
         let (residuals, sizes) = (self.residuals(), self.term_scales());
         let length = self.length;
@@ -123,6 +126,7 @@ impl Workspace<'_> {
             determinate,
             drives,
             drives_determinate,
+            joints_in_place,
             drives_in_place,
             residuals,
             residual,

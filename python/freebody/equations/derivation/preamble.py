@@ -28,7 +28,8 @@ def configuration(subject: SymbolicState) -> list[Block]:
     if not subject.coordinates:
         return [*made, Paragraph("The mechanism cannot move: there are no coordinates.")]
     freedom, held = subject.source.metadata["freedom"], holding(subject.rows)
-    count, number = degrees(subject) if held else freedom["count"], len(subject.names)
+    changed = held or subject.state.history is not None  # what holds may be other than at the start
+    count, number = degrees(subject) if changed else freedom["count"], len(subject.names)
     said = f"While {held}, the" if held else "The"
     said += f" mechanism has {'one degree' if count == 1 else f'{count} degrees' if count else 'no degrees'} of freedom"
     said += f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
@@ -68,7 +69,8 @@ def _displacement(found: re.Match[str]) -> str:
 def degrees(subject: SymbolicState) -> int:
     """Degrees of freedom, prescribed ones among them, with what holds now."""
     names = subject.names
-    free = [row for row, stated in zip(subject.free.rows, subject.rows, strict=True) if stated.kind != "motion"]
+    closing = {row.name for row in subject.rows if row.kind != "motion"}
+    free = [row for row in subject.free.rows if row.name in closing]
     table = np.array([[row.coefficients[name] for name in names] for row in free]).reshape(len(free), len(names))
     return len(names) - int(np.linalg.matrix_rank(table, tol=DEPENDENT * np.abs(table).max(initial=1.0)))
 
