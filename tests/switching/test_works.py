@@ -41,6 +41,7 @@ FORCES = {
         "{along: box.y, value: 'if(box.y < 0.3, 0.3 - box.y, 0)*c', potential: 'if(box.y < 0.3, (0.3 - box.y)^2/2, 0)*c'}",
     ],
     "table_friction": ["{points: [box.A, box.B, box.C], friction: 0.1, load: c}"],
+    "plate_friction": ["{area: box, friction: 0.1, load: c}"],
 }
 
 

@@ -91,9 +91,10 @@ impl Workspace<'_> {
         self.n.values[self.m.unilateral[constraint].restitution]
     }
 
-    /// Power of all springs and dampers of unilateral constraints at the present state, W.
+    /// Power of all springs with dampers of unilateral constraints at the present state, W.
     pub fn compliant_power(&self) -> f64 {
         compliant_contacts(self.at())
+            .filter(|&l| !self.m.unilateral[l].is_conservative(self.m))
             .map(|l| compliant_force(self.at(), l) * gap_row(self.at(), l, None).rate.unwrap_or(0.0))
             .sum()
     }
@@ -105,6 +106,16 @@ pub fn compliant_force<S: Scalar>(at: StateView<'_, S>, constraint: usize) -> S 
     let row = gap_row(at, constraint, None);
     let (gap, rate) = (row.value.unwrap_or(S::zero()), row.rate.unwrap_or(S::zero()));
     -at.n.values[stiffness] * gap - at.n.values[damping] * rate
+}
+
+/// Potential energy of all unilateral constraints on a spring without a damper that are pressed, J.
+pub(super) fn compliant_potential<S: Scalar>(at: StateView<'_, S>) -> S {
+    let mut sum = S::zero();
+    for l in compliant_contacts(at).filter(|&l| at.m.unilateral[l].is_conservative(at.m)) {
+        let Some(([stiffness, _], gap)) = at.m.unilateral[l].soft.zip(gap_row(at, l, None).value) else { continue };
+        sum += (at.n.values[stiffness] * gap * gap).scale(0.5);
+    }
+    sum
 }
 
 fn compliant_contacts<S: Scalar>(at: StateView<'_, S>) -> impl Iterator<Item = usize> + '_ {

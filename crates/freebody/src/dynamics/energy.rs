@@ -1,5 +1,6 @@
 //! Energy and momentum of a state.
 
+use super::contact_forces::compliant_potential;
 use super::Workspace;
 use crate::kinematics::{State, StateView};
 use crate::mechanism::Part;
@@ -13,9 +14,9 @@ pub fn kinetic<S: Scalar>(at: StateView<'_, S>, body: usize) -> S {
     (at.n.mass[body] * v.dot(v) + at.n.inertia[body] * twist.w * twist.w).scale(0.5)
 }
 
-/// Potential energy of gravity (zero at the origin) and of the conservative forces in place, J.
+/// Potential energy of gravity (zero at the origin), and of conservative forces in place and contacts pressed, J.
 pub fn potential<S: Scalar>(at: StateView<'_, S>) -> S {
-    let (mut gravity, mut elastic) = (S::zero(), S::zero());
+    let (mut gravity, mut elastic) = (S::zero(), compliant_potential(at));
     for body in 1..at.m.bodies.len() {
         gravity += -at.n.mass[body] * at.n.gravity.dot(at.mass_centre(body));
     }

@@ -2,7 +2,7 @@
 
 use super::reactions::loaded;
 use super::{along_gauge, ground_takes, joint_place, part, Load, Origin, Part, Size};
-use crate::dynamics::{gap_row, joint_friction_row, slide_row, Row, Source};
+use crate::dynamics::{compliant_force, gap_row, joint_friction_row, slide_row, Row, Source};
 use crate::expr::spell;
 use crate::joints::{Joint as _, LoadCard};
 use crate::kinematics::{Poses, StateView};
@@ -42,7 +42,10 @@ fn push_contact<S: Scalar>(
     let normal = Row { force: None, ..gap_row(at, constraint, None) };
     let parts = parts_of_row(at, constraint, &normal);
     if mode == ContactMode::Compliant {
-        out.push(load(Origin::Compliant(constraint), card, parts, Size::ByLaw));
+        let force = compliant_force(at, constraint);
+        let acting =
+            parts.into_iter().map(|p| Part { force: p.force * force, couple: p.couple * force, ..p }).collect();
+        out.push(load(Origin::Compliant(constraint), card, acting, Size::Known));
         if let Some((origin, size)) =
             at.m.joint_friction_of(constraint).and_then(|friction| friction_load(at, friction))
         {

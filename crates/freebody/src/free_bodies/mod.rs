@@ -11,7 +11,7 @@ mod reactions;
 
 pub use numbers::free_bodies;
 
-use crate::dynamics::{joint_place, Source};
+use crate::dynamics::{compliant_force, joint_place, Source};
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::LoadCard;
 use crate::kinematics::{Poses, StateView};
@@ -49,6 +49,7 @@ impl Origin {
             Origin::Force(force, number) => {
                 m.forces[force].gauge_forces.get(number).is_some_and(|gauge_force| gauge_force.conservative)
             }
+            Origin::Compliant(constraint) => m.unilateral[constraint].is_conservative(m),
             _ => false,
         }
     }
@@ -133,7 +134,14 @@ pub fn relate_friction<S: Scalar>(at: StateView<'_, S>, loads: &mut [Load<S>], v
         if let Some(press) = loads.iter().position(presses) {
             let ContactMode::Slip(sense) = at.mode.joint_friction[friction] else { continue };
             let side = if values[press] < 0.0 { -sense } else { sense };
-            loads[i].size = Size::Follows(press, at.n.values[at.m.joint_friction[friction].kinetic].scale(-side));
+            let ratio = at.n.values[at.m.joint_friction[friction].kinetic].scale(-side);
+            loads[i].size = Size::Follows(
+                press,
+                match loads[press].origin {
+                    Origin::Compliant(constraint) => ratio * compliant_force(at, constraint),
+                    _ => ratio,
+                },
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The loads of a solved instant in numbers, as data for whoever draws or reasons.
 
 use super::{loads, relate_friction, Load, Origin, Part, Size};
-use crate::dynamics::{closing_rows, compliant_force, plate_load, Determinacy, DynamicsError, Source, Workspace};
+use crate::dynamics::{closing_rows, plate_load, Determinacy, DynamicsError, Source, Workspace};
 use crate::joints::Joint as _;
 use crate::mechanism::Mechanism;
 use crate::plane::{Twist, Vec2};
@@ -164,10 +164,10 @@ impl<'l> LoadValues<'l> {
         let group = |constraint: usize| m.unilateral[constraint].group;
         if let Size::Follows(of, ratio) = load.size {
             let (normal, sure) = self.of_load(b, &all[of], all);
-            return (normal.map(|n| n * ratio), sure);
+            return (Some(normal.unwrap_or(1.0) * ratio), sure);
         }
         match load.origin {
-            Origin::Weight(_) | Origin::Force(..) => (None, true),
+            Origin::Weight(_) | Origin::Force(..) | Origin::Compliant(_) | Origin::Sliding(_) => (None, true),
             Origin::Plate(force, k) => (Some(plate_load(b.at(), force).parts()[k]), true),
             Origin::Pin(joint, axis) => {
                 let force = self.joints[joint].0;
@@ -185,7 +185,6 @@ impl<'l> LoadValues<'l> {
             Origin::Row(Source::JointFriction(friction)) | Origin::JointFriction(friction) => {
                 (Some(b.solved_view().joint_friction_force(friction)), true)
             }
-            Origin::Compliant(l) | Origin::Sliding(l) => (Some(compliant_force(b.at(), l)), true),
         }
     }
 

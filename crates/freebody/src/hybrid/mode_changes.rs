@@ -1,5 +1,6 @@
 //! What switched: the record of a motion's modes.
 
+use super::parts::NOTHING_LOST;
 use super::HybridSystem;
 use crate::dynamics::Source;
 use crate::mode::{ContactMode, Mode};
@@ -103,8 +104,16 @@ impl HybridSystem<'_> {
         for (kind, name, note) in found {
             self.record(ModeChange { t, kind, of: vec![name], lost: 0.0, states: None, impulses: None, note });
         }
+        // A spring that is there from now on, or is no more, while it is pressed.
+        self.workspace.enter(&self.mode);
+        let stored = self.workspace.potential_energy();
+        self.workspace.enter(&after);
+        let gained = self.workspace.potential_energy() - stored;
         self.mode = after;
         self.begin_phase(t, 0.0);
+        if gained.abs() > NOTHING_LOST * self.strength * self.workspace.length {
+            self.phases.last_mut().expect("a phase was begun").jump = gained;
+        }
     }
 
     /// The names of the contacts, stops and strings of unilateral constraints, each once.

@@ -7,8 +7,8 @@ use crate::gauges::ModelExpr;
 use crate::mechanism::{EventAction, Part};
 use crate::mode::{ContactMode, Mode};
 
-/// Part of the kinetic energy below which what an engagement loses is round-off: what met was at one speed.
-const NOTHING_LOST: f64 = 1e-14;
+/// Part of an energy below which what a change of mode takes is round-off, as of an engagement of what met at one speed.
+pub(super) const NOTHING_LOST: f64 = 1e-14;
 
 impl HybridSystem<'_> {
     /// Releases and engages parts and resets rates, as the actions of an event ask.

@@ -32,7 +32,7 @@ pub struct Phase {
     pub p: Vec<f64>,
     /// What is active in it.
     pub mode: Mode,
-    /// Energy that the change of parameters at its beginning put in, J.
+    /// Energy that the change of parameters, parts or springs in touch at its beginning put in, J.
     pub jump: f64,
     /// Energy that impacts and jumps of the velocities at its beginning put in, J: less than nothing for impacts.
     pub impact: f64,

@@ -12,7 +12,7 @@ pub(super) struct Works {
     pub motions: Vec<usize>,
     /// Whether there is friction.
     friction: bool,
-    /// Whether there are springs of unilateral constraints.
+    /// Whether there are springs with dampers of unilateral constraints.
     compliant: bool,
 }
 
@@ -22,7 +22,7 @@ impl Works {
             forces: (0..m.forces.len()).filter(|&f| !m.forces[f].is_conservative()).collect(),
             motions: (0..m.drives.len()).filter(|&d| m.drives[d].is_motion()).collect(),
             friction: !m.joint_friction.is_empty() || m.unilateral.iter().any(|each| each.friction.is_some()),
-            compliant: m.unilateral.iter().any(|each| each.soft.is_some()),
+            compliant: m.unilateral.iter().any(|each| each.soft.is_some() && !each.is_conservative(m)),
         }
     }
 

@@ -22,6 +22,13 @@ pub struct UnilateralConstraint {
     pub soft: Option<[ValueId; 2]>,
 }
 
+impl UnilateralConstraint {
+    /// Whether a spring without a damper stands for it, so that all its work is in a potential.
+    pub fn is_conservative(&self, m: &Mechanism) -> bool {
+        self.soft.is_some_and(|[_, damping]| m.values[damping].literal() == Some(0.0))
+    }
+}
+
 /// A contact, stop or string, as its user names it; a contact of polygons is many unilateral constraints.
 #[derive(Clone, Debug)]
 pub struct Group {
