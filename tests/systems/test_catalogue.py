@@ -70,11 +70,12 @@ def test_json_has_what_a_script_needs():
 
 
 def test_figures_are_printed_with_the_digits_that_agree_and_hold():
-    assert found(Answer("", range(8), "m", check=range(8))) == "0, 1, 2, 3, 4, 5, … m (8 in all)"
+    assert found(Answer("", range(8), "m", check=range(8))) == "0, 1, 2, 3, 4, 5, … m (8 in all; --full)"
     assert found(Answer("", range(8), "m", check=range(8)), full=True) == "0, 1, 2, 3, 4, 5, 6, 7 m"
     assert found(Answer("", [1.0] * 3, "m", check=1.0)) == "1 m", "what stays the same is told once"
     assert found(Answer("", [1.23456789, 1e-17], check=[1.234568, 0.0])) == "1.234568, 0"
     assert found(Answer("", [Known(1.23456789, 3e-3, 1.0), 2.0], check=[1.23456789, 2.0])) == "1.23, 2"
+    assert found(Answer("", Known(1.23456789, 3e-3, 1.0), check=1.23456789)) == "1.23"
     assert found(Answer("", [True, False], check=[True, False])) == "yes, no"
 
 

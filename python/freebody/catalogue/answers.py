@@ -71,9 +71,9 @@ class Answer:
     @property
     def row(self) -> list[float]:
         """The figures."""
-        return (
-            list(self.value) if isinstance(self.value, (list, tuple)) else np.atleast_1d(np.asarray(self.value, float)).tolist()
-        )
+        if isinstance(self.value, (list, tuple)):
+            return list(self.value)
+        return [self.value] if isinstance(self.value, float) else np.atleast_1d(np.asarray(self.value, float)).tolist()
 
     @property
     def known(self) -> list[float]:

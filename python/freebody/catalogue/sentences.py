@@ -27,7 +27,7 @@ def found(answer: Answer, full: bool = False) -> str:
     told = told[:1] if not full and len(set(told)) == 1 else told
     if answer.said or full or len(told) <= _SHOWN:
         return answer.said or _with_unit(", ".join(told), answer.unit)
-    return f"{_with_unit(', '.join(told[:_SHOWN]) + ', …', answer.unit)} ({len(told)} in all)"
+    return f"{_with_unit(', '.join(told[:_SHOWN]) + ', …', answer.unit)} ({len(told)} in all; --full)"
 
 
 def sentence(answer: Answer, full: bool = False) -> str:

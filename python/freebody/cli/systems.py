@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 
 def systems(
-    identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Run this one, like S19.17.")] = None,
-    everything: Annotated[bool, typer.Option("--all", help="Run them all.")] = False,
+    identity: Annotated[str | None, typer.Argument(metavar="[ID]", help="Ask this one, like S19.17.")] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Ask them all, by several processes.")] = False,
     diagrams: Annotated[bool, typer.Option("--diagrams", help="Draw free-body diagrams, of all systems or of this one.")] = False,
     stated: Annotated[bool, typer.Option("--statements", help="Judge what is stated about all systems or this one.")] = False,
     output: Annotated[Path, typer.Option("-o", "--output", help="The page of --diagrams.")] = Path("diagrams.html"),
     as_json: AsJson = False,
-    full: Annotated[bool, typer.Option("--full", help="All figures of long rows, not the first four.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Variants unfolded, and all figures of long rows.")] = False,
     table: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Write every figure beside its check.")] = None,
     symbolic: Annotated[bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")] = False,
 ) -> None:
