@@ -34,15 +34,15 @@ def _routes(case: Case) -> Iterator[Answer]:
         reactions.append(max(gap[1] for gap in gaps))
         residuals.append(max(each.residual for each in (one, *others)))
     at = f"at {len(names)} states"
-    yield _greatest("Accelerations differ by {} at most, " + at, accelerations, names, "the other two routes", 1e-10)
-    yield _greatest("Reactions differ by {} at most, " + at, reactions, names, "the other two routes", 1e-10)
-    yield _greatest("Of momentum {} is left over at most, " + at, residuals, names, "balance of every body", 1e-12)
+    yield _greatest(f"They give the same accelerations {at}.", accelerations, names, "the other two routes", 1e-10)
+    yield _greatest(f"They give the same reactions {at}.", reactions, names, "the other two routes", 1e-10)
+    yield _greatest(f"No momentum is left over {at}.", residuals, names, "balance of every body", 1e-12)
 
 
 def _greatest(says: str, left: list[float], names: list[str], against: str, tolerance: float, own: bool = False) -> Answer:
-    """The greatest of what should be nothing, and where it is."""
+    """That nothing is left, by the greatest that is, and where it is."""
     worst = int(np.argmax(left))
-    return Answer(names[worst], left[worst], "", 0.0, against, tolerance, 1.0, own=own, says=f"{says}.")
+    return Answer(names[worst], left[worst], "", 0.0, against, tolerance, 1.0, own=own, says=says)
 
 
 def _ledgers(case: Case) -> Iterator[Answer]:
@@ -54,7 +54,7 @@ def _ledgers(case: Case) -> Iterator[Answer]:
         stored = [np.abs(energy.kinetic).max(), np.ptp(energy.potential), at_rest]
         size = max(*stored, *(np.abs(work).max() for work in energy.works.values()), 0.0)
         left.append(float(np.abs(energy.balance).max() / size) if size else 0.0)
-    says = f"Of energy {{}} is left over at most, in {len(left)} motions"
+    says = f"No energy is left over in {len(left)} motion{'s' * (len(left) > 1)}."
     yield _greatest(says, left, list(case.runs), "energy stored − work done", 1e-9, own=True)
 
 
