@@ -39,7 +39,8 @@ def show_list(systems: Iterable[System]) -> None:
 
 def show_title(system: System) -> None:
     """The name of a system above its questions."""
-    rich.print(Rule(Text(f"{system.id}: {system.title}", "bold"), align="left"))
+    rich.print(Rule())
+    _line(f"{system.id}: {system.title}\n", 0, "bold")
 
 
 def show_asked(asked: Asked, full: bool = False) -> None:

@@ -2,8 +2,9 @@
 
 A body has three balances, a particle two: c in all. With n coordinates of the tree, of which loops, motions and contacts leave f free, brute
 force has c + (n − f) equations, as many as accelerations and forces; most brute force 2c − f, as every joint stands as a constraint. What
-is redundant adds a force. A clever set has f equations without reactions; where loops leave none, those of the tree hold what is passed
-where the loops are cut: as many components as the loops hold accelerations.
+is redundant adds a force, the parameter of a curve a coordinate to most brute force. A clever set has f equations without reactions;
+where loops leave none, those of the tree hold what is passed where the loops are cut: as many components as the loops hold
+accelerations.
 """
 
 from functools import cache
@@ -67,11 +68,13 @@ def solved(system, subject):
 
 @ask("brute force and most brute force: equations and unknowns of each")
 def counts(case):
-    for name, _, subject in every(case):
+    for name, mechanism, subject in every(case):
         bodies = sum(2 if body.particle else 3 for body in subject.free.bodies.values())
+        curves = sum(joint.type == "curved_slot" for joint in mechanism.model.joints.values())
         forms, (left, held), more = (brute(subject), constrained(subject)[0]), free(subject), redundant(subject)
         value = [len(side) for form in forms for side in (form.system.matrix, form.system.unknowns)]
-        check = [bodies + held, bodies + held + more, 2 * bodies - left + more, 2 * bodies - left + more]
+        most = 2 * bodies - left + more + curves
+        check = [bodies + held, bodies + held + more, most, most]
         yield Answer(name, value, "", check, COUNT, 0.0)
 
 
