@@ -145,5 +145,5 @@ def test_words_and_symbols():
     ]
     assert plain("arm.theta2") == "arm.θ2"
     units = ["speed(rod.B)", "t", "2*theta", "kinetic()"]
-    metadata = dict.fromkeys(("joints", "forces", "motions", "locks", "limits"), ())
+    metadata = dict.fromkeys(("parameters", "joints", "forces", "motions", "locks", "limits"), ())
     assert [unit_of(text, (), metadata) for text in units] == ["m/s", "s", "", "J"]

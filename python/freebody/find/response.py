@@ -83,7 +83,7 @@ class Response:
 
     @property
     def quantity_unit(self) -> str:
-        """The SI unit of the quantity; empty where it takes more to tell."""
+        """The SI unit of the quantity; empty for a plain number, and where bare numbers leave it open."""
         source = self.mechanism.source()
         unit = unit_of(self.item.value, columns_of(source, ()), source.metadata)
         return over_time(unit) if self.item.how == "integral" else unit
