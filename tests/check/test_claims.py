@@ -180,3 +180,33 @@ def test_a_condition_that_holds_anyway_may_be_said() -> None:
 def test_an_empty_hypothesis_is_none(text: str) -> None:
     with pytest.raises(StatementError, match="hypothesis is empty"):
         checker("pendulum on a cart").check(text)
+
+
+OWN = [
+    ("m1 g - T1 = -m1 y1''; T1 = m2 y2'' + m2 g", "T1 is what the first line makes it", Kind.TRUE),
+    ("m1 g + T1 = -m1 y1''; T1 - m2 g = m2 y2''", "a tension that pushes on one side", Kind.WRONG),
+    ("m1 g - 2 T1 = -m1 y1''; T1 - m2 g = m2 y2''", "twice the tension", Kind.WRONG),
+]
+_WEIGHTS = """
+freebody: 1
+parameters: {m1: 2 kg, m2: 3 kg, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {up: {through: O, angle: 90 deg}}}
+bodies: {left: {shape: particle, mass: m1}, right: {shape: particle, mass: m2}}
+joints:
+  a: {type: slot, along: ground.up, point: left.centre, coordinate: y1}
+  b: {type: slot, along: ground.up, point: right.centre, coordinate: y2}
+  cord: {type: coupling, zero: y1 + y2}
+initial: {y1: 0, at_rest: true}
+"""
+
+
+@pytest.mark.parametrize(("text", "what", "kind"), OWN)
+def test_an_unknown_of_the_writers_own_is_eliminated(text: str, what: str, kind: Kind) -> None:
+    assert Mechanism.loads(_WEIGHTS).check(text).kind is kind, what
+
+
+def test_a_slip_of_the_pen_is_no_unknown() -> None:
+    model = _WEIGHTS.replace("m1: 2 kg", "mass: 2 kg").replace("mass: m1", "mass: mass")
+    with pytest.raises(StatementError, match="maas"):
+        Mechanism.loads(model).check("maas g = 2 y1''; maas y1'' = y2''")

@@ -19,9 +19,10 @@ from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Column, Matrix, Sym, walk
 
 from .language.dimensions import check_dimensions, misfit
+from .language.elimination import Elimination, eliminated
 from .language.parser import parse, parse_expression
 from .language.spelling import spell as written
-from .language.statements import Program
+from .language.statements import Program, symbols_in
 from .language.tokens import Names
 from .printed_symbols import PrintedSymbols
 from .user_symbols import Array, Meaning, Reader
@@ -43,6 +44,8 @@ _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _SHORT = {"Fx": "x", "Fy": "y"}
+_WORD = 3
+"""Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
 
@@ -136,19 +139,25 @@ class Symbols:
         if clashing := self._clashing(program):
             names = tuple(name for name in names if name not in clashing)
             program = parse(text, names, self.constants)
+        program = self._eliminated(program)
         if not units or not misfit(program, self.dimensions, strictly=True):
             return program
         try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
-            other = parse(text, names, self.constants, units=True)
+            other = self._eliminated(parse(text, names, self.constants, units=True))
             check_dimensions(other, self.dimensions)
         except StatementError:
             return program
         return other
 
-    def _unknown(self, program: Program) -> bool:
-        """Whether a symbol of a program has no meaning."""
+    def _unknown(self, program: Program) -> list[Sym]:
+        """The symbols of a program that have no meaning."""
         given = {line.name for line in program.assignments}
-        return any(isinstance(n, Sym) and n.name not in self.meanings and n not in given for n in walk(program))
+        return [n for n in symbols_in(program) if n.name not in self.meanings and n not in given]
+
+    def _eliminated(self, program: Program) -> Program:
+        """The lines without unknowns of the writer's own; a word that is nearly one of the model is a slip, and none of them."""
+        own = [n for n in self._unknown(program) if not n.dots and (len(n.name) < _WORD or not nearest(n.name, self.meanings))]
+        return eliminated(program, own) if own else program
 
     def _clashing(self, program: Program) -> set[str]:
         """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""
@@ -170,7 +179,10 @@ class Symbols:
         clashes = [
             f"Here {name} is what the statement gives that name, not the {self.meanings[name].kind} of the model." for name in own
         ]
-        return (*clashes, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))
+        gone = [line for line in program.assignments if isinstance(line, Elimination)]
+        said = [re.split(r"[;\n]", program.text[line.span[0] :])[0].strip() for line in gone]
+        made = [f"Here {line.name.name} is what `{text}` makes it." for line, text in zip(gone, said, strict=True)]
+        return (*clashes, *made, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))
 
     # --- values --------------------------------------------------------------------------------
 
