@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from seen import changes, kinds, model, motion
 
+import freebody as fb
+
 G = 9.81
 
 ATWOOD = """
@@ -221,3 +223,20 @@ def test_a_string_without_free_length_is_as_long_as_what_is_wound():
         assert run.evaluate("load.y", 0.3) == pytest.approx(-G / 4 * 0.09, abs=1e-9)
         assert [kind for kind, _ in kinds(run)].count("taut") <= 1
     assert abs(runs[1].evaluate("cable.gap", 0.0)) < 1e-15
+
+
+def test_an_elastic_cord_of_no_length_pulls_like_a_spring_to_its_hole():
+    """Straight through the hole and back: x = x₀ cos ωt. A rigid one of no length is refused."""
+    text = """
+freebody: 1
+gravity: none
+bodies: {bob: {shape: particle, mass: 2 kg}}
+joints: {plane: {type: free, of: [ground.O, bob.centre], coordinates: [x, y]}}
+strings: {cord: {ends: [bob.centre, ground.O], length: 0, stiffness: 8 N/m}}
+initial: {x: 0.5 m, y: 0.2 m, at_rest: true}
+"""
+    run = fb.Mechanism.loads(text).simulate(until=2.5, rtol=1e-12)
+    times = [0.4, 1.2, 2.5]
+    assert run.evaluate("x", times) == pytest.approx([0.5 * math.cos(2 * t) for t in times], abs=1e-9)
+    with pytest.raises(fb.ModelFileError, match="0 stands where a positive length is needed"):
+        fb.Mechanism.loads(text.replace(", stiffness: 8 N/m", "")).simulate(until=0.1)
