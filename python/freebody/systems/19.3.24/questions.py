@@ -122,9 +122,10 @@ def pushed(case):
     legs = Legs()
     when, state = event(legs.rates, START, lambda t, y: legs.foot(y)[1], before=1.0)
     outcome = case.mechanism("one_sided.yaml").simulate(rtol=1e-12).outcome
-    yield Answer("the floor's push ends at t", outcome.t, "s", when, SCIPY, 1e-9)
-    yield Answer("neither holding nor parting: the run ends by name (1)", float(outcome.name == "painleve_inconsistent"), "",
-                 float(released(legs, state) < 0), "closed form: let go, the foot presses into the floor")  # fmt: skip
+    yield Answer("end", outcome.t, "s", when, SCIPY, 1e-9, says="The floor's push ends at {}.")
+    says = "There the foot can neither hold nor part: the run ends and says so."
+    yield Answer("ends", outcome.name == "painleve_inconsistent", "", released(legs, state) < 0,
+                 "closed form: let go, the foot presses into the floor", says=says)  # fmt: skip
     force = case.run().evaluate("foot.Fy", [when, 1.0])
     yield Answer(
         "force of the pinned foot then, and at 1 s: it pulls",
@@ -185,4 +186,4 @@ def slides(case):
     when, _ = event(legs.rates, START, lambda t, y: 3 * legs.foot(y)[1] - abs(legs.foot(y)[0]), before=1.0)
     run = case.run("slippery.yaml", until=0.96)
     slip = next(c.t for c in run.changes if c.kind == "slip")
-    yield Answer("from t", slip, "s", when, SCIPY, 1e-9)
+    yield Answer("slip", slip, "s", when, SCIPY, 1e-9, says="The foot slides from {} on.")

@@ -275,20 +275,20 @@ def walks(case):
         hits = collisions(run)
         walked = bool(hits) and run.outcome.ok and abs(spin(hits[0]) - steps.steady) < 1e-9
         against = f"closed form: least N {least:.3f} N"
-        yield Answer(f"walks (1) or not (0), k = {k}, {degrees}°", float(walked), "", float(least > 0), against)
+        yield Answer("walks", walked, "", least > 0, against, variant=f"k = {k}, {degrees}°")
 
 
 @ask("(e) The least slope with a steady speed")
 def least(case):
     """A little steeper, the wheel goes on for ever from the speed that repeats itself; a little flatter it stops."""
     for k in (6, 8, 16):
-        for factor, goes in ((1.001, 1.0), (0.999, 0.0)):
+        for factor, goes in ((1.001, True), (0.999, False)):
             degrees = least_slope(k) * factor
             w = Steps(k, degrees).steady
             run = case.run(parameters={"k": k, "slope": f"{degrees} deg", "omega": w}, until=30.0)
-            moving = float(run.evaluate("kinetic()", 30.0) > 1e-9)
-            label = f"goes on (1) or stops (0), k = {k}, {factor} of {least_slope(k):.6f}°"
-            yield Answer(label, moving, "", goes, "closed form: ω* just carries the centre over the tip", 1e-15)
+            moving = bool(run.evaluate("kinetic()", 30.0) > 1e-9)
+            of = f"k = {k}, {factor} of {least_slope(k):.6f}°"
+            yield Answer("goes on", moving, "", goes, "closed form: ω* just carries the centre over the tip", variant=of)
 
 
 @ask("Force of the ground in a step, hinged and one-sided; friction ratio")
@@ -344,8 +344,9 @@ def either(case):
     except MotionError as error:
         named = error.kind
     rises = R * w**2 * cos(steps.half) > G * cos(steps.slope)
-    both = float(rises and steps.force(steps.start, w)[0] > 0)
-    yield Answer("the run ends by name (1)", float(named == "painleve_indeterminate"), "", both, "closed form: both are motions")
+    both = rises and steps.force(steps.start, w)[0] > 0
+    says = "The foot may stay or part: the run ends there and says that neither is decided."
+    yield Answer("ends", named == "painleve_indeterminate", "", both, "closed form: both are motions", says=says)
 
 
 def flown(steps, w, t):
