@@ -110,6 +110,14 @@ def test_the_assembly_can_be_chosen_and_the_other_one_is_reported():
     assert turned(found["positive"][1] + found["negative"][1] - mirror) == pytest.approx(0, abs=1e-9)
 
 
+def test_another_start_stays_on_the_branch_of_the_model():
+    for sign in ("positive", "negative"):
+        mechanism = four_bar()
+        mechanism.initial(theta="80 deg", guess={"phi": 2}, branch={"sin(beta)": sign})
+        states = [mechanism.start(**start)[0].q for start in ({"theta": "90 deg"}, {"initial": {"theta": "90 deg"}})]
+        np.testing.assert_array_equal(*states)
+
+
 def test_loops_that_cannot_close_name_the_gap():
     """Two bars of 1 m between pins 5 m apart come no nearer than 3 m."""
     far = fb.Mechanism("too far")

@@ -98,9 +98,9 @@ class Moving:
         """The motion from the start to ``until`` (s, or a quantity like ``"200 ms"``) or to an event that ends it.
 
         ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
-        ``impacts``, ``painleve``; any others are changes as in ``solve``. ``initial`` replaces the section of that name. ``t_eval``
-        fixes the output times and never changes the steps. Where an event continues with another model, its run is ``next`` of this
-        one.
+        ``impacts``, ``painleve``; any others are changes as in ``solve``. ``initial`` replaces the section of that name, but for
+        what is guessed and the branch. ``t_eval`` fixes the output times and never changes the steps. Where an event continues with
+        another model, its run is ``next`` of this one.
         """
         from freebody.run.model_sequence import Stage, follow
 

@@ -330,13 +330,15 @@ class Builder:
         return self.lowered().compiled
 
     def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:
-        """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``.
+        """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``. What is guessed
+        and on which branch things are goes on where ``initial`` says nothing of it.
 
         Raises ``ModelFileError``.
         """
         start = self.lowered().start
         if initial is not None:
-            start = Start(coordinates=start.coordinates, parameters=start.parameters)
+            guess = {n: value for n, value in start.guess.items() if n not in initial}
+            start = Start(guess=guess, branch=start.branch, coordinates=start.coordinates, parameters=start.parameters)
         try:
             return initial_state(start, self.compile(), {**(initial or {}), **(changes or {})})
         except ModelProblem as complaint:
