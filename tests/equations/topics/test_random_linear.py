@@ -45,7 +45,9 @@ def matrix(rows: Sequence[Sequence[Tree]], values: dict[sympy.Symbol, float]) ->
 
 
 def agree(source: CompiledModel, found: LinearEquations) -> None:
-    """Equations, what follows, kinetic energy and eigenvalues are those of differences."""
+    """Nothing moves off from where they hold; equations, what follows, kinetic energy and eigenvalues are those of differences."""
+    still = source.instant(found.rest)
+    assert not found.rest.u.any() and np.abs(still.accelerations).max() <= AGREE * max(1.0, still.sizes[1])
     free, values = found.equations.coordinates, known(source, found.rest)
     ways, names = tangent(source, found.rest, free), [each["name"] for each in source.metadata["coordinates"]]
     for name, printed in found.follow.items():
