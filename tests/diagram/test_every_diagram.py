@@ -333,11 +333,11 @@ def onto(mark, scale):
 @pytest.mark.parametrize("of", [None, "all"])
 @pytest.mark.parametrize("to_scale", [False, True])
 def test_no_arrow_lies_on_another(model, of, to_scale):
-    """More than where they meet; half an arrow's head."""
+    """Where they meet they touch."""
     for cut in drawn(model, of, to_scale).cuts:
         for marks in (cut.forces, cut.effective):
             for one, other in combinations((mark for mark in marks if isinstance(mark, Arrow)), 2):
-                assert shared(one, other) < 4.5, (cut.group, one.action.label, other.action.label)
+                assert shared(one, other) <= 0.5, (cut.group, one.action.label, other.action.label)
 
 
 @every_model

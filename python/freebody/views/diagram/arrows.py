@@ -22,7 +22,8 @@ _MOVED = 5.0  # what a pt of that costs; of a slider, whose couple makes up for 
 _OFF_ITS_POINT = 120.0  # what it costs to move one that has a point of its own at all
 _HIDDEN = 700.0  # what it costs that two arrows lie on each other, all along the shorter one
 _SIDE_BY_SIDE = 3.0  # pt between two parallel arrows that can be told apart
-_MEETING = 4.0  # pt that two arrows on one line may share where they meet
+_MEETING = 0.5  # pt that two arrows on one line may share where they meet
+_PASSING = 0.3  # what it costs of that to lie on each other at all: more than to be moved
 _PARALLEL = 0.05  # rad, between arrows that could be taken for one
 _SWEEPS = 3
 _HEAD_ROOM = 13.0  # pt between two heads
@@ -127,7 +128,8 @@ def _alone(arrow: Arrow, scenery: Scenery) -> float:
 
 def _among(arrow: Arrow, others: Sequence[Arrow]) -> float:
     """What an arrow hides of others, and they of it."""
-    hidden = sum(max(0.0, shared(arrow, other) - _MEETING) / min(arrow.length, other.length) for other in others)
+    passed = [(shared(arrow, other), min(arrow.length, other.length)) for other in others]
+    hidden = sum(_PASSING + over / shorter for over, shorter in passed if over > _MEETING)
     near = _near(_beyond(arrow, dense([arrow.line])), dense([other.line for other in others]), 4.0)
     heads = np.array([other.head for other in others]).reshape(-1, 2)
     places = np.vstack([heads, np.array([other.at for other in others]).reshape(-1, 2)])
