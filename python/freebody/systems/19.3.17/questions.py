@@ -15,7 +15,8 @@ from freebody.catalogue.reference import motion
 
 G, L = 9.81, 0.7
 # cart, bob, angle at release
-CASES = {"m_c 2, m_p 3, θ 0.6": (2.0, 3.0, 0.6), "m_c = m_p, θ 45°": (2.0, 2.0, pi / 4), "θ 110°": (2.0, 3.0, 110 * pi / 180)}
+CASES = {"": (2.0, 3.0, 0.6), "m_c = m_p, θ = 45°": (2.0, 2.0, pi / 4), "θ = 110°": (2.0, 3.0, 110 * pi / 180)}
+COLUMNS = [("x", "x", "m"), ("theta", "θ", "rad"), ("rate(x)", "ẋ", "m/s"), ("rate(theta)", "θ̇", "rad/s")]
 
 
 def parameters(mc, mp, theta):
@@ -31,7 +32,7 @@ def accelerations(mc, mp, theta, omega=0.0):
     return xdd, -(G * sin(theta) + xdd * cos(theta)) / L
 
 
-@ask("In symbols, just after release")
+@ask("What is the acceleration of the cart just after release, in symbols, and what θ̈ and the tension of the rod?")
 def symbolically(case):
     below = "(mc + mp*sin(theta)^2)"
     closed = {
@@ -43,38 +44,33 @@ def symbolically(case):
     against = "closed form: three balances"
     yield from case.symbolically(closed, against, at_rest=True)
     alike = {"theta": "45 deg", "mp": "mc"}
-    yield from case.symbolically({"x": "g/3"}, against, of="m_c = m_p, θ 45°", at_rest=True, set=alike)
+    yield from case.symbolically({"x": "g/3"}, against, of="m_c = m_p, θ = 45°", at_rest=True, set=alike)
 
 
-@ask("Just after release")
+@ask("How large are they, and how hard does the floor push?")
 def release(case):
     against = "closed form: three balances"
     for of, (mc, mp, theta) in CASES.items():
         now = case.instant(parameters=parameters(mc, mp, theta))
         xdd, thetadd = accelerations(mc, mp, theta)
         T = tension(mc, mp, theta)
-        yield Answer(f"ẍ of the cart, {of}", now.accelerations["x"], "m/s²", xdd, against, 1e-12)
-        yield Answer(f"θ̈, {of}", now.accelerations["theta"], "rad/s²", thetadd, against, 1e-12)
-        yield Answer(f"tension of the rod, {of}", now["rod.tension"], "N", T, against, 1e-12)
-        yield Answer(f"floor force, {of}", now["wheels.Fn"], "N", mc * G + T * cos(theta), against, 1e-12)
+        yield Answer("ẍ", now.accelerations["x"], "m/s²", xdd, against, 1e-12, variant=of)
+        yield Answer("θ̈", now.accelerations["theta"], "rad/s²", thetadd, against, 1e-12, variant=of)
+        yield Answer("tension of the rod", now["rod.tension"], "N", T, against, 1e-12, variant=of)
+        yield Answer("force of the floor", now["wheels.Fn"], "N", mc * G + T * cos(theta), against, 1e-12, variant=of)
 
 
-@ask("May the rod be a string at 110°?")
+@ask("At 110°, may the rod be a string?")
 def string(case):
-    """No: above the level of the hinge the rod has to push, T < 0."""
-    now = case.instant(parameters=parameters(*CASES["θ 110°"]))
-    yield Answer(
-        "sign of the tension: −1 is a push",
-        np.sign(now["rod.tension"]),
-        "",
-        np.sign(cos(110 * pi / 180)),
-        "closed form: sign of cos θ",
-    )
+    """Above the level of the hinge the rod has to push, T < 0."""
+    pulls = case.instant(parameters=parameters(*CASES["θ = 110°"]))["rod.tension"] >= 0
+    says = "Yes: the rod pulls there." if pulls else "No: above the level of the hinge the rod has to push."
+    yield Answer("pulls", pulls, "", cos(110 * pi / 180) >= 0, "closed form: sign of cos θ", scale=1.0, says=says)
 
 
-@ask("Motion for 5 s")
+@ask("How does it move for 5 s, and along what path its mass centre?")
 def run(case):
-    times = [1.0, 2.0, 3.0, 4.0, 5.0]
+    times, by_hand = [1.0, 2.0, 3.0, 4.0, 5.0], "other route: balances by hand, SciPy"
     for of, (mc, mp, theta) in CASES.items():
 
         def rates(_t, s, mc=mc, mp=mp):
@@ -82,23 +78,9 @@ def run(case):
 
         check = motion(rates, [0.0, theta, 0.0, 0.0], times)
         run = case.run(parameters=parameters(mc, mp, theta))
-        for i, (text, unit) in enumerate([("x", "m"), ("theta", "rad"), ("rate(x)", "m/s"), ("rate(theta)", "rad/s")]):
-            yield Answer(
-                f"{text} at 1…5 s, {of}",
-                run.evaluate(text, times),
-                unit,
-                check[:, i],
-                "other route: balances by hand, SciPy",
-                1e-8,
-            )
-        path = [mp * L * sin(theta) / (mc + mp)] * 5
-        yield Answer(f"mass centre along x, {of}", run.evaluate("centre_x()", times), "m", path, "conservation", 1e-10)
-        height = -mp * L * np.cos(check[:, 1]) / (mc + mp)
-        yield Answer(
-            f"mass centre along y, {of}",
-            run.evaluate("centre_y()", times),
-            "m",
-            height,
-            "other route: balances by hand, SciPy",
-            1e-8,
-        )
+        for i, (text, name, unit) in enumerate(COLUMNS):
+            yield Answer(f"{name} at 1…5 s", run.evaluate(text, times), unit, check[:, i], by_hand, 1e-8, variant=of)
+        height, says = -mp * L * np.cos(check[:, 1]) / (mc + mp), "Its mass centre is then at a height of {}."
+        yield Answer("y_G", run.evaluate("centre_y()", times), "m", height, by_hand, 1e-8, says=says, variant=of)
+        path, says = [mp * L * sin(theta) / (mc + mp)] * 5, "It stays on the vertical line at {}."
+        yield Answer("x_G", run.evaluate("centre_x()", times), "m", path, "conservation", 1e-10, says=says, variant=of)

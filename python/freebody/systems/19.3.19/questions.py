@@ -32,7 +32,7 @@ from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import event, motion
 
 L, M, W, B, G = 1.0, 1.0, 2 * pi, 0.1, 9.81
-LAWS = {"−b sin θ": (-B, 0.0), "+b sin θ": (B, 0.0), "+b cos θ": (0.0, B), "−b cos θ": (0.0, -B)}
+LAWS = {"": (-B, 0.0), "x_s = +b sin θ": (B, 0.0), "x_s = +b cos θ": (0.0, B), "x_s = −b cos θ": (0.0, -B)}
 EQUATIONS = "other route: balances by hand, SciPy"
 
 
@@ -77,12 +77,12 @@ class Pumped:
         return min(min(values), minimize_scalar(self.tension, bounds=near, method="bounded", options={"xatol": 1e-9}).fun)
 
 
-@ask("In symbols: what the hand does to the angle")
+@ask("What does an acceleration of the hand do to the angle?")
 def symbolically(case):
     yield from case.symbolically({"theta": "xsdd*sin(theta)/l"}, "closed form: balance across the string", "push.yaml")
 
 
-@ask("One instant")
+@ask("How does the mass turn at one instant, how taut is the string, and how hard does the hand push?")
 def instant(case):
     length, mass, theta, omega, push = 1.2, 0.5, 0.9, 2.5, 7.0
     now, T = case.instant("push.yaml"), mass * (length * omega**2 - push * cos(theta))
@@ -92,41 +92,36 @@ def instant(case):
     yield Answer("force of the hand along x", now["pump.force"], "N", -T * cos(theta), against, 1e-12)
 
 
-@ask("Can the hand speed the mass up? The hand follows the angle")
+@ask("Can the mass be sped up by moving the hand, and how? The hand follows the angle, x_s = −b sin θ")
 def follows(case):
     for of, (p, q) in LAWS.items():
         run, exact = case.run(parameters={"bs": p, "bc": q}), Pumped(p, q)
         numbers, times = range(1, 6), [event.t for event in run.events]
-        spins = [exact.spin(2 * pi * n) for n in numbers]
-        yield Answer(
-            f"spin after each turn, x_s = {of}", [event.u["theta"] for event in run.events], "rad/s", spins, "quadrature", 1e-9
-        )
-        yield Answer(f"times of these turns, x_s = {of}", times, "s", [exact.time(n) for n in numbers], "quadrature", 1e-9)
+        spins, check = [event.u["theta"] for event in run.events], [exact.spin(2 * pi * n) for n in numbers]
+        does = "keeps its spin" if abs(spins[-1] - W) < 1e-6 else "is sped up" if spins[-1] > W else "is slowed down"
+        says = f"The mass {does}: after each of five turns it turns at {{}}."
+        yield Answer("spin after each turn", spins, "rad/s", check, "quadrature", 1e-9, says=says, variant=of)
+        check = [exact.time(n) for n in numbers]
+        yield Answer("times of these turns", times, "s", check, "quadrature", 1e-9, variant=of)
         energies = [exact.energy(n) for n in numbers]
-        yield Answer(f"energy, x_s = {of}", run.evaluate("kinetic()", times), "J", energies, "quadrature", 1e-9)
-        works = [energy - exact.energy(0) for energy in energies]
-        yield Answer(
-            f"work of the hand, x_s = {of}", run.evaluate("pump.work", times), "J", works, "quadrature", 1e-8, exact.energy(0)
-        )
-        least = run.report["least tension"].value
-        yield Answer(f"least tension, x_s = {of}", least, "N", exact.least_tension(5), "quadrature", 1e-8)
+        yield Answer("energy then", run.evaluate("kinetic()", times), "J", energies, "quadrature", 1e-9, variant=of)
+        start, done = exact.energy(0), run.evaluate("pump.work", times)
+        works = [energy - start for energy in energies]
+        yield Answer("work of the hand by then", done, "J", works, "quadrature", 1e-8, start, variant=of)
+        least, says = run.report["least tension"].value, "The string is always taut, with at least {}."
+        says = says if least > 0 else "The string would have to push, with {}."
+        yield Answer("least tension", least, "N", exact.least_tension(5), "quadrature", 1e-8, says=says, variant=of)
 
 
-@ask("By what factor does the spin grow in a turn, and by how much for a small stroke?")
+@ask("By what factor does the spin grow in a turn, from any spin, and by how much for a small stroke?")
 def factor(case):
     """The return map from one turn to the next: it has one slope for every spin."""
     for of, (p, q) in LAWS.items():
         turning = case.mechanism(bs=p, bc=q).periodic({"omega0": "rate(theta)"}, section="turn")
         slopes = [turning.step({"omega0": spin}).slopes.item() for spin in (1.0, W)]
-        yield Answer(
-            "factor a turn from 1 rad/s and from 2π rad/s",
-            slopes,
-            "",
-            [exp(Pumped(p, q).gain)] * 2,
-            "quadrature",
-            1e-9,
-            variant=f"x_s = {of}",
-        )
+        says = "A turn multiplies the spin by {}, whether it is 1 rad/s or 2π rad/s." if not of else ""
+        check = [exp(Pumped(p, q).gain)] * 2
+        yield Answer("factor", slopes, "", check, "quadrature", 1e-9, says=says, variant=of)
     limit = case.mechanism().limit("ln(rate(theta)/omega0)/(5*bs) @ last", vary="bs", begin=-0.1, towards=0)
     says = "For a small stroke x_s = p sin θ the logarithm of the spin grows by {} × p in a turn: p < 0 speeds the mass up."
     yield Answer("growth", limit.value, "1/m", -pi / L, "closed form: −π/ℓ", 1e-7, says=says)
@@ -140,7 +135,7 @@ def swept(length, alpha, b=0.2):
     return rates
 
 
-@ask("Does the mass follow a hand that sweeps its frequency?")
+@ask("Does the mass follow a hand that sweeps its frequency, x_s = b cos(2πt + αt²/2), α = 1 rad/s²?")
 def sweeps(case):
     """It does where θ stays within half a turn of ψ.
 
@@ -152,41 +147,31 @@ def sweeps(case):
         phase = np.array([W * t + alpha * t**2 / 2 for t in times])
         lag = np.array(run.evaluate("theta", times)) - phase
         check = motion(swept(L, alpha), [start, W], times)[:, 0] - phase
-        of = f"α = {alpha:g}"
-        yield Answer(f"θ − ψ at 1.25, 2.5, 3.75, 5 s, {of}", lag, "rad", check, EQUATIONS, 1e-7, 1.0)
-        follows = [float(np.abs(values).max() < pi) for values in (lag, check)]
-        yield Answer(f"follows (1) or not (0), {of}", follows[0], "", follows[1], EQUATIONS)
-        taut = float(run.report["least tension"].value > 0)
-        yield Answer(
-            f"string taut all the time (1) or not (0), {of}",
-            taut,
-            "",
-            follows[1],
-            "closed form: T ≈ mψ̇²(ℓ + b cos²ψ) while it follows",
-        )
+        of = "" if alpha == 1 else f"α = {alpha:g}"
+        follows, check_follows = (bool(np.abs(values).max() < pi) for values in (lag, check))
+        says = "The mass follows." if follows else "The mass falls behind."
+        yield Answer("follows", follows, "", check_follows, EQUATIONS, scale=1.0, says=says, variant=of)
+        taut = bool(run.report["least tension"].value > 0)
+        says = "The string is taut all the time." if taut else "The string would have to push."
+        against = "closed form: T ≈ mψ̇²(ℓ + b cos²ψ) while it follows"
+        yield Answer("taut", taut, "", check_follows, against, scale=1.0, says=says, variant=of)
+        yield Answer("θ − ψ at 1.25, 2.5, 3.75, 5 s", lag, "rad", check, EQUATIONS, 1e-7, 1.0, variant=of)
 
 
-@ask("Constant frequency, from a spin 5 % too low")
+@ask("How does it move at constant frequency, b cos 2πt, from a spin 5 % too low?")
 def constant(case):
     times = [1.25, 2.5, 3.75, 5.0]
     run = case.run("chirp.yaml", parameters={"alpha": 0.0, "omega0": 0.95 * W})
     check = motion(swept(L, 0.0), [0.0, 0.95 * W], times)
     phase = np.array([W * t for t in times])
-    yield Answer(
-        "θ − 2πt at 1.25, 2.5, 3.75, 5 s",
-        np.array(run.evaluate("theta", times)) - phase,
-        "rad",
-        check[:, 0] - phase,
-        EQUATIONS,
-        1e-8,
-        1.0,
-    )
+    lag = np.array(run.evaluate("theta", times)) - phase
+    yield Answer("θ − 2πt at 1.25, 2.5, 3.75, 5 s", lag, "rad", check[:, 0] - phase, EQUATIONS, 1e-8, 1.0)
     yield Answer("θ̇ then", run.evaluate("rate(theta)", times), "rad/s", check[:, 1], EQUATIONS, 1e-9)
     tension = [M * (L * s[1] ** 2 + 0.2 * W**2 * cos(W * t) * cos(s[0])) for t, s in zip(times, check, strict=True)]
     yield Answer("tension then", run.evaluate("string.tension", times), "N", tension, EQUATIONS, 1e-8)
 
 
-@ask("Hanging under gravity: growth rate of a small swing when the hand moves up and down")
+@ask("Hanging under gravity, the support moving by b cos(2√(g/ℓ) t), b = 0.05 m: how fast does a small swing grow?")
 def grows(case):
     """The larger multiplier of the hanging string over a period of the hand, and of two swings of Mathieu's equation."""
     omega = sqrt(G / L)
@@ -195,12 +180,12 @@ def grows(case):
         hanging = case.mechanism("shaken.yaml").periodic(period="2*pi/nu", theta=0, b=b).find()
         rate = float(np.log(np.abs(hanging.multipliers).max()) / hanging.period)
         check = [motion(mathieu(b), start, [period])[0] for start in ([1.0, 0.0], [0.0, 1.0])]
-        yield Answer(
-            f"growth rate, b = {b:g}", rate, "1/s", growth_rate(check, period), "other route: Mathieu's equation, SciPy", 1e-9
-        )
-        least = case.run("shaken.yaml", {"b": b}).report["least tension"].value
-        yield Answer(f"least tension, b = {b:g}", least, "N", M * G * (1 - 4 * b / L), "closed form: m(g − bν²), no swing", 1e-8)
-        yield Answer(f"growth rate/b, b = {b:g}", rate / b, "1/m·s", omega / L, "closed form: bω/ℓ for small b", b**2)
+        mathieus, of = "other route: Mathieu's equation, SciPy", "" if b == 0.05 else f"b = {b:g} m"
+        yield Answer("growth rate", rate, "1/s", growth_rate(check, period), mathieus, 1e-9, says="It grows at {}.", variant=of)
+        against, says = "closed form: bω/ℓ for small b", "That is {} × b."
+        yield Answer("growth rate/b", rate / b, "1/(m·s)", omega / L, against, b**2, says=says, variant=of)
+        least, check = case.run("shaken.yaml", {"b": b}).report["least tension"].value, M * G * (1 - 4 * b / L)
+        yield Answer("least tension", least, "N", check, "closed form: m(g − bν²), no swing", 1e-8, variant=of)
 
 
 def mathieu(b):
@@ -212,20 +197,23 @@ def growth_rate(ends, period):
     return float(np.log(np.abs(np.linalg.eigvals(ends)).max()) / period)
 
 
-@ask("A string that only pulls: the hand follows the angle, tension throughout")
+@ask("And on a string that only pulls, the hand following the angle: is it taut throughout?")
 def real(case):
     for of, (p, q) in LAWS.items():
         exact = Pumped(p, q)
         times = [exact.time(n) for n in range(1, 6)]
         run = case.run("string.yaml", {"bs": p, "bc": q}, until=times[-1] + 1e-3)
         turns = [event.t for event in run.events]
-        yield Answer(f"times of five turns, x_s = {of}", turns, "s", times, "quadrature", 1e-9)
-        spin = [run.evaluate("rate(direction(hand.origin, bob.centre))", t) for t in turns]
-        yield Answer(f"spin then, x_s = {of}", spin, "rad/s", [exact.spin(2 * pi * n) for n in range(1, 6)], "quadrature", 1e-9)
-        tension = [exact.tension(2 * pi * n) for n in range(1, 6)]
-        yield Answer(f"tension then, x_s = {of}", run.evaluate("leash.tension", turns), "N", tension, "quadrature", 1e-8)
         least = run.report["least tension"].value
-        yield Answer(f"least tension of all: never slack, x_s = {of}", least, "N", exact.least_tension(5), "quadrature", 1e-8)
+        slack = any(change.kind == "slack" for change in run.changes)
+        says = "It goes slack: the tension comes down to {}." if slack else "It is never slack: the tension is at least {}."
+        yield Answer("least tension", least, "N", exact.least_tension(5), "quadrature", 1e-8, says=says, variant=of)
+        yield Answer("times of five turns", turns, "s", times, "quadrature", 1e-9, variant=of)
+        spin = [run.evaluate("rate(direction(hand.origin, bob.centre))", t) for t in turns]
+        check = [exact.spin(2 * pi * n) for n in range(1, 6)]
+        yield Answer("spin then", spin, "rad/s", check, "quadrature", 1e-9, variant=of)
+        tension = [exact.tension(2 * pi * n) for n in range(1, 6)]
+        yield Answer("tension then", run.evaluate("leash.tension", turns), "N", tension, "quadrature", 1e-8, variant=of)
 
 
 class Leash:
@@ -281,39 +269,26 @@ class Leash:
         return t + s, [float(np.arctan2(py, px - x)), spin]
 
 
-@ask("A string that only pulls: the hand sweeps its frequency")
+@ask("Does it stay taut where the hand sweeps its frequency, α = 1 rad/s²?")
 def slackens(case):
     for alpha, start in [(1.0, -0.2560930469), *((a, 0.0) for a in (2.0, 3.0, 4.0, 6.0, 10.0))]:
         run, times = case.run("sweep.yaml", {"alpha": alpha, "theta0": start}), [1.25, 2.5, 3.75, 5.0]
         leash, check = Leash(alpha), motion(swept(L, alpha), [start, W], times)
-        of = f"α = {alpha:g}"
-        tension = [leash.tension(t, y) for t, y in zip(times, check, strict=True)]
-        yield Answer(
-            f"tension at 1.25, 2.5, 3.75, 5 s, {of}", run.evaluate("leash.tension", times), "N", tension, EQUATIONS, 1e-7
-        )
-        slack = [c for c in run.changes if c.kind == "slack"]
+        of = "" if alpha == 1 else f"α = {alpha:g}"
         rod = motion(swept(L, alpha), [start, W], np.linspace(0.01, 5, 500))
         least = min(leash.tension(t, y) for t, y in zip(np.linspace(0.01, 5, 500), rod, strict=True))
-        yield Answer(
-            f"goes slack (1) or not (0), {of}",
-            float(bool(slack)),
-            "",
-            float(least < 0),
-            f"{EQUATIONS}: least tension {least:.3g} N",
-        )
+        slack = any(change.kind == "slack" for change in run.changes)
+        says = "It goes slack." if slack else "It stays taut."
+        yield Answer("slack", slack, "", bool(least < 0), EQUATIONS, scale=1.0, says=says, variant=of)
+        tension = [leash.tension(t, y) for t, y in zip(times, check, strict=True)]
+        found = run.evaluate("leash.tension", times)
+        yield Answer("tension at 1.25, 2.5, 3.75, 5 s", found, "N", tension, EQUATIONS, 1e-7, variant=of)
+    against = f"{EQUATIONS}, straight flights between"
     for alpha in (20.0, 40.0, 60.0):
         check = Leash(alpha).switches(4)
         run, of = case.run("sweep.yaml", {"alpha": alpha}, until=check[-1][0] + 0.01), f"α = {alpha:g}"
         found = [c.t for c in run.changes if c.kind in ("slack", "taut") and c.t > 0][: len(check)]
-        yield Answer(
-            f"slack, taut, … at t, {of}", found, "s", [t for t, _ in check], f"{EQUATIONS}, straight flights between", 1e-8
-        )
-        tension = [max(T, 0.0) for _, T in check]
-        yield Answer(
-            f"tension just after, {of}",
-            run.evaluate("leash.tension", found),
-            "N",
-            tension,
-            f"{EQUATIONS}, straight flights between",
-            1e-6,
-        )
+        says = "It goes slack, and taut again, in turn at {}."
+        yield Answer("slack, taut, …", found, "s", [t for t, _ in check], against, 1e-8, says=says, variant=of)
+        tension, told = [max(T, 0.0) for _, T in check], run.evaluate("leash.tension", found)
+        yield Answer("tension just after", told, "N", tension, against, 1e-6, variant=of)
