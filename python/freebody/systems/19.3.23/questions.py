@@ -15,8 +15,9 @@ from freebody.catalogue.reference import motion
 
 M, L, G = 1.0, 1.0, 9.81
 START = [0.5, 1.2, 0.3, -0.4]  # θ₁, θ₂, θ̇₁, θ̇₂
-COLUMNS = [("theta1", "rad"), ("theta2", "rad"), ("rate(theta1)", "rad/s"), ("rate(theta2)", "rad/s")]
+COLUMNS = [("theta1", "θ₁", "rad"), ("theta2", "θ₂", "rad"), ("rate(theta1)", "θ̇₁", "rad/s"), ("rate(theta2)", "θ̇₂", "rad/s")]
 EQUATIONS = "other route: balances by hand"
+DISTANCE = "rod 1 as a distance"
 
 
 def solve(one, two, spin1, spin2):
@@ -32,7 +33,7 @@ def solve(one, two, spin1, spin2):
     return np.linalg.solve(matrix, [across, up, 0.0])
 
 
-@ask("In symbols: the two equations")
+@ask("What are the equations of motion for rod 2, with the absolute angles θ₁, θ₂ from the downward vertical?")
 def symbolically(case):
     force1 = "(-sin(theta1 - theta2)*rate(theta2)^2/2 - g*sin(theta1)/l)"
     force2 = "(sin(theta1 - theta2)*rate(theta1)^2/2 - g*sin(theta2)/(2*l))"
@@ -44,30 +45,32 @@ def symbolically(case):
     yield from case.symbolically(closed, "other route: Lagrange's equations by hand", "link.yaml")
 
 
-@ask("One instant, with the force in rod 1")
+@ask("How do the rods turn at one instant, and what force passes rod 1?")
 def instant(case):
     one, two, T = solve(*START)
     body, link = case.instant(), case.instant("link.yaml")
-    for of, now in [("a body of zero mass", body), ("a distance", link)]:
+    for of, now in [("", body), (DISTANCE, link)]:
         value = [now.accelerations["theta1"], now.accelerations["theta2"]]
-        yield Answer(f"θ̈₁, θ̈₂, rod 1 as {of}", value, "rad/s²", [one, two], EQUATIONS, 1e-12)
-    yield Answer("tension of rod 1 as a distance", link["rod1.tension"], "N", T, EQUATIONS, 1e-12)
+        yield Answer("θ̈₁, θ̈₂", value, "rad/s²", [one, two], EQUATIONS, 1e-12, variant=of)
+    yield Answer("tension of rod 1", link["rod1.tension"], "N", T, EQUATIONS, 1e-12, variant=DISTANCE)
     pull = [-T * sin(START[0]), T * cos(START[0])]
-    yield Answer("ceiling on rod 1 as a body", [body["ceiling.Fx"], body["ceiling.Fy"]], "N", pull, EQUATIONS, 1e-12)
-    yield Answer("rod 1 on rod 2", [body["elbow.Fx"], body["elbow.Fy"]], "N", pull, EQUATIONS, 1e-12)
+    yield Answer("force of the ceiling on rod 1", [body["ceiling.Fx"], body["ceiling.Fy"]], "N", pull, EQUATIONS, 1e-12)
+    yield Answer("force of rod 1 on rod 2", [body["elbow.Fx"], body["elbow.Fy"]], "N", pull, EQUATIONS, 1e-12)
 
 
-@ask("Motion for 5 s")
+@ask("How does it move for 5 s?")
 def run(case):
     times = [1.0, 2.0, 3.0, 4.0, 5.0]
     check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), START, times)
     for file in ("model.yaml", "link.yaml"):
-        run = case.run(file)
-        for i, (text, unit) in enumerate(COLUMNS):
-            yield Answer(f"{text} at 1…5 s, {file}", run.evaluate(text, times), unit, check[:, i], f"{EQUATIONS}, SciPy", 1e-8)
+        run, of = case.run(file), "" if file == "model.yaml" else DISTANCE
+        for i, (text, name, unit) in enumerate(COLUMNS):
+            yield Answer(
+                f"{name} at 1…5 s", run.evaluate(text, times), unit, check[:, i], f"{EQUATIONS}, SciPy", 1e-8, variant=of
+            )
 
 
-@ask("A small mass of rod 1 approaches none")
+@ask("Does a small mass of rod 1 approach none?")
 def small_mass(case):
     """To first order in m₁, as the equations are regular at m₁ = 0: a thousandth of the mass, a thousandth of the difference."""
     exact = solve(*START)[:2]
@@ -75,10 +78,11 @@ def small_mass(case):
     for mass in (1e-3, 1e-6):
         now = case.instant(parameters={"m1": mass})
         gaps.append(np.linalg.norm([now.accelerations["theta1"] - exact[0], now.accelerations["theta2"] - exact[1]]))
-    yield Answer("order in m₁", log10(gaps[0] / gaps[1]) / 3, "", 1.0, "closed form: first order", 1e-2)
+    says = "Yes: the difference goes as m₁ to the power {}."
+    yield Answer("order in m₁", log10(gaps[0] / gaps[1]) / 3, "", 1.0, "closed form: first order", 1e-2, says=says)
 
 
-@ask("A rod whose motion is undetermined is named")
+@ask("Is a rod whose motion is undetermined named?")
 def idle(case):
     """A rod without mass at the free end of rod 2: nothing says how it turns."""
     try:
@@ -86,4 +90,5 @@ def idle(case):
         said = "nothing"
     except (RuntimeError, ValueError) as error:
         said = str(error)
-    yield Answer("the refusal names it: 1", float("idle" in said), "", 1.0, "closed form: no inertia, no moment")
+    says = "The refusal names it." if "idle" in said else "Nothing names it."
+    yield Answer("named", "idle" in said, "", True, "closed form: no inertia, no moment", says=says)
