@@ -20,8 +20,13 @@ from scipy.integrate import quad
 from freebody.catalogue import Answer, ask
 
 G = 9.81
-SETS = {"10 kg each": (10.0, 10.0, 10.0, 1.0), "4, 7, 2.5 kg": (4.0, 7.0, 2.5, 3.0)}
+SETS = {"": (10.0, 10.0, 10.0, 1.0), "4, 7, 2.5 kg": (4.0, 7.0, 2.5, 3.0)}
 BALANCE = "closed form: momentum and energy"
+
+
+def variant(of, file):
+    """What differs from carts of 10 kg each that only touch."""
+    return ", ".join(filter(None, [of, "A and B latch" if file == "latch.yaml" else ""]))
 
 
 class Swing:
@@ -57,7 +62,7 @@ def height(run, event, length=1.0):
     return event.q["C.y"] + length
 
 
-@ask("The impact: velocities, impulses, energy lost")
+@ask("What does the impact do: velocities and impulses after it, energy lost?")
 def impact(case):
     for of, masses in SETS.items():
         mA, mB, _, v0 = masses
@@ -66,36 +71,38 @@ def impact(case):
             run = case.run(file, parameters(masses))
             (hit,) = (c for c in run.changes if c.kind == "impact")
             rates = hit.after.u
-            label = f"{of}, {file}"
-            yield Answer(f"velocities of A, B, {label}", [rates["xA"], rates["xB"]], "m/s", [-both, -both], BALANCE, 1e-12)
+            label = variant(of, file)
+            yield Answer("velocities of A, B", [rates["xA"], rates["xB"]], "m/s", [-both, -both], BALANCE, 1e-12, variant=label)
             yield Answer(
-                f"velocity of C, {label}",
+                "velocity of C",
                 [rates["C.x"], rates["C.y"]],
                 "m/s",
                 0.0,
                 "closed form: a plumb cord takes no part",
                 1e-12,
                 both,
+                variant=label,
             )
-            yield Answer(f"energy lost, {label}", hit.lost, "J", P * v0 / 2, BALANCE, 1e-12)
+            yield Answer("energy lost", hit.lost, "J", P * v0 / 2, BALANCE, 1e-12, variant=label)
             if file == "model.yaml":
                 ((name, impulse),) = hit.impulses.contacts.items()
-                yield Answer(f"impulse of B on A, {label}", impulse[0], "N·s", P, BALANCE, 1e-12)
+                yield Answer("impulse of B on A", impulse[0], "N·s", P, BALANCE, 1e-12, variant=label)
                 yield Answer(
-                    f"impulse of the cord, {label}",
+                    "impulse of the cord",
                     float(name != "bump"),
                     "N·s",
                     0.0,
                     "closed form: a plumb cord takes no part",
                     0.0,
                     1.0,
+                    variant=label,
                 )
             else:
                 impulse = abs(hit.impulses.joints["meet weld"][0])
-                yield Answer(f"impulse of the latch on B, {label}", impulse, "N·s", P, BALANCE, 1e-12)
+                yield Answer("impulse of the latch on B", impulse, "N·s", P, BALANCE, 1e-12, variant=label)
 
 
-@ask("Greatest height of C; the top of the first swing")
+@ask("What is the greatest height of C above its lowest point, and how do things stand there?")
 def top(case):
     for of, masses in SETS.items():
         mA, mB, mC, v0 = masses
@@ -103,70 +110,76 @@ def top(case):
         meets = 0.2 / v0
         for file in ("model.yaml", "latch.yaml"):
             run = case.run(file, parameters(masses))
-            first, label = named(run, "top"), f"{of}, {file}"
-            yield Answer(f"height, {label}", height(run, first), "m", swing.height, BALANCE, 1e-10)
+            first, label = named(run, "top"), variant(of, file)
+            yield Answer("height", height(run, first), "m", swing.height, BALANCE, 1e-10, variant=label)
             late = max(height(run, e) for e in run.events if "top" in e.name)
-            yield Answer(f"greatest height of all swings, {label}", late, "m", swing.height, BALANCE, 1e-10)
-            yield Answer(f"velocities of A, B, C, {label}", [first.u[n] for n in ("xA", "xB", "C.x")], "m/s",
-                         -mA * v0 / (mA + mB + mC), BALANCE, 1e-9)  # fmt: skip
-            yield Answer(f"time since the impact, {label}", first.t - meets, "s", swing.quarter(), "quadrature", 1e-9)
+            yield Answer("greatest height of all swings", late, "m", swing.height, BALANCE, 1e-10, variant=label)
+            yield Answer("velocities of A, B, C", [first.u[n] for n in ("xA", "xB", "C.x")], "m/s",
+                         -mA * v0 / (mA + mB + mC), BALANCE, 1e-9, variant=label)  # fmt: skip
+            yield Answer("time since the impact", first.t - meets, "s", swing.quarter(), "quadrature", 1e-9, variant=label)
             angle = run.evaluate("pi/2 + direction(B.origin, C.centre)", first.t)
-            yield Answer(f"angle, {label}", angle, "rad", swing.top, BALANCE, 1e-9)
+            yield Answer("angle", angle, "rad", swing.top, BALANCE, 1e-9, variant=label)
             yield Answer(
-                f"tension, {label}",
+                "tension",
                 run.evaluate("cord.tension", first.t),
                 "N",
                 swing.tension,
                 "closed form: balances at the top",
                 1e-9,
+                variant=label,
             )
             if file == "model.yaml":
                 push = run.evaluate("bump.N", first.t)
                 check = mA * swing.tension * sin(swing.top) / (mA + mB)
-                yield Answer(f"A pushes B with, {label}", push, "N", check, "closed form: balances at the top", 1e-9)
+                yield Answer("A pushes B with", push, "N", check, "closed form: balances at the top", 1e-9, variant=label)
 
 
-@ask("Plumb again, and the second swing")
+@ask("How do they move when the cord is plumb again, and how high is the second swing?")
 def second(case):
     for of, masses in SETS.items():
         mA, mB, mC, v0 = masses
         v1, v2 = mA * v0 / (mA + mB), mA * v0 / (mA + mB + mC)
         for file in ("model.yaml", "latch.yaml"):
-            run, label = case.run(file, parameters(masses)), f"{of}, {file}"
+            run, label = case.run(file, parameters(masses)), variant(of, file)
             plumb, again = named(run, "vertical"), named(run, "second top")
             swing = Swing(mA + mB, mC, v1, 1.0)
-            yield Answer(f"time since the impact, {label}", plumb.t - 0.2 / v0, "s", 2 * swing.quarter(), "quadrature", 1e-9)
+            yield Answer("time since the impact", plumb.t - 0.2 / v0, "s", 2 * swing.quarter(), "quadrature", 1e-9, variant=label)
             carts = v1 - 2 * v2
             check = [carts, carts, -2 * v2]
             yield Answer(
-                f"velocities of A, B, C then, {label}", [plumb.u[n] for n in ("xA", "xB", "C.x")], "m/s", check, BALANCE, 1e-9
+                "velocities of A, B, C then",
+                [plumb.u[n] for n in ("xA", "xB", "C.x")],
+                "m/s",
+                check,
+                BALANCE,
+                1e-9,
+                variant=label,
             )
             M = mB if file == "model.yaml" else mA + mB
             alone = Swing(M, mC, v1, 1.0)
-            yield Answer(f"height of the second swing, {label}", height(run, again), "m", alone.height, BALANCE, 1e-9)
-            yield Answer(f"its time from plumb to the top, {label}", again.t - plumb.t, "s", alone.quarter(), "quadrature", 1e-8)
+            yield Answer("height of the second swing", height(run, again), "m", alone.height, BALANCE, 1e-9, variant=label)
+            yield Answer(
+                "its time from plumb to the top", again.t - plumb.t, "s", alone.quarter(), "quadrature", 1e-8, variant=label
+            )
             if file == "model.yaml":
                 part = next(c.t for c in run.changes if c.kind == "lift-off")
                 yield Answer(
-                    f"A and B part, since the impact, {label}", part - 0.2 / v0, "s", 2 * swing.quarter(), "quadrature", 1e-8
+                    "A and B part, since the impact", part - 0.2 / v0, "s", 2 * swing.quarter(), "quadrature", 1e-8, variant=label
                 )
 
 
-@ask("Effect of the cord's length; the least for which this height holds")
+@ask("What is the effect of ℓ on the height h, and what the least ℓ for which it holds?")
 def lengths(case):
     for of, masses in SETS.items():
         mA, mB, mC, v0 = masses
         h = Swing(mA + mB, mC, mA * v0 / (mA + mB), 1e3).height
         for ratio in (100.0, 3.0, 1.01):
             run = case.run(parameters=parameters(masses, ratio * h), until=0.2 / v0 + 2 * sqrt(ratio * h))
-            yield Answer(f"height, ℓ = {ratio:g} h, {of}", height(run, named(run, "top"), ratio * h), "m", h, BALANCE, 1e-9)
-        for ratio, slack in ((1.01, 0.0), (0.99, 1.0)):
+            told, value = ", ".join(filter(None, [of, f"ℓ = {ratio:g} h"])), height(run, named(run, "top"), ratio * h)
+            yield Answer("height", value, "m", h, BALANCE, 1e-9, variant=told)
+        for ratio, slack in ((1.01, False), (0.99, True)):
             run = case.run(parameters=parameters(masses, ratio * h), until=0.2 / v0 + 1.5 * sqrt(h))
             found = [c for c in run.changes if c.kind == "slack"]
-            yield Answer(
-                f"cord goes slack (1) or not (0), ℓ = {ratio:g} h, {of}",
-                float(bool(found)),
-                "",
-                slack,
-                "closed form: past the horizontal",
-            )
+            told = ", ".join(filter(None, [of, f"ℓ = {ratio:g} h"]))
+            says = "The cord goes slack before the top." if found else "The cord stays taut."
+            yield Answer("slack", bool(found), "", slack, "closed form: past the horizontal", scale=1.0, says=says, variant=told)

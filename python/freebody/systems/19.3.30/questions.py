@@ -97,13 +97,13 @@ def steady(case, w, file="model.yaml", **parameters):
     return rolling.find({"omega": w})
 
 
-@ask("In symbols: a step of a hinged tip")
+@ask("What is the angular acceleration in a step, in symbols?")
 def symbolically(case):
     closed = "m*g*R*sin(wheel.angle)/(I + m*R^2)"
     yield from case.symbolically({"wheel.angle": closed}, "closed form: an upside-down pendulum", "hinged.yaml")
 
 
-@ask("(a), (b) One collision: energy before, ω+ after, what is lost, impulse")
+@ask("(a), (b) What are T− before one collision and ω+ after it, and what energy is lost, k = 3, down 10°?")
 def collision(case):
     for k in (3, 4, 6, 8, 16):
         steps = Steps(k, 10)
@@ -111,14 +111,16 @@ def collision(case):
         run = case.run("hinged.yaml", {"k": k, "n": 1, "slope": "10 deg", "omega": w}, until=3.0)
         (hit,) = collisions(run)
         before = steps.rate(steps.end, w)
-        of, scale = f"k = {k}", before
-        yield Answer(f"T−, {of}", run.evaluate("kinetic()", hit.t - 1e-12), "J", J / 2 * before**2, "closed form: ½Jω²", 1e-10)
-        yield Answer(f"ω+, {of}", spin(hit), "rad/s", steps.eta * before, MOMENTS, 1e-11, scale)
-        yield Answer(f"energy lost, {of}", hit.lost, "J", J / 2 * (1 - steps.eta**2) * before**2, MOMENTS, 1e-11)
-        yield Answer(f"time, {of}", hit.t, "s", steps.time(w), "quadrature", 1e-10)
+        of, scale = "" if k == 3 else f"k = {k}", before
+        yield Answer(
+            "T−", run.evaluate("kinetic()", hit.t - 1e-12), "J", J / 2 * before**2, "closed form: ½Jω²", 1e-10, variant=of
+        )
+        yield Answer("ω+", spin(hit), "rad/s", steps.eta * before, MOMENTS, 1e-11, scale, variant=of)
+        yield Answer("energy lost", hit.lost, "J", J / 2 * (1 - steps.eta**2) * before**2, MOMENTS, 1e-11, variant=of)
+        yield Answer("time", hit.t, "s", steps.time(w), "quadrature", 1e-10, variant=of)
 
 
-@ask("(c) Level floor: one after another, from ω+ = 3, k = 8")
+@ask("(c) On a level floor, what is ω+ after one collision after another, from ω+ = 3 rad/s, k = 8?")
 def level(case):
     run, steps = case.run(parameters={"k": 8, "slope": 0, "omega": 3.0}, until=4.0), Steps(8)
     check = [3 * steps.eta**n for n in range(1, 6)]
@@ -127,7 +129,7 @@ def level(case):
     yield Answer("their times", [c.t for c in collisions(run)[:5]], "s", times, "quadrature", 1e-9)
 
 
-@ask("Level floor until rest, rocking included")
+@ask("(c) How does it come to rest on a level floor, from ω+ = 2.5 rad/s, k = 4, rocking included?")
 def rest(case):
     for k, start in ((4, 2.5), (4, 1.0), (8, 3.0), (8, 0.5)):
         run, steps = case.run(parameters={"k": k, "slope": 0, "omega": start}, until=12.0), Steps(k)
@@ -138,18 +140,18 @@ def rest(case):
             forward = forward if over else -forward
             tips, w = tips + forward, w * steps.eta
             spins.append(forward * w)
-        of = f"k = {k}, ω+ = {start}"
+        of = "" if start == 2.5 else f"k = {k}, ω+ = {start} rad/s"
         n = 8
-        yield Answer(f"ω+ of {n} collisions, {of}", [spin(c) for c in collisions(run)[:n]], "rad/s", spins[:n], MAP, 1e-8)
-        yield Answer(f"at rest from t, {of}", run.changes[-1].t, "s", t, "quadrature and geometric series", 1e-8)
+        yield Answer(f"ω+ of {n} collisions", [spin(c) for c in collisions(run)[:n]], "rad/s", spins[:n], MAP, 1e-8, variant=of)
+        yield Answer("at rest from", run.changes[-1].t, "s", t, "quadrature and geometric series", 1e-8, variant=of)
         energy = run.evaluate("kinetic()", 12.0)
-        yield Answer(f"kinetic energy at 12 s, {of}", energy, "J", 0.0, "closed form: rest", 1e-20, J / 2 * start**2)
+        yield Answer("kinetic energy at 12 s", energy, "J", 0.0, "closed form: rest", 1e-20, J / 2 * start**2, variant=of)
         height = run.evaluate("y(wheel.origin)", 12.0)
         yield Answer(
-            f"height of the centre then: on two tips, {of}", height, "m", R * cos(pi / k), "closed form: R cos(π/k)", 1e-9
+            "height of the centre then, on two tips", height, "m", R * cos(pi / k), "closed form: R cos(π/k)", 1e-9, variant=of
         )
-        yield Answer(f"way forward, {of}", run.evaluate("x(wheel.origin)", 12.0) - run.evaluate("x(wheel.origin)", 0.0),
-                     "m", way(spins, steps), "closed form: 2R sin(π/k) a step", 1e-9)  # fmt: skip
+        yield Answer("way forward", run.evaluate("x(wheel.origin)", 12.0) - run.evaluate("x(wheel.origin)", 0.0),
+                     "m", way(spins, steps), "closed form: 2R sin(π/k) a step", 1e-9, variant=of)  # fmt: skip
 
 
 def way(spins, steps):
@@ -157,7 +159,7 @@ def way(spins, steps):
     return 2 * R * sin(steps.half) * sum(1 for w, old in zip(spins, [1.0, *spins], strict=False) if w > 0 and old > 0)
 
 
-@ask("(d) Down a slope: five collisions")
+@ask("(d) And down a slope, 5° from ω+ = 1 rad/s?")
 def slope(case):
     for degrees, start in ((5, 1.0), (10, 1.5), (10, 2.2)):
         steps, w, t, check = Steps(8, degrees), start, 0.0, []
@@ -166,9 +168,11 @@ def slope(case):
             check.append((t, w))
         for file in ("model.yaml", "hinged.yaml"):
             run = case.run(file, {"slope": f"{degrees} deg", "omega": start}, until=t + 0.1)
-            hits, of = collisions(run)[:5], f"{degrees}°, ω+ = {start}, {file}"
-            yield Answer(f"ω+, {of}", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10)
-            yield Answer(f"times, {of}", [c.t for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10)
+            hits = collisions(run)[:5]
+            told = ["" if degrees == 5 else f"{degrees}°, ω+ = {start} rad/s", "hinged" if file == "hinged.yaml" else ""]
+            of = ", ".join(filter(None, told))
+            yield Answer("ω+", [spin(c) for c in hits], "rad/s", [w for _, w in check], MAP, 1e-10, variant=of)
+            yield Answer("times", [c.t for c in hits], "s", [t for t, _ in check], "quadrature", 1e-10, variant=of)
 
 
 @ask("(c), (d) What is ω after the next collision, in letters, and which ω comes back?")
@@ -183,33 +187,33 @@ def in_letters(case):
     yield formula("its multiplier", found.multiplier, f"({eta})^2", against)
 
 
-@ask("(e) Steady speed: reached from a push just past the first spoke, and found as the fixed point of the program's own map")
+@ask("(e) Is ω_n+ = ω_(n+1)+ possible, and about how fast, k = 8 on 5°?")
 def gait(case):
     for degrees in (5, 10):
         steps = Steps(8, degrees)
-        of, parameters = f"k = 8, {degrees}°", {"slope": f"{degrees} deg"}
+        of, parameters = "" if degrees == 5 else f"{degrees}°", {"slope": f"{degrees} deg"}
         found = steady(case, steps.vault + 0.8, **parameters)
         w, period = found.values["omega"], found.period
         run = case.run(parameters={**parameters, "omega": steps.vault * 1.001}, until=45.0)
         last = spin(collisions(run)[-1])
-        yield Answer(f"ω+ that comes back, {of}", w, "rad/s", steps.steady, "closed form: fixed point of the return map", 1e-11)
+        yield Answer("ω+ that comes back", w, "rad/s", steps.steady, "closed form: fixed point", 1e-11, variant=of)
         yield Answer(
-            f"ω+ of collision {len(collisions(run))} after the push, {of}", last, "rad/s", w, "the fixed point found", 1e-9
+            f"ω+ of collision {len(collisions(run))} after the push", last, "rad/s", w, "the fixed point found", 1e-9, variant=of
         )
-        yield Answer(f"time of a step, {of}", period, "s", steps.time(steps.steady), "quadrature", 1e-10)
-        yield Answer(f"multiplier, {of}", abs(found.multipliers), "", [steps.eta**2], "closed form: η²", 1e-10)
+        yield Answer("time of a step", period, "s", steps.time(steps.steady), "quadrature", 1e-10, variant=of)
+        yield Answer("multiplier", abs(found.multipliers), "", [steps.eta**2], "closed form: η²", 1e-10, variant=of)
 
 
-@ask("(e) Steady speed at other slopes and numbers of spokes, the tips hinged")
+@ask("(e) And at other slopes and numbers of spokes, the tips hinged?")
 def gaits(case):
     """Three spokes have η = 0 with this inertia: they stop at every collision, and stand wherever α > γ."""
     for k, degrees in ((4, 30), (6, 10), (6, 20), (8, 3), (8, 20), (8, 30), (8, 40), (16, 2), (16, 5)):
         steps = Steps(k, degrees)
         parameters = {"file": "hinged.yaml", "k": k, "n": 1, "slope": f"{degrees} deg"}
         found = steady(case, steps.vault + 0.9, **parameters)
-        value = found.values["omega"]
-        yield Answer(f"ω+, k = {k}, {degrees}°", value, "rad/s", steps.steady, "closed form: fixed point", 1e-11)
-        yield Answer(f"time of a step, k = {k}, {degrees}°", found.period, "s", steps.time(steps.steady), "quadrature", 1e-10)
+        value, of = found.values["omega"], f"k = {k}, {degrees}°"
+        yield Answer("ω+", value, "rad/s", steps.steady, "closed form: fixed point", 1e-11, variant=of)
+        yield Answer("time of a step", found.period, "s", steps.time(steps.steady), "quadrature", 1e-10, variant=of)
 
 
 @cache
@@ -263,7 +267,7 @@ def every_start(case):
     yield Answer("slope of the map", ends, "", [min(check), max(check)], "closed form: derivative of the map", 1e-9, says=says)
 
 
-@ask("(e) Which of these a foot that can only push and never slides can walk")
+@ask("(e) Which of these can a foot walk that can only push and never slides?")
 def walks(case):
     """Those whose N stays above 0 until the next tip hits."""
     for k, degrees in ((4, 30), (6, 10), (6, 20), (8, 3), (8, 15), (8, 20), (16, 2), (16, 5)):
@@ -278,7 +282,7 @@ def walks(case):
         yield Answer("walks", walked, "", least > 0, against, variant=f"k = {k}, {degrees}°")
 
 
-@ask("(e) The least slope with a steady speed")
+@ask("(e) Does it go on for ever a little above the least slope, and not a little below?")
 def least(case):
     """A little steeper, the wheel goes on for ever from the speed that repeats itself; a little flatter it stops."""
     for k in (6, 8, 16):
@@ -291,34 +295,36 @@ def least(case):
             yield Answer("goes on", moving, "", goes, "closed form: ω* just carries the centre over the tip", variant=of)
 
 
-@ask("Force of the ground in a step, hinged and one-sided; friction ratio")
+@ask("What is the force of the ground in a step at steady speed on 5°, hinged or one-sided, and what friction does it need?")
 def ground(case):
     for degrees in (5, 10):
         steps = Steps(8, degrees)
         w, a = steps.steady, steps.start
         parameters = {"slope": f"{degrees} deg", "omega": w}
         hinged, pushed = (case.run(file, parameters, until=0.2) for file in ("hinged.yaml", "model.yaml"))
-        times, of = [0.0, 0.05, 0.1, 0.15, 0.2], f"{degrees}°, steady speed"
+        times, of = [0.0, 0.05, 0.1, 0.15, 0.2], "" if degrees == 5 else f"{degrees}°"
         angles = [steps.angle(w, t) for t in times]
         normal, along = zip(*(steps.force(phi, w) for phi in angles), strict=True)
         N = "'pin[0]'.Fx*sin(slope) + 'pin[0]'.Fy*cos(slope)"
         T = "'pin[0]'.Fx*cos(slope) - 'pin[0]'.Fy*sin(slope)"
         for name, one, other, check in (("N", N, "'foot[1]'.N", normal), ("T", T, "'foot[1]'.T", along)):
             yield Answer(
-                f"{name} at five times, hinged, {of}",
+                f"{name} at five times, hinged",
                 hinged.evaluate(one, times),
                 "N",
                 check,
                 "closed form, time by quadrature",
                 1e-9,
+                variant=of,
             )
             yield Answer(
-                f"{name} at five times, one-sided, {of}",
+                f"{name} at five times, one-sided",
                 pushed.evaluate(other, times),
                 "N",
                 check,
                 "closed form, time by quadrature",
                 1e-9,
+                variant=of,
             )
         end = steps.time(w) - 1e-12
         whole = case.run(parameters=parameters, until=1.0)
@@ -330,10 +336,10 @@ def ground(case):
         check = max(
             -needed(a), -needed(steps.end), -minimize_scalar(needed, bounds=(0.3 * steps.end, steps.end), method="bounded").fun
         )
-        yield Answer(f"friction ratio at most, {of}", ratio.max(), "", check, "closed form", 1e-6)
+        yield Answer("friction ratio at most", ratio.max(), "", check, "closed form", 1e-6, variant=of)
 
 
-@ask("Staying and parting both possible: k = 8, 30°, steady speed")
+@ask("What does the program say where staying and parting are both possible, k = 8, 30°, steady speed?")
 def either(case):
     """Held, the floor pushes; let go, the tip rises: no law says which, and the program does not choose."""
     steps = Steps(8, 30)
@@ -357,7 +363,7 @@ def flown(steps, w, t):
     return (x - R * sin(tip)) * sin(steps.slope) + (y - R * cos(tip)) * cos(steps.slope)
 
 
-@ask("Too fast for a foot that can only push: where its normal force ends")
+@ask("Too fast for a foot that can only push, k = 8, 10°, ω+ = 3 rad/s: when does its normal force end, and what then?")
 def lifting(case):
     """Without any force a tip is accelerated by Rφ̇² along its spoke and by g down.
 
@@ -366,62 +372,57 @@ def lifting(case):
     for k, degrees, w in ((8, 10, 3.0), (8, 20, 2.5), (4, 10, 3.0)):
         steps = Steps(k, degrees)
         phi = brentq(lambda x, s=steps, w=w: s.force(x, w)[0], 0.0, steps.end, xtol=1e-15)
-        t, of = steps.time(w, phi), f"k = {k}, {degrees}°, ω+ = {w}"
+        t, of = steps.time(w, phi), "" if (k, degrees) == (8, 10) else f"k = {k}, {degrees}°, ω+ = {w} rad/s"
         parameters = {"k": k, "slope": f"{degrees} deg", "omega": w}
         outcome = case.mechanism(**parameters).simulate(until=2.0, rtol=1e-12).outcome
         jams = R * steps.rate(phi, w) ** 2 * cos(phi - steps.slope) < G * cos(steps.slope)
-        yield Answer(
-            f"neither holding nor parting is possible: the run ends by name (1), {of}",
-            float(outcome.name == "painleve_inconsistent"),
-            "",
-            float(jams),
-            "closed form: let go, the tip would press into the floor",
+        against = "closed form: let go, the tip would press into the floor"
+        stuck = outcome.name == "painleve_inconsistent"
+        says = (
+            "It can neither hold nor part: the run ends there and says so." if stuck else "It can part or hold: the run goes on."
         )
-        yield Answer(f"when, {of}", outcome.t, "s", t, "quadrature up to N = 0", 1e-9)
+        yield Answer("ends", stuck, "", jams, against, scale=1.0, says=says, variant=of)
+        says = "That is at {}."
+        yield Answer("time", outcome.t, "s", t, "quadrature up to N = 0", 1e-9, says=says, variant=of)
         hinged = case.run("hinged.yaml", {**parameters, "n": 1}, until=t + 0.01)
         value = hinged.evaluate("'pin[0]'.Fx*sin(slope) + 'pin[0]'.Fy*cos(slope)", t)
-        yield Answer(f"N of the hinged tip then, {of}", value, "N", 0.0, "closed form", 1e-9, M * G)
+        yield Answer("N of a hinged tip then", value, "N", 0.0, "closed form", 1e-9, M * G, variant=of)
     run, steps, w = case.run(parameters={"slope": "40 deg", "omega": 3.0}, until=0.5), Steps(8, 40), 3.0
     high = partial(flown, steps, w)
     check = brentq(high, 0.1, 0.4, xtol=1e-15)
-    yield Answer(
-        "flies at once and lands on the next tip, k = 8, 40°, ω+ = 3",
-        collisions(run)[0].t,
-        "s",
-        check,
-        "closed form: free flight",
-        1e-9,
-    )
+    when, of, says = collisions(run)[0].t, "k = 8, 40°, ω+ = 3 rad/s", "It flies at once and lands on the next tip at {}."
+    yield Answer("landing", when, "s", check, "closed form: free flight", 1e-9, says=says, variant=of)
 
 
-@ask("(f) More and more spokes: it rolls as a round wheel does")
+@ask("(f) In what senses does it become an ordinary wheel as k grows, here k = 16?")
 def many(case):
     """From ω = 1 at 5° for a second: exact for each k; nearer to the rolling wheel by a factor as k grows."""
     roll = 1 + C * sin(radians(5))
     for k in (16, 64, 256):
-        steps, w, t = Steps(k, 5), 1.0, 0.0
+        of, steps, w, t = "" if k == 16 else f"k = {k}", Steps(k, 5), 1.0, 0.0
         while t + steps.time(w) < 1:
             t, w = t + steps.time(w), steps.after(w)
         run = case.run(parameters={"k": k, "omega": 1.0}, until=1.0)
         last = collisions(run)[-1]
-        yield Answer(f"ω+ of the last collision before 1 s, k = {k}", spin(last), "rad/s", w, MAP, 1e-9)
-        yield Answer(f"its time, k = {k}", last.t, "s", t, "quadrature", 1e-9)
+        yield Answer("ω+ of the last collision before 1 s", spin(last), "rad/s", w, MAP, 1e-9, variant=of)
+        yield Answer("its time", last.t, "s", t, "quadrature", 1e-9, variant=of)
         wheel = 1 + (roll - 1) * last.t
         yield Answer(
-            f"the same, against a wheel with a rim, k = {k}", spin(last), "rad/s", wheel, "closed form: ω̇ = mgR sin γ/J", 8 / k
+            "the same, against a wheel with a rim", spin(last), "rad/s", wheel, "closed form: ω̇ = mgR sin γ/J", 8 / k, variant=of
         )
         if k > 16:
             part = 1 - (spin(last) / -last.before.u["wheel.angle"]) ** (2 * k)
             against = "closed form: 4π²mR²/kJ, the first term in 1/k"
             yield Answer(
-                f"part of the energy lost in a level turn, k = {k}", part, "", 4 * pi**2 * M * R**2 / J / k, against, 20 / k
+                "part of the energy lost in a level turn", part, "", 4 * pi**2 * M * R**2 / J / k, against, 20 / k, variant=of
             )
 
 
-@ask("A foot with friction 0.9 slides before: 10°, ω+ = 3")
+@ask("Does a foot with friction 0.9 slide before, 10°, ω+ = 3 rad/s?")
 def slides(case):
     steps, w = Steps(8, 10), 3.0
     phi = brentq(lambda x: -steps.force(x, w)[1] - 0.9 * steps.force(x, w)[0], 0.0, steps.end, xtol=1e-15)
     run = case.run("slippery.yaml", {"omega": w}, until=steps.time(w, phi) + 0.01)
     slip = next(c for c in run.changes if c.kind == "slip")
-    yield Answer("it slides from t", slip.t, "s", steps.time(w, phi), "quadrature up to −T = 0.9 N", 1e-9)
+    says = "It slides from {} on."
+    yield Answer("slip", slip.t, "s", steps.time(w, phi), "quadrature up to −T = 0.9 N", 1e-9, says=says)
