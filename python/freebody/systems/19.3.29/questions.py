@@ -23,6 +23,11 @@ EQUATIONS = "closed form: moments about the contact"
 SCIPY = "other route: moments about the contact, SciPy"
 
 
+def told(values):
+    """What differs from the first set."""
+    return "" if values == SETS[0] else "R = {:g} m, L = {:g} m, φ = {:g}, φ̇ = {:g} rad/s".format(*values)
+
+
 class Rocker:
     """Closed forms for one set of sizes; with ``above``, L is measured from the arc's centre."""
 
@@ -62,61 +67,58 @@ def start(values):
     return dict(zip(("R", "L", "phi0", "omega0"), values, strict=True))
 
 
-@ask("(a) In symbols: angle = π/2 − φ")
+@ask("(a) What is the angular acceleration, the angle π/2 − φ, in symbols?")
 def symbolically(case):
     d = "(L/2 - R)"
     closed = f"-{d}*cos(rocker.angle)*(g + R*rate(rocker.angle)^2)/(L^2/12 + R^2 + {d}^2 + 2*R*{d}*sin(rocker.angle))"
     yield from case.symbolically({"rocker.angle": closed}, "closed form: moments about the point of contact")
 
 
-@ask("(b) In symbols: the eigenvalues s of standing, which is stable where s² < 0, 2R > L")
+@ask("(b) What are the eigenvalues s of standing, which is stable where s² < 0?")
 def standing_symbolically(case):
     closed = "s^2 + 3*g*(2*R - L)/(2*L^2)"
     yield case.eigenvalues_of(closed, "closed form: (a) for small φ", **{"rocker.angle": "90 deg"})
 
 
-@ask("(a) Angular acceleration, large angles and small; force of the floor")
+@ask("(a) How large is it at large angles and small, and what is the force of the floor, (R, L, φ, φ̇) = (1.2, 1.8, 0.2, 0)?")
 def instants(case):
     for values in SETS:
-        rocker, now, of = Rocker(*values[:2]), case.instant(parameters=start(values)), f"R, L, φ, φ̇ = {values}"
+        rocker, now, of = Rocker(*values[:2]), case.instant(parameters=start(values)), told(values)
         normal, friction = rocker.floor(*values[2:])
-        yield Answer(f"φ̈, {of}", now["accel(phi)"], "rad/s²", rocker.turning(*values[2:]), EQUATIONS, 1e-12, 1.0)
-        yield Answer(f"normal force, {of}", now["foot.N"], "N", normal, "closed form: momentum", 1e-12)
-        yield Answer(f"friction, to +x, {of}", now["foot.T"], "N", friction, "closed form: momentum", 1e-12, M * G)
+        yield Answer("φ̈", now["accel(phi)"], "rad/s²", rocker.turning(*values[2:]), EQUATIONS, 1e-12, 1.0, variant=of)
+        yield Answer("normal force", now["foot.N"], "N", normal, "closed form: momentum", 1e-12, variant=of)
+        yield Answer("friction, to +x", now["foot.T"], "N", friction, "closed form: momentum", 1e-12, M * G, variant=of)
         R, L = values[:2]
         small = case.instant(parameters=start((R, L, 1e-5, 0.0)))["accel(phi)"] / 1e-5
         yield Answer(
-            f"φ̈/φ for small φ, R, L = {R}, {L}", small, "1/s²", G * (L / 2 - R) / (L**2 / 3), "closed form: small φ", 1e-9, 1.0
+            "φ̈/φ for small φ", small, "1/s²", G * (L / 2 - R) / (L**2 / 3), "closed form: small φ", 1e-9, 1.0, variant=of
         )
 
 
-@ask("(b) Stable standing: which way a small turn is accelerated, whatever m and g")
+@ask("(b) Where is standing stable: which way is a small turn accelerated, for any m and g?")
 def standing(case):
     for R in (0.3, 0.89, 0.91, 1.2):
         for mass, g in ((70.0, 9.81), (1.0, 1.62)):
             now = case.instant(parameters={"m": mass, "g": g, "R": R, "phi0": 0.01})
-            yield Answer(
-                f"sign of φ̈ at φ = 0.01, R = {R}, m = {mass:g}, g = {g}",
-                np.sign(now["accel(phi)"]),
-                "",
-                np.sign(0.9 - R),
-                "closed form: L/2 − R",
-            )
+            back, of = bool(now["accel(phi)"] < 0), f"R = {R} m, m = {mass:g} kg, g = {g} m/s²"
+            says = "A small turn is driven back." if back else "A small turn grows."
+            yield Answer("stable", back, "", R > 0.9, "closed form: L/2 − R", scale=1.0, says=says, variant=of)
 
 
-@ask("5 s of motion, with the force of the floor")
+@ask("How does it move for 5 s, with what force of the floor, and does it lift off, (R, L, φ, φ̇) = (1.2, 1.8, 0.2, 0)?")
 def run(case):
     for values in SETS:
         rocker, run = Rocker(*values[:2]), case.run(parameters=start(values))
-        check, of = motion(rocker.rates, values[2:], TIMES), f"R, L, φ0, φ̇0 = {values}"
-        yield Answer(f"φ at 1 … 5 s, {of}", run.evaluate("phi", TIMES), "rad", check[:, 0], SCIPY, 1e-8)
-        yield Answer(f"φ̇, {of}", run.evaluate("rate(phi)", TIMES), "rad/s", check[:, 1], SCIPY, 1e-8)
+        check, of = motion(rocker.rates, values[2:], TIMES), told(values)
+        yield Answer("φ at 1 … 5 s", run.evaluate("phi", TIMES), "rad", check[:, 0], SCIPY, 1e-8, variant=of)
+        yield Answer("φ̇", run.evaluate("rate(phi)", TIMES), "rad/s", check[:, 1], SCIPY, 1e-8, variant=of)
         force = np.array([rocker.floor(*y) for y in check])
-        yield Answer(f"normal force, {of}", run.evaluate("foot.N", TIMES), "N", force[:, 0], SCIPY, 1e-8)
-        yield Answer(f"friction, {of}", run.evaluate("foot.T", TIMES), "N", force[:, 1], SCIPY, 1e-8, M * G)
-        left = [c.kind for c in run.changes].count("lift-off")
+        yield Answer("normal force", run.evaluate("foot.N", TIMES), "N", force[:, 0], SCIPY, 1e-8, variant=of)
+        yield Answer("friction", run.evaluate("foot.T", TIMES), "N", force[:, 1], SCIPY, 1e-8, M * G, variant=of)
+        left = any(change.kind == "lift-off" for change in run.changes)
         least = min(rocker.floor(*y)[0] for y in motion(rocker.rates, values[2:], np.linspace(0.01, 5, 400)))
-        yield Answer(f"lifts off (1) or not (0), {of}", float(left), "", float(least < 0), f"{SCIPY}: least N {least:.1f} N")
+        says = "It lifts off." if left else "It never lifts off."
+        yield Answer("lifts off", left, "", bool(least < 0), SCIPY, scale=1.0, says=says, variant=of)
 
 
 def settled(coarse, fine):
@@ -130,13 +132,17 @@ def period_of(case, values):
     return second - first
 
 
-@ask("Period at finite and at small amplitude")
+@ask("What is the period at finite and at small amplitude, (R, L, φ, φ̇) = (1.2, 1.8, 0.2, 0)?")
 def period(case):
     for values in [*SETS[:2], (1.2, 1.8, 0.05, 0.0)]:
-        of = f"R, L, φ0, φ̇0 = {values}"
-        yield Answer(f"period, {of}", period_of(case, values), "s", Rocker(*values[:2]).period(*values[2:]), "quadrature", 1e-8)
+        of = told(values)
+        yield Answer(
+            "period", period_of(case, values), "s", Rocker(*values[:2]).period(*values[2:]), "quadrature", 1e-8, variant=of
+        )
     small = settled(*(period_of(case, (1.2, 1.8, phi, 0.0)) for phi in (0.02, 0.01)))
-    yield Answer("small amplitude", small, "s", 2 * pi / Rocker(1.2, 1.8).small(), "closed form: 2π√(L²/3g(R − L/2))", 1e-8)
+    yield Answer(
+        "period at small amplitude", small, "s", 2 * pi / Rocker(1.2, 1.8).small(), "closed form: 2π√(L²/3g(R − L/2))", 1e-8
+    )
 
 
 def growth(case, file, rocker):
@@ -149,39 +155,35 @@ def growth(case, file, rocker):
     return settled(rate(8e-3), rate(4e-3))
 
 
-@ask("Growth rate when unstable")
+@ask("How fast does a small turn grow when standing is unstable?")
 def grows(case):
     for R in (0.3, 0.6):
         rocker = Rocker(R, 1.8)
-        yield Answer(
-            f"λ, R = {R}", growth(case, "model.yaml", rocker), "1/s", rocker.small(), "closed form: √(g(L/2 − R)/(L²/3))", 1e-7
-        )
+        value, against = growth(case, "model.yaml", rocker), "closed form: √(g(L/2 − R)/(L²/3))"
+        yield Answer("λ", value, "1/s", rocker.small(), against, 1e-7, variant=f"R = {R} m")
 
 
-@ask("L measured from the arc's centre")
+@ask("And with L measured from the arc's centre up?")
 def above(case):
     times = [0.4, 0.8, 1.2]
     for R, L in ((1.2, 1.8), (0.3, 1.8), (5.0, 1.8)):
         rocker = Rocker(R, L, above=True)
         of = f"R, L = {R}, {L}"
-        yield Answer(f"λ: never stable, {of}", growth(case, "from_centre.yaml", rocker), "1/s", rocker.small(), EQUATIONS, 1e-7)
+        value, says = growth(case, "from_centre.yaml", rocker), "It is not stable: a small turn grows at {}."
+        yield Answer("λ", value, "1/s", rocker.small(), EQUATIONS, 1e-7, says=says, variant=of)
         run = case.run("from_centre.yaml", {"R": R, "L": L, "phi0": 0.1}, until=1.2)
         check = motion(rocker.rates, [0.1, 0.0], times)
-        yield Answer(f"φ at 0.4, 0.8, 1.2 s from 0.1, {of}", run.evaluate("phi", times), "rad", check[:, 0], SCIPY, 1e-9)
+        yield Answer("φ at 0.4, 0.8, 1.2 s from 0.1", run.evaluate("phi", times), "rad", check[:, 0], SCIPY, 1e-9, variant=of)
 
 
-@ask("Can the floor's force end? L from the arc's centre, R = 0.3, from φ = 0.1")
+@ask("Can the floor's force end, L measured from the arc's centre, R = 0.3 m, from φ = 0.1?")
 def ends(case):
     """Where N reaches 0 friction still acts; without it the foot would press into the floor, with it the floor would pull."""
     rocker = Rocker(0.3, 1.8, above=True)
     when, (phi, w) = event(rocker.rates, [0.1, 0.0], lambda t, y: rocker.floor(*y)[0], before=2.0)
     outcome = case.mechanism("from_centre.yaml", R=0.3, phi0=0.1).simulate(until=2.0, rtol=1e-12).outcome
     jams = rocker.d * w**2 * cos(phi) < G  # let go, G falls with g, and the arc's centre gains d φ̇² cos φ on it
-    yield Answer("N = 0 at t", outcome.t, "s", when, SCIPY, 1e-9)
-    yield Answer(
-        "run ends by name (1)",
-        float(outcome.name == "painleve_inconsistent"),
-        "",
-        float(jams),
-        "closed form: neither holding nor parting",
-    )
+    yield Answer("end", outcome.t, "s", when, SCIPY, 1e-9, says="It ends at {}.")
+    stuck, against = outcome.name == "painleve_inconsistent", "closed form: neither holding nor parting"
+    says = "There the foot can neither hold nor part: the run ends and says so." if stuck else "There the foot can go on."
+    yield Answer("ends", stuck, "", bool(jams), against, scale=1.0, says=says)
