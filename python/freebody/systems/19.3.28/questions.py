@@ -16,6 +16,8 @@ from freebody.catalogue.reference import motion
 from freebody.stability.state_space import state_space
 
 M, L, G = 1.0, 1.0, 9.81
+COLUMNS = [("phi1", "φ₁", "rad"), ("phi2", "φ₂", "rad"), ("rate(phi1)", "φ̇₁", "rad/s"), ("rate(phi2)", "φ̇₂", "rad/s")]
+HORIZONTAL = "angles from the horizontal"
 LETTERS = "closed form: −3g/2ℓ, mg/4, 5mg/4"
 
 
@@ -37,25 +39,33 @@ def solve(one, two, spin1, spin2):
     return np.linalg.solve(matrix, right)
 
 
-@ask("In symbols, just after release")
+@ask("What are φ̈₁, φ̈₂ just after release, in symbols, and the forces at both hinges?")
 def symbolically(case):
     closed = {"phi1": "0", "phi2": "-3*g/(2*l)", "elbow.Fy": "m*g/4", "ceiling.Fy": "5*m*g/4"}
     yield from case.symbolically(closed, LETTERS, at_rest=True, set={"phi1": 0, "phi2": "90 deg"})
 
 
-@ask("Just after release")
+@ask("How large are they?")
 def release(case):
     for file in ("model.yaml", "horizontal.yaml"):
-        now = case.instant(file)
+        now, of = case.instant(file), "" if file == "model.yaml" else HORIZONTAL
         value = [now.accelerations["phi1"], now.accelerations["phi2"]]
-        yield Answer(f"φ̈₁, φ̈₂, {file}", value, "rad/s²", [0.0, -3 * G / (2 * L)], LETTERS, 1e-13)
-        yield Answer(f"elbow on bar 2, {file}", [now["elbow.Fx"], now["elbow.Fy"]], "N", [0.0, M * G / 4], LETTERS, 1e-13)
+        yield Answer("φ̈₁, φ̈₂", value, "rad/s²", [0.0, -3 * G / (2 * L)], LETTERS, 1e-13, variant=of)
         yield Answer(
-            f"ceiling on bar 1, {file}", [now["ceiling.Fx"], now["ceiling.Fy"]], "N", [0.0, 5 * M * G / 4], LETTERS, 1e-13
+            "force of the elbow on bar 2", [now["elbow.Fx"], now["elbow.Fy"]], "N", [0.0, M * G / 4], LETTERS, 1e-13, variant=of
+        )
+        yield Answer(
+            "force of the ceiling on bar 1",
+            [now["ceiling.Fx"], now["ceiling.Fy"]],
+            "N",
+            [0.0, 5 * M * G / 4],
+            LETTERS,
+            1e-13,
+            variant=of,
         )
 
 
-@ask("The symbolic answer: other m, ℓ, g")
+@ask("And with m = 2.7 kg, ℓ = 0.4 m, g = 3.71 m/s²?")
 def letters(case):
     m, length, g = 2.7, 0.4, 3.71
     now = case.instant(parameters={"m": m, "l": length, "g": g})
@@ -64,21 +74,21 @@ def letters(case):
     yield Answer("Fy at elbow and ceiling", [now["elbow.Fy"], now["ceiling.Fy"]], "N", [m * g / 4, 5 * m * g / 4], LETTERS, 1e-13)
 
 
-@ask("Motion for 3 s, with the forces at both hinges")
+@ask("How does it move for 3 s, with what forces at both hinges?")
 def run(case):
     times = [0.5, 1.0, 2.0, 3.0]
     check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), [0.0, pi / 2, 0.0, 0.0], times)
     run, against = case.run(), "other route: balances by hand, SciPy"
-    for i, (text, unit) in enumerate([("phi1", "rad"), ("phi2", "rad"), ("rate(phi1)", "rad/s"), ("rate(phi2)", "rad/s")]):
-        yield Answer(f"{text} at 0.5…3 s", run.evaluate(text, times), unit, check[:, i], against, 1e-8)
+    for i, (text, name, unit) in enumerate(COLUMNS):
+        yield Answer(f"{name} at 0.5…3 s", run.evaluate(text, times), unit, check[:, i], against, 1e-8)
     turned = np.array(case.run("horizontal.yaml").evaluate("phi2", times)) + pi / 2
-    yield Answer("φ₂ measured from the horizontal, + π/2", turned, "rad", check[:, 1], against, 1e-8)
+    yield Answer("φ₂ + π/2 at 0.5…3 s", turned, "rad", check[:, 1], against, 1e-8, variant=HORIZONTAL)
     for i, part in [(2, "Fx"), (3, "Fy")]:
         elbow = [solve(*s)[i] for s in check]
-        yield Answer(f"elbow.{part} on bar 2", run.evaluate(f"elbow.{part}", times), "N", elbow, against, 1e-7)
+        yield Answer(f"{part} of the elbow on bar 2", run.evaluate(f"elbow.{part}", times), "N", elbow, against, 1e-7)
     ceiling = np.array([ceiling_force(*s) for s in check])
     for i, part in enumerate(("Fx", "Fy")):
-        yield Answer(f"ceiling.{part} on bar 1", run.evaluate(f"ceiling.{part}", times), "N", ceiling[:, i], against, 1e-7)
+        yield Answer(f"{part} of the ceiling on bar 1", run.evaluate(f"ceiling.{part}", times), "N", ceiling[:, i], against, 1e-7)
 
 
 def ceiling_force(one, two, spin1, spin2):
@@ -89,7 +99,7 @@ def ceiling_force(one, two, spin1, spin2):
     return Fx + M * ax, Fy + M * (ay + G)
 
 
-@ask("The other reading: φ₁ = 0, φ₂ = π/2 from the horizontal, bar 1 along x and bar 2 upright")
+@ask("And where φ₁ = 0, φ₂ = π/2 are meant from the horizontal, bar 1 along x and bar 2 upright?")
 def other_reading(case):
     """Only gravity at rest: with bar 2 above the elbow, m a_G1 and m a_G2 are vertical, φ̈₂ = 0 and (4/3)φ̈₁ = −(3/2) g/ℓ."""
     state = {"phi1": "90 deg", "phi2": "180 deg"}
@@ -97,7 +107,9 @@ def other_reading(case):
     yield from case.symbolically(closed, "closed form: balances about ceiling and elbow", at_rest=True, set=state)
     now, check = case.instant(**state), solve(pi / 2, pi, 0.0, 0.0)
     yield Answer("φ̈₁, φ̈₂", [now["accel(phi1)"], now["accel(phi2)"]], "rad/s²", check[:2], LETTERS, 1e-13)
-    yield Answer("elbow on bar 2", [now["elbow.Fx"], now["elbow.Fy"]], "N", check[2:], "other route: balances by hand", 1e-12)
+    yield Answer(
+        "force of the elbow on bar 2", [now["elbow.Fx"], now["elbow.Fy"]], "N", check[2:], "other route: balances by hand", 1e-12
+    )
 
 
 @ask("How does it move from that start, and what are its linear equations there?")
@@ -106,9 +118,9 @@ def from_the_other(case):
     run, times = case.run(initial={"phi1": "90 deg", "phi2": "180 deg", "at_rest": True}), [0.5, 1.0, 2.0, 3.0]
     check = motion(lambda _t, s: (s[2], s[3], *solve(*s)[:2]), [pi / 2, pi, 0.0, 0.0], times)
     against = "other route: balances by hand, SciPy"
-    for i, text in enumerate(("phi1", "phi2")):
+    for i, (text, name, _) in enumerate(COLUMNS[:2]):
         digits = run.digits(text, [3.0])[0]
-        label = f"{text} at 0.5, 1, 2, 3 s, of which {digits:.0f} digits hold"
+        label = f"{name} at 0.5, 1, 2, 3 s, of which {digits:.0f} digits hold"
         yield Answer(label, run.evaluate(text, times), "rad", check[:, i], against, 1e-7)
     found = state_space(case.mechanism().source(), run.motion.state(0.0)).a
     step = 1e-5
