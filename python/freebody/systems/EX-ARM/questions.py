@@ -47,82 +47,67 @@ def forces(now):
     return [now[text] for text in ("shoulder.Fx", "shoulder.Fy", "elbow.Fx", "elbow.Fy")]
 
 
-def instant(case, state, gravity=DOWN):
+def instant(case, state, gravity=DOWN, variant=""):
     q, u = np.radians([state[0], state[2]]), (state[1], state[3])
     parameters = {"Ms": state[4], "Me": state[5], "gx": gravity[0], "gy": gravity[1]}
     now = case.instant(parameters=parameters, theta1=q[0], theta2=q[1], rates={"theta1": u[0], "theta2": u[1]})
     check = accelerations(q, u, *state[4:], gravity)
-    yield Answer(
-        "θ̈1, θ̈2", [now["accel(theta1)"], now["accel(theta2)"]], "rad/s²", check, "closed form: moments about O and E", 1e-12
-    )
+    values, against = [now["accel(theta1)"], now["accel(theta2)"]], "closed form: moments about O and E"
+    yield Answer("θ̈1, θ̈2", values, "rad/s²", check, against, 1e-12, variant=variant)
     check = np.concatenate(hinge_forces(q, u, check, gravity))
-    yield Answer(
-        "forces at O (on the upper arm) and E (on the forearm), x and y",
-        forces(now),
-        "N",
-        check,
-        "closed form: momentum of the links beyond",
-        1e-12,
-    )
+    says, against = "The upper arm gets ({}, {}) at O, the forearm ({}, {}) at E.", "closed form: momentum of the links beyond"
+    yield Answer("forces at O and E, x and y", forces(now), "N", check, against, 1e-12, says=says, variant=variant)
 
 
-@ask("symbolically:  the torques that hold the arm straight out")
+@ask("Which torques hold the arm straight out?")
 def symbolically(case):
     closed = {"elbow motor": "m2*g*l2", "shoulder motor": "g*(m1*l1 + m2*(l3 + l2))"}
     yield from case.symbolically(closed, "statics: moments about elbow and shoulder", "held.yaml")
+    now = case.instant("held.yaml")
+    check = [9.81 * (M1 * L1 + M2 * (L3 + L2)), 9.81 * M2 * L2]
+    values = [now["'shoulder motor'.force"], now["'elbow motor'.force"]]
+    yield Answer("M_s, M_e", values, "N·m", check, "statics: moments about elbow and shoulder", 1e-13)
 
 
-@ask("just released, θ1 = 30°, θ2 = −20°")
+@ask("What are the accelerations and the forces at O and E just released at θ1 = 30°, θ2 = −20°?")
 def released(case):
     yield from instant(case, STATES["released"])
 
 
-@ask("moving, with both motors")
+@ask("What are they at θ1 = 30°, θ̇1 = 1.2, θ2 = 75°, θ̇2 = −0.8 with M_s = 6, M_e = 2 N·m?")
 def moving(case):
     yield from instant(case, STATES["moving"])
+    yield from instant(case, STATES["moving"], gravity=(9.81, 0.0), variant="gravity to the right")
 
 
-@ask("torques that hold the arm straight out")
-def holding(case):
-    """Moments of the weights beyond the hinge."""
-    now = case.instant("held.yaml")
-    check = [9.81 * (M1 * L1 + M2 * (L3 + L2)), 9.81 * M2 * L2]
-    values = [now["'shoulder motor'.force"], now["'elbow motor'.force"]]
-    yield Answer("M_s, M_e", values, "N·m", check, "closed form: moments of the weights", 1e-13)
-
-
-@ask("2 s from rest with M_s = 1, M_e = 0.5 N·m")
+@ask("How does it move for 2 s from rest with M_s = 1, M_e = 0.5 N·m, and do the motors do the work that its energy grows by?")
 def driven(case):
     run = case.run(parameters={"Ms": 1, "Me": 0.5})
     times = np.array([0.5, 1.0, 1.5, 2.0])
     start = np.radians([-90, -60])
     check = motion(lambda t, y: [*y[2:], *accelerations(y[:2], y[2:], 1, 0.5)], [*start, 0, 0], times)
-    for i, name in enumerate(("theta1", "theta2")):
+    for i, name in enumerate(("theta1", "theta2"), 1):
         yield Answer(
-            f"{name} at 0.5, 1, 1.5, 2 s",
+            f"θ{i} at 0.5, 1, 1.5, 2 s",
             run.evaluate(name, times),
             "rad",
-            check[:, i],
+            check[:, i - 1],
             "other route: moments about O and E, integrated by SciPy",
             1e-10,
         )
     turned = check[:, :2] - start
     work = 1.0 * turned[:, 0] + 0.5 * (turned[:, 1] - turned[:, 0])
     done = run.evaluate("'shoulder motor'.work", times) + run.evaluate("'elbow motor'.work", times)
-    yield Answer("work of the motors", done, "J", work, "closed form: constant torques times the angles turned", 1e-10)
+    yield Answer("work of the motors", done, "J", work, "closed form: torques times angles turned", 1e-10)
     gained = run.evaluate("energy()", times) - run.evaluate("energy()", 0.0)
-    yield Answer("energy gained", gained, "J", work, "conservation: work of the motors", 1e-10)
+    yield Answer("energy gained", gained, "J", work, "closed form: torques times angles turned", 1e-10)
 
 
-@ask("the same with the elbow angle measured from the upper arm")
+@ask("Is the motion the same with the elbow angle measured from the upper arm?")
 def relative(case):
     torques = {"Ms": 1, "Me": 0.5}
     times = np.array([0.5, 1.0, 1.5, 2.0])
     one, other = case.run(parameters=torques), case.run("relative.yaml", torques)
-    for text in ("x(forearm.G)", "y(forearm.G)", "elbow.F"):
-        yield Answer(text, other.evaluate(text, times), "", one.evaluate(text, times), "other route: absolute angles", 1e-10)
-
-
-@ask("variant: gravity to the right")
-def sideways(case):
-    yield from instant(case, STATES["moving"], gravity=(9.81, 0.0))
+    for text, unit in (("x(forearm.G)", "m"), ("y(forearm.G)", "m"), ("elbow.F", "N")):
+        value, check = other.evaluate(text, times), one.evaluate(text, times)
+        yield Answer(f"{text} at 0.5, 1, 1.5, 2 s", value, unit, check, "other route: absolute angles", 1e-10)

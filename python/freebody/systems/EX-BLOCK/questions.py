@@ -37,32 +37,45 @@ def forces(y, shares):
     return (total - difference) / 2, (total + difference) / 2, shares[0] * normal, shares[1] * normal
 
 
-@ask("symbolically")
+def rollers_below(case):
+    """The same with C and D on the lower block."""
+    for y in PLACES:
+        now, of = case.instant("rollers_on_lower.yaml", y=y), f"rollers fixed to the lower block, y = {y:g}"
+        values, against = [now["accel(x)"], now["accel(y)"]], "closed form: two balances without reactions"
+        yield Answer("ẍ, ÿ", values, "m/s²", accelerations(), against, 1e-13, variant=of)
+        # The reaction is on the second body, here the lower block; across the bottom of the upper one it points down.
+        values = [now[text] for text in (*A_AND_B, "-rollers.Fn + rollers.M/0.25", "-rollers.M/0.25")]
+        check, against = forces(y, ((0.1 + y) / 0.25, (0.15 - y) / 0.25)), "closed form: one balance after another"
+        yield Answer("F_A, F_B, F_C, F_D", values, "N", check, against, 1e-12, variant=of)
+
+
+@ask("What are the accelerations, symbolically?")
 def symbolically(case):
     below = "(m1 + m2*sin(tip)^2)"
     closed = {"x": f"m2*g*sin(tip)*cos(tip)/{below}", "y": f"(m1 + m2)*g*sin(tip)/{below}"}
-    yield from case.symbolically(closed, "closed form: momentum along x, block 2 along the slope")
+    yield from case.symbolically(closed, "closed form: two balances without reactions")
 
 
-@ask("accelerations and roller forces at y = 0, 0.1, 0.3 m")
+@ask("What are ẍ, ÿ and the forces at A, B, C, D at y = 0, and at 0.1 and 0.3 m?")
 def instants(case):
+    """With the small rollers fixed to the lower block, C and D stay and G2 moves over them: (0.15 − y) F_C = (0.10 + y) F_D."""
     for y in PLACES:
-        now = case.instant(y=y)
+        now, of = case.instant(y=y), f"y = {y:g}" if y else ""
         yield Answer(
-            f"ẍ, ÿ at y = {y}",
+            "ẍ, ÿ",
             [now["accel(x)"], now["accel(y)"]],
             "m/s²",
             accelerations(),
             "closed form: two balances without reactions",
             1e-13,
+            variant=of,
         )
-        values = [now[text] for text in (*A_AND_B, *C_AND_D)]
-        yield Answer(
-            f"F_A, F_B, F_C, F_D at y = {y}", values, "N", forces(y, (0.4, 0.6)), "closed form: one balance after another", 1e-12
-        )
+        values, against = [now[text] for text in (*A_AND_B, *C_AND_D)], "closed form: one balance after another"
+        yield Answer("F_A, F_B, F_C, F_D", values, "N", forces(y, (0.4, 0.6)), against, 1e-12, variant=of)
+    yield from rollers_below(case)
 
 
-@ask("motion from rest for 0.4 s")
+@ask("How do the blocks move from rest for 0.4 s?")
 def motion(case):
     run = case.run()
     times = np.array([0.1, 0.2, 0.3, 0.4])
@@ -76,23 +89,5 @@ def motion(case):
             1e-12,
         )
     whole = run.evaluate("momentum_x()", times)
-    yield Answer("momentum of both along x", whole, "N·s", 0 * times, "conservation: no force along x", 1e-12, scale=M1)
-
-
-@ask("variant: small rollers fixed to the lower block")
-def rollers_below(case):
-    """Then C and D stay where they are and G2 moves over them: (0.15 − y) F_C = (0.10 + y) F_D."""
-    for y in PLACES:
-        now = case.instant("rollers_on_lower.yaml", y=y)
-        yield Answer(
-            f"ẍ, ÿ at y = {y}",
-            [now["accel(x)"], now["accel(y)"]],
-            "m/s²",
-            accelerations(),
-            "closed form: two balances without reactions",
-            1e-13,
-        )
-        # The reaction is on the second body, here the lower block; across the bottom of the upper one it points down.
-        values = [now[text] for text in (*A_AND_B, "-rollers.Fn + rollers.M/0.25", "-rollers.M/0.25")]
-        check = forces(y, ((0.1 + y) / 0.25, (0.15 - y) / 0.25))
-        yield Answer(f"F_A, F_B, F_C, F_D at y = {y}", values, "N", check, "closed form: one balance after another", 1e-12)
+    says = "The momentum of both along x stays {}."
+    yield Answer("momentum along x", whole, "N·s", 0 * times, "conservation: no force along x", 1e-12, scale=M1, says=says)

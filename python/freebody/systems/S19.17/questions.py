@@ -30,7 +30,7 @@ def shot(case, torque=1.0, r=0.1, spin=0.0):
     return run, next(event.t for event in run.events if event.name == "leaves")
 
 
-@ask("R(t) and θ(t) for 0–1 s, and the polar path R(θ)")
+@ask("1. What are R(t), θ(t) and the polar path R(θ) for 0–1 s?")
 def path(case):
     run, _ = shot(case)
     times = np.linspace(0.1, 1, 10)
@@ -43,19 +43,19 @@ def path(case):
         yield Answer(f"{name} of the collar at 0.1 … 1 s", value, "m", other, SCIPY, 1e-11)
 
 
-@ask("when the collar leaves the rod")
+@ask("2. When does the collar leave the rod, and how does it move then?")
 def leaving(case):
     run, t = shot(case)
     when, (theta, _, spin, speed) = exit_of(1.0)
-    yield Answer("t", t, "s", when, SCIPY, 1e-12)
-    yield Answer("R", run.evaluate("R", t), "m", L, "closed form: the event itself", 1e-14)
+    yield Answer("t", t, "s", when, SCIPY, 1e-12, says="It leaves after {}.")
+    yield Answer("R", run.evaluate("R", t), "m", L, "closed form: the length of the rod", 1e-14)
     yield Answer("θ", run.evaluate("theta", t), "rad", theta, SCIPY, 1e-11)
     yield Answer("Ṙ", run.evaluate("rate(R)", t), "m/s", speed, SCIPY, 1e-11)
     yield Answer("θ̇", run.evaluate("rate(theta)", t), "rad/s", spin, SCIPY, 1e-11)
     yield Answer("speed", run.evaluate("speed(collar.centre)", t), "m/s", np.hypot(speed, L * spin), SCIPY, 1e-11)
 
 
-@ask("energy, and work of the torque, over time")
+@ask("3. Is the energy the work of T all the time?")
 def energy(case):
     """The power T θ̇ makes the energy T θ."""
     run, end = shot(case)
@@ -66,40 +66,30 @@ def energy(case):
     yield Answer("work of the motor in the ledger", run.evaluate("motor.work", times), "J", work, against, 1e-11)
 
 
-@ask("angle at exit for seven torques, from rest")
+@ask("4. What is θ at exit for T = 0.1, 0.5, 1, 1.5, 2, 2.5, 3, and Ṙ/θ̇ there?")
 def torques(case):
     _, (theta, _, spin, speed) = exit_of(1.0)
+    angles, ratios = [], []
     for torque in (0.1, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0):
         run, t = shot(case, torque)
-        yield Answer(
-            f"θ at exit, T = {torque}",
-            run.evaluate("theta", t),
-            "rad",
-            theta,
-            "closed form: that of T = 1, by scaling time",
-            1e-11,
-        )
-        ratio = run.evaluate("rate(R)", t) / run.evaluate("rate(theta)", t)
-        yield Answer(f"Ṙ/θ̇ at exit, T = {torque}", ratio, "m", speed / spin, "closed form: that of T = 1, by scaling time", 1e-11)
-
-
-@ask("angle at exit when the start is not at rest")
-def spinning(case):
+        angles.append(run.evaluate("theta", t))
+        ratios.append(run.evaluate("rate(R)", t) / run.evaluate("rate(theta)", t))
+    scaled, says = "closed form: that of T = 1, by scaling time", "From rest θ at exit is {} for all of them."
+    yield Answer("θ at exit", angles, "rad", [theta] * 7, scaled, 1e-11, says=says)
+    says = "Ṙ/θ̇ there is {}: all follow one path, at other speeds."
+    yield Answer("Ṙ/θ̇ at exit", ratios, "m", [speed / spin] * 7, scaled, 1e-11, says=says)
     for spin in (0.5, 1.0):
         for torque in (0.5, 1.0, 3.0):
             run, t = shot(case, torque, spin=spin)
-            check = exit_of(torque, spin=spin)[1][0]
-            yield Answer(f"θ at exit, θ̇0 = {spin}, T = {torque}", run.evaluate("theta", t), "rad", check, SCIPY, 1e-11)
-
-
-@ask("angle at exit for other places of the start")
-def starts(case):
+            check, of = exit_of(torque, spin=spin)[1][0], f"θ̇0 = {spin:g}, T = {torque:g}"
+            yield Answer("θ at exit", run.evaluate("theta", t), "rad", check, SCIPY, 1e-11, variant=of)
     for r in (0.05, 0.2, 0.5):
         run, t = shot(case, r=r)
-        yield Answer(f"θ at exit, R0 = {r}", run.evaluate("theta", t), "rad", exit_of(1.0, r=r)[1][0], SCIPY, 1e-11)
+        check = exit_of(1.0, r=r)[1][0]
+        yield Answer("θ at exit", run.evaluate("theta", t), "rad", check, SCIPY, 1e-11, variant=f"R0 = {r:g}")
 
 
-@ask("the moment of leaving to the last digits")
+@ask("Is the moment of leaving located to the last digits?")
 def last_digits(case):
     """The state near SciPy's moment in 30 digits, and from there the rest of the way at the speed it has."""
     near, _ = exit_of(1.0)
@@ -115,13 +105,14 @@ def last_digits(case):
     digits = "other route: two balances in 30 digits"
     run, t = shot(case)
     ends = case.run("free_end.yaml").events[0]
-    yield Answer("t, by the event R = l", t, "s", check, digits, 1e-13)
-    yield Answer("t, by the free end of the slot", ends.t, "s", check, digits, 1e-13)
-    yield Answer("θ, by the event R = l", run.evaluate("theta", t), "rad", angle, digits, 1e-13)
-    yield Answer("θ, by the free end of the slot", ends.q["theta"], "rad", angle, digits, 1e-13)
+    yield Answer("t", t, "s", check, digits, 1e-13)
+    yield Answer("θ", run.evaluate("theta", t), "rad", angle, digits, 1e-13)
+    of = "by the free end of the slot"
+    yield Answer("t", ends.t, "s", check, digits, 1e-13, variant=of)
+    yield Answer("θ", ends.q["theta"], "rad", angle, digits, 1e-13, variant=of)
 
 
-@ask("after the exit: the collar flies straight on, the rod goes on turning")
+@ask("Does the collar fly straight on after the exit, while the rod goes on?")
 def flight(case):
     """Once handed over to another model, and once in one, where the slot ends free."""
     run, t = shot(case)
@@ -129,19 +120,19 @@ def flight(case):
     along, across = np.array([np.cos(theta), np.sin(theta)]), np.array([-np.sin(theta), np.cos(theta)])
     velocity = speed * along + L * spin * across
     straight, alone = "closed form: straight on from SciPy's exit", "closed form: constant torque on the rod alone"
-    for how, later in (("handed over", run.next), ("free end", case.run("free_end.yaml"))):
+    for how, later in (("", run.next), ("by the free end of the slot", case.run("free_end.yaml"))):
         for dt in (0.25, 0.5):
             place = [later.evaluate(f"{name}(collar.centre)", t + dt) for name in "xy"]
-            yield Answer(f"place of the collar {dt} s after, {how}", place, "m", L * along + dt * velocity, straight, 1e-11)
+            check, says = L * along + dt * velocity, f"{dt} s after the exit the collar is at ({{}}, {{}})."
+            yield Answer("place", place, "m", check, straight, 1e-11, says=says, variant=how)
             turned = theta + spin * dt + dt**2 / 2 / I1
-            yield Answer(f"angle of the rod {dt} s after, {how}", later.evaluate("theta", t + dt), "rad", turned, alone, 1e-11)
+            angle, says = later.evaluate("theta", t + dt), "The rod is at {} then."
+            yield Answer("θ", angle, "rad", turned, alone, 1e-11, says=says, variant=how)
         moving = [later.evaluate(f"v{name}(collar.centre)", t + 0.5) for name in "xy"]
-        yield Answer(f"velocity of the collar 0.5 s after, {how}", moving, "m/s", velocity, straight, 1e-11)
+        says = "The collar's velocity is ({}, {}) then."
+        yield Answer("velocity", moving, "m/s", velocity, straight, 1e-11, says=says, variant=how)
         work = theta + spin * 0.5 + 0.5**2 / 2 / I1
-        yield Answer(
-            f"kinetic energy 0.5 s after, {how}", later.evaluate("kinetic()", t + 0.5), "J", work, "conservation: T θ", 1e-11
-        )
+        moved = later.evaluate("kinetic()", t + 0.5)
+        yield Answer("kinetic energy then", moved, "J", work, "conservation: T θ", 1e-11, variant=how)
     push = case.run("free_end.yaml").evaluate("track.Fn", t + 0.5)
-    yield Answer(
-        "force of the rod on the collar 0.5 s after, free end", push, "N", 0.0, "closed form: they are apart", 1e-14, 1.0
-    )
+    yield Answer("force of the rod on the collar", push, "N", 0.0, "closed form: they are apart", 1e-14, 1.0, variant=how)

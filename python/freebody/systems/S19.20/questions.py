@@ -30,17 +30,20 @@ def pair(now, text):
     return np.array([now[text.format("x")], now[text.format("y")]])
 
 
-@ask("linear momentum of P, through the frame of the rod")
+@ask("1. What is the linear momentum of P, through the frame of the rod?")
 def momentum(case):
     now = case.instant()
     carried, whole = pair(now, "v{}(rod.Q)"), pair(now, "v{}(wheel.P)")
     yield Answer("velocity of the rod's point under P", carried, "m/s", W1 * left(P), "closed form: ω1 k × r_P", 1e-13)
     yield Answer("velocity relative to the rod", whole - carried, "m/s", -W2 * left(AP), "closed form: −ω2 k × r_P/A", 1e-13)
     yield Answer("velocity of P", whole, "m/s", VELOCITY, "closed form: place differentiated", 1e-13)
-    yield Answer("momentum of P", pair(now, "momentum_{}()"), "N·s", MASS * VELOCITY, "closed form: place differentiated", 1e-13)
+    says = "The momentum of P is ({}, {})."
+    yield Answer(
+        "momentum of P", pair(now, "momentum_{}()"), "N·s", MASS * VELOCITY, "closed form: place differentiated", 1e-13, says=says
+    )
 
 
-@ask("net force on P, through the frame of the rod")
+@ask("2. What is the net force on P, through the frame of the rod?")
 def force(case):
     now = case.instant()
     carried, whole = pair(now, "a{}(rod.Q)"), pair(now, "a{}(particle.centre)")
@@ -52,12 +55,11 @@ def force(case):
         "acceleration relative to the rod", whole - carried - coriolis, "m/s²", -(W2**2) * AP, "closed form: −ω2² r_P/A", 1e-12
     )
     yield Answer("acceleration of P", whole, "m/s²", ACCELERATION, "closed form: place differentiated twice", 1e-13)
-    yield Answer(
-        "net force on P", pair(now, "rim.F{}"), "N", MASS * ACCELERATION, "closed form: place differentiated twice", 1e-13
-    )
+    says, against = "The net force on P is ({}, {}).", "closed form: place differentiated twice"
+    yield Answer("net force on P", pair(now, "rim.F{}"), "N", MASS * ACCELERATION, against, 1e-13, says=says)
 
 
-@ask("point by point: the named terms against the place differentiated twice, and what the printed acceleration differs by")
+@ask("Are the named terms those of the place differentiated twice, and by what does the printed acceleration differ?")
 def account(case):
     """Along OA only −ω1²; along AP the three parts −ω1² − ω2² + 2 ω1 ω2 are −(ω1 − ω2)²."""
     document = topic(case.mechanism(), "frame", point="wheel.P", body="rod")
@@ -71,34 +73,23 @@ def account(case):
         yield formula(f"a along {unit}", parts["a"][unit], check, "closed form: place differentiated twice", document.letters)
     printed = np.array([-17.83, -3.63])
     less = printed - pair(case.instant(), "a{}(wheel.P)")
-    yield Answer(
-        "printed acceleration of P less this", less, "m/s²", printed - ACCELERATION, "closed form: differentiated", 1e-12
-    )
+    says, against = "The printed acceleration of P differs from this by ({}, {}).", "closed form: place differentiated twice"
+    yield Answer("printed less this", less, "m/s²", printed - ACCELERATION, against, 1e-12, says=says)
 
 
-@ask("what the two drives give")
+@ask("Which torques do the two drives give?")
 def drives(case):
     """Moments of the net force on P about O and, against the wheel's clockwise angle, about A."""
     now, f = case.instant(), MASS * ACCELERATION
     check = [P[0] * f[1] - P[1] * f[0], -(AP[0] * f[1] - AP[1] * f[0])]
-    yield Answer(
-        "torque of rod drive, wheel drive",
-        [now["'rod drive'.force"], now["'wheel drive'.force"]],
-        "N·m",
-        check,
-        "closed form: moments of m a",
-        1e-12,
-        scale=1,
-    )
+    value, says = [now["'rod drive'.force"], now["'wheel drive'.force"]], "The drive of the rod gives {}, that of the wheel {}."
+    yield Answer("torques", value, "N·m", check, "closed form: moments of m a", 1e-12, scale=1, says=says)
 
 
-@ask("the path for 2 s")
+@ask("Which path does P take for 2 s?")
 def path(case):
     run, times = case.run(), np.array([0.5, 1.0, 1.5, 2.0])
     theta, psi = START + W1 * times, -START + (W1 - W2) * times
-    yield Answer(
-        "x of P", run.evaluate("x(wheel.P)", times), "m", L * np.cos(theta) + R * np.cos(psi), "closed form", 1e-13, scale=L
-    )
-    yield Answer(
-        "y of P", run.evaluate("y(wheel.P)", times), "m", L * np.sin(theta) + R * np.sin(psi), "closed form", 1e-13, scale=L
-    )
+    for axis, wave in (("x", np.cos), ("y", np.sin)):
+        value, check = run.evaluate(f"{axis}(wheel.P)", times), L * wave(theta) + R * wave(psi)
+        yield Answer(f"{axis} of P at 0.5, 1, 1.5, 2 s", value, "m", check, "closed form: two circles", 1e-13, scale=L)

@@ -58,46 +58,32 @@ def extremes(bars):
         yield found.x, sign * found.fun
 
 
-@ask("step by step, every 15°: angles, rates, accelerations")
+@ask("What are the angles, rates and accelerations every 15°, step by step?")
 def kinematics(case):
     run, hand = case.run("driven.yaml"), [at(by_hand(), t) for t in TURN]
     for i, name, letter in ((1, "beta", "β"), (2, "phi", "φ")):
         angles = [nearest_turn(a, m.angle[i]) for a, m in zip(run.evaluate(name, TURN), hand, strict=True)]
-        yield Answer(letter, angles, "rad", [m.angle[i] for m in hand], "closed form: two circles meet at C", 1e-12)
-        yield Answer(
-            f"{letter}̇",
-            run.evaluate(f"rate({name})", TURN),
-            "rad/s",
-            [m.rate[i] for m in hand],
-            "closed form: loop differentiated",
-            1e-11,
-        )
-        yield Answer(
-            f"{letter}̈",
-            run.evaluate(f"accel({name})", TURN),
-            "rad/s²",
-            [m.turning[i] for m in hand],
-            "closed form: loop differentiated twice",
-            1e-11,
-        )
+        rates, bends = (run.evaluate(f"{word}({name})", TURN) for word in ("rate", "accel"))
+        against = "closed form: two circles meet at C, differentiated"
+        yield Answer(letter, angles, "rad", [m.angle[i] for m in hand], against, 1e-12)
+        yield Answer(f"{letter}̇", rates, "rad/s", [m.rate[i] for m in hand], against, 1e-11)
+        yield Answer(f"{letter}̈", bends, "rad/s²", [m.turning[i] for m in hand], against, 1e-11)
 
 
-@ask("torque every 15°, by angle and by time")
+@ask("What is T against θ and against t, every 15°, which is every 1/24 s?")
 def torques(case):
     run = case.run("driven.yaml")
     value = run.evaluate("drive.force", TURN)
     yield Answer("T from θ = 90° on", value, "N·m", [torque(by_hand(), t) for t in TURN], HAND, 1e-11)
-    yield Answer(
-        "the same by virtual power",
-        value,
-        "N·m",
-        [by_hand().torque_by_power(at(by_hand(), t)) for t in TURN],
-        "closed form: virtual power",
-        1e-11,
-    )
+    check, says = [by_hand().torque_by_power(at(by_hand(), t)) for t in TURN], "Virtual power gives the same."
+    yield Answer("T", value, "N·m", check, "closed form: virtual power", 1e-11, says=says)
+    for name, side, gravity in (("the other assembly", -1, 0.0), ("gravity", 1, 9.81), ("the other assembly, gravity", -1, 9.81)):
+        run, bars = case.run("driven.yaml", {"side": side, "g": gravity}), by_hand(side, gravity)
+        check = [torque(bars, t) for t in TURN]
+        yield Answer("T", run.evaluate("drive.force", TURN), "N·m", check, HAND, 1e-11, variant=name)
 
 
-@ask("area under the torque, over the angle and over time")
+@ask("What is the area under T, over θ and over t?")
 def areas(case):
     run = case.run("driven.yaml")
     size = run.report["greatest torque"].value
@@ -115,36 +101,30 @@ def areas(case):
     )
 
 
-@ask("extremes and zeros of the torque, with their angles")
+@ask("Where is T greatest, least and zero?")
 def turning_points(case):
     run = case.run("driven.yaml")
     for name, (when, value) in zip(("greatest", "least"), extremes(by_hand()), strict=True):
         item = run.report[f"{name} torque"]
         yield Answer(f"{name} T", item.value, "N·m", value, HAND, 1e-10)
-        yield Answer("its angle θ − 90°", (item.t % 1) * RATE, "rad", (when % 1) * RATE, HAND, 1e-6)
+        says = "There θ − 90° is {}."
+        yield Answer("θ − 90°", (item.t % 1) * RATE, "rad", (when % 1) * RATE, HAND, 1e-6, says=says)
     found = [event.t for event in run.events if event.name == "no torque"]
-    yield Answer(
-        "angles θ − 90° of no torque",
-        np.multiply(found, RATE),
-        "rad",
-        np.multiply(zeros(lambda t: torque(by_hand(), t)), RATE),
-        HAND,
-        1e-10,
-    )
+    value, check = np.multiply(found, RATE), np.multiply(zeros(lambda t: torque(by_hand(), t)), RATE)
+    yield Answer("θ − 90°", value, "rad", check, HAND, 1e-10, says="T is zero at θ − 90° = {}.")
 
 
-@ask("all four hinge forces every 15°")
+@ask("What are the forces at the four pins every 15°?")
 def pins(case):
     run = case.run("driven.yaml")
     hand = [by_hand().forces(at(by_hand(), t))[1:] for t in TURN]
     for i, pin in enumerate("ABCD"):
         for axis, part in (("x", "real"), ("y", "imag")):
-            yield Answer(
-                f"{pin}, {axis}", run.evaluate(f"{pin}.F{axis}", TURN), "N", [getattr(row[i], part) for row in hand], HAND, 1e-11
-            )
+            check = [getattr(row[i], part) for row in hand]
+            yield Answer(f"force at {pin} along {axis}", run.evaluate(f"{pin}.F{axis}", TURN), "N", check, HAND, 1e-11)
 
 
-@ask("range of φ; kinetic energy")
+@ask("What is the range of φ, and the kinetic energy?")
 def range_of_phi(case):
     """The rocker turns back where A, B, C are in line: AC = l1 + l2 or l2 − l1; the law of cosines in ACD."""
     run = case.run("driven.yaml")
@@ -156,28 +136,13 @@ def range_of_phi(case):
     turned_back = [math.pi - angle for angle in at_d]
     value = [run.report["least phi"].value, run.report["greatest phi"].value]
     value = [nearest_turn(v, c) for v, c in zip(value, turned_back, strict=True)]
-    yield Answer("least and greatest φ", value, "rad", turned_back, "closed form: A, B, C in line", 1e-11)
-    yield Answer(
-        "kinetic energy every 15°",
-        run.evaluate("kinetic()", TURN),
-        "J",
-        [by_hand().kinetic(at(by_hand(), t)) for t in TURN],
-        HAND,
-        1e-12,
-    )
+    says = "φ goes from {} to {}."
+    yield Answer("φ", value, "rad", turned_back, "closed form: A, B, C in line", 1e-11, says=says)
+    check, against = [by_hand().kinetic(at(by_hand(), t)) for t in TURN], "closed form: loop, then rates"
+    yield Answer("kinetic energy every 15°", run.evaluate("kinetic()", TURN), "J", check, against, 1e-12)
 
 
-@ask("variants: the other assembly; gravity")
-def variants(case):
-    for name, side, gravity in (("other assembly", -1, 0.0), ("gravity", 1, 9.81), ("both", -1, 9.81)):
-        run = case.run("driven.yaml", {"side": side, "g": gravity})
-        bars = by_hand(side, gravity)
-        yield Answer(
-            f"T every 15°, {name}", run.evaluate("drive.force", TURN), "N·m", [torque(bars, t) for t in TURN], HAND, 1e-11
-        )
-
-
-@ask("released from rest at θ = 90° under gravity, 10 s")
+@ask("How does it move for 10 s under gravity, released from rest at θ = 90°?")
 def falling(case):
     run, times, bars = case.run(), np.arange(1.0, 10.5), by_hand(1, 9.81)
     check = motion(lambda t, y: [y[1], bars.free(*y)], [START, 0], times)
@@ -186,27 +151,27 @@ def falling(case):
     )
     fine = np.linspace(0, 10, 1001)
     gap = np.hypot(*(run.evaluate(f"{axis}(bc.end) - {axis}(dc.end)", fine) for axis in "xy")).max()
-    yield Answer("widest gap at C", gap, "m", 0.0, "closed form: the loop is closed", 1e-12, scale=1)
+    says = "The loop stays closed: the gap at C is {} at most."
+    yield Answer("gap", gap, "m", 0.0, "closed form: the loop is closed", 1e-12, scale=1, says=says)
     start = bars.potential(bars.motion(START, 0, 0))
-    yield Answer(
-        "energy", run.evaluate("energy()", times), "J", start + 0 * times, "conservation: no work but of the weights", 1e-10
-    )
+    energy, says = run.evaluate("energy()", times), "The energy stays {}."
+    yield Answer("energy", energy, "J", start + 0 * times, "conservation: no work but of the weights", 1e-10, says=says)
 
 
-@ask("inverse dynamics, both assemblies: torque and all pin forces every 15°, work of a turn, shaking force")
+@ask("What do T, the pin forces, the shaking force and the work of a turn come to by inverse dynamics?")
 def inverse(case):
     """The ground feels what A and D exert on it."""
-    for side, name in ((1, "C to the left"), (-1, "C to the right")):
+    for side, name in ((1, ""), (-1, "the other assembly")):
         found, bars = case.mechanism("driven.yaml", side=side).inverse(), by_hand(side)
         torques, *pins = zip(*(bars.forces(at(bars, t)) for t in TURN), strict=True)
-        yield Answer(f"T, {name}", found.evaluate("drive.force", TURN), "N·m", torques, HAND, 1e-10)
+        yield Answer("T every 15°", found.evaluate("drive.force", TURN), "N·m", torques, HAND, 1e-10, variant=name)
         for pin, force in zip("ABCD", np.array(pins), strict=True):
             value = found.evaluate(f"{pin}.Fx", TURN) + 1j * found.evaluate(f"{pin}.Fy", TURN)
             parts = [np.concatenate([z.real, z.imag]) for z in (value, force)]
-            yield Answer(f"{pin}, x then y, {name}", parts[0], "N", parts[1], HAND, 1e-10)
+            yield Answer(f"force at {pin}, along x, then y", parts[0], "N", parts[1], HAND, 1e-10, variant=name)
         x = found.values([found.shaking[0]], TURN)[:, 0]
-        yield Answer(f"shaking force along x, {name}", x, "N", -(np.array(pins[0]) + np.array(pins[3])).real, HAND, 1e-10)
+        check = -(np.array(pins[0]) + np.array(pins[3])).real
+        yield Answer("shaking force along x", x, "N", check, HAND, 1e-10, variant=name)
         size = found.summary("drive.power").greatest.value
-        yield Answer(
-            f"work of a turn, {name}", found.work("drive"), "J", 0.0, "conservation: kinetic energy comes back", 1e-10, size
-        )
+        against = "conservation: kinetic energy comes back"
+        yield Answer("work of a turn", found.work("drive"), "J", 0.0, against, 1e-10, size, variant=name)
