@@ -74,25 +74,25 @@ def moving(case, name):
     return dict(zip(names, q, strict=True)) | {"rates": dict(zip(names, u, strict=True))}
 
 
-@ask("1. a free-body diagram of each object: its forces together are m a")
+@ask("1. On the free-body diagram of each object, what do its forces come to?")
 def diagrams(case):
     for name, hand in SYSTEMS.items():
         free = case.mechanism(model(name)).free_bodies(**moving(case, name))
         for body, check in zip(free.bodies.values(), hand.inertia(*STATE), strict=True):
             parts = [load.value * part.wrench(body.G) for load in free.loads for part in load.on if part.body == body.name]
-            yield Answer(f"{name}: {body.name}, x and y", sum(parts)[:2], "N", [check.real, check.imag], POWER, 1e-11)
+            says = f"The forces on {body.name} come to ({{}}, {{}}), its m a."
+            yield Answer(body.name, sum(parts)[:2], "N", [check.real, check.imag], POWER, 1e-11, says=says, variant=name)
 
 
-@ask("2. configuration variables: as many as degrees of freedom")
+@ask("2. Are there as many configuration variables as degrees of freedom?")
 def configuration(case):
     for name, hand in SYSTEMS.items():
         now = case.instant(model(name), **moving(case, name))
-        yield Answer(
-            name, [now.freedom, len(now.accelerations)], "", [2, len(hand.names)], "closed form: two circles or lines", 0.0
-        )
+        value, says = [now.freedom, len(now.accelerations)], "{} degrees of freedom, {} variables"
+        yield Answer(name, value, "", [2, len(hand.names)], "closed form: two circles or lines", 0.0, says=says, variant=name)
 
 
-@ask("2. the acceleration of a point in its named terms, seen from a moving body: transport, relative, Coriolis")
+@ask("2. What are the named terms of the acceleration of a point, seen from a moving body?")
 def terms(case):
     """v_rel = c (q̇₂ − q̇₁) across the second arm; 2 ω × v_rel lies along it; seen from the cart, which does not turn, there is none."""
     arm, bar = "rate(theta2) - rate(theta1)", "rate(phi2) - rate(phi1)"
@@ -117,15 +117,16 @@ def terms(case):
                 )
 
 
-@ask("3. momentum balances without reactions: the printed equations and their unknowns")
+@ask("3. How many momentum balances without reactions are there, with how many unknowns?")
 def balances(case):
     for name in SYSTEMS:
         found = case.mechanism(model(name)).equations()
         value = [len(found.equations), len(found.unknowns), sum(1 for x in found.unknowns if not x.dots)]
-        yield Answer(f"{name}: equations, unknowns, reactions", value, "", [2, 2, 0], "count: degrees of freedom", 0.0)
+        says = "{} equations, {} unknowns, {} of them reactions"
+        yield Answer(name, value, "", [2, 2, 0], "count: degrees of freedom", 0.0, says=says, variant=name)
 
 
-@ask("3. marked: lines of a derivation by hand, the last of each with a wrong sign")
+@ask("3. Is a line of a derivation by hand marked as right, and with a sign changed as wrong?")
 def marked(case):
     lines = {
         "EX-ARM": "(I2 + m2*l2^2) θ̈2 + m2*l2*l3 θ̈1 cos(θ2 - θ1) {} m2*l2*l3 θ̇1^2 sin(θ2 - θ1) = Me + m2*l2 (gy cosθ2 - gx sinθ2)",
@@ -134,13 +135,12 @@ def marked(case):
     }
     for name, line in lines.items():
         mechanism = case.mechanism(model(name))
-        value = [mechanism.check(line.format(sign)).ok for sign in "+-"]
-        yield Answer(
-            f"{name}: true (1) or not (0)", [float(x) for x in value], "", [1, 0], "angular momentum of the last body", 0.0
-        )
+        for label, sign, right in (("as derived", "+", True), ("with the sign changed", "-", False)):
+            value, against = mechanism.check(line.format(sign)).ok, "angular momentum of the last body"
+            yield Answer(label, value, check=right, against=against, tolerance=0.0, variant=name)
 
 
-@ask("4. solved for second derivatives, symbolically; limits as a check")
+@ask("4. What are the second derivatives symbolically, and in limits?")
 def solved(case):
     swing = "m*sin(theta)*(l*rate(theta)^2 + g*cos(theta)*{})/(M + m*sin(theta)^2)"
     closed = {
@@ -156,19 +156,21 @@ def solved(case):
     yield from case.symbolically(released, "closed form", model("19.3.28"), of="19.3.28", at_rest=True, set=state)
 
 
-@ask("4. solved in numbers, on the way")
+@ask("4. What are they in numbers, on the way?")
 def numbers(case):
     for name, hand in SYSTEMS.items():
         now = case.instant(model(name), **moving(case, name))
         value = [now.accelerations[each] for each in hand.names]
-        yield Answer(f"{name}: {', '.join(hand.names)}", value, "SI", hand.accelerations(*STATE), POWER, 1e-12)
+        label, check = f"second derivatives of {' and '.join(hand.names)}", hand.accelerations(*STATE)
+        yield Answer(label, value, "SI", check, POWER, 1e-12, variant=name)
 
 
-@ask("5. set up and integrated: the motion at five times")
+@ask("5. What is the motion, set up and integrated?")
 def integrated(case):
     for name, hand in SYSTEMS.items():
         run = case.run(model(name))
         start = [*hand.start, 0.0, 0.0]
         check = motion(lambda _t, y, by=hand: (y[2], y[3], *by.accelerations(y[:2], y[2:])), start, hand.times)
         for k, each in enumerate(hand.names):
-            yield Answer(f"{name}: {each}", run.evaluate(each, hand.times), "SI", check[:, k], f"{POWER}, SciPy", 1e-8)
+            label = f"{each} at 0.2 … {hand.times[-1]:g} s"
+            yield Answer(label, run.evaluate(each, hand.times), "SI", check[:, k], f"{POWER}, SciPy", 1e-8, variant=name)

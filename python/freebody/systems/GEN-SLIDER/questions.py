@@ -17,7 +17,7 @@ ANGLES = [math.radians(30 * k) for k in range(12)]
 HAND = "closed form: one balance after another"
 
 
-@ask("crank at 20 rad/s: torque and every reaction at 0°, 30°, … 330°")
+@ask("What are the torque and every reaction at 0°, 30°, … 330° with the crank at 20 rad/s?")
 def steady(case):
     states = [case.instant("driven.yaml", {"theta0": theta}) for theta in ANGLES]
     hand = [BY_HAND.motion(theta, 20.0, 0.0) for theta in ANGLES]
@@ -26,7 +26,7 @@ def steady(case):
         "x of the slider", [now["x"] for now in states], "m", [m.centre[2].real for m in hand], "closed form: loop", 1e-13
     )
     yield Answer(
-        "its acceleration",
+        "acceleration of the slider",
         [now["accel(x)"] for now in states],
         "m/s²",
         [m.acceleration[2].real for m in hand],
@@ -37,7 +37,7 @@ def steady(case):
     for i, (pin, on) in enumerate((("O", "crank"), ("B", "rod"), ("C", "slider")), start=1):
         for axis, part in (("x", "real"), ("y", "imag")):
             yield Answer(
-                f"{pin} on the {on}, {axis}",
+                f"force at {pin} on the {on} along {axis}",
                 [now[f"{pin}.F{axis}"] for now in states],
                 "N",
                 [getattr(f[i], part) for f in forces],
@@ -56,7 +56,7 @@ def steady(case):
     )
 
 
-@ask("from rest at 60°, no torque, 2 s")
+@ask("How does it move for 2 s from rest at 60°, without torque?")
 def falling(case):
     run, times = case.run(), np.linspace(0.2, 2, 10)
     check = motion(lambda t, y: [y[1], BY_HAND.free(*y)], [math.pi / 3, 0], times)
@@ -73,28 +73,28 @@ def falling(case):
         "x at 0.2 … 2 s", run.evaluate("x", times), "m", places, "other route: power balance, integrated by SciPy", 1e-10
     )
     start = 9.81 * 3 * 0.05 * math.sin(math.pi / 3)
-    yield Answer(
-        "energy", run.evaluate("energy()", times), "J", start + 0 * times, "conservation: no work but of the weights", 1e-10
-    )
+    energy, says = run.evaluate("energy()", times), "The energy stays {}."
+    yield Answer("energy", energy, "J", start + 0 * times, "conservation: no work but of the weights", 1e-10, says=says)
 
 
-@ask("a rod as long as the crank: its dead point, and both ways on")
+@ask("With a rod as long as the crank, what is undetermined at the dead point, and which ways lead on?")
 def dead_point(case):
     """Crank and rod upright hold the slider's height between guide and axle twice; nothing holds it sideways.
 
     From there the slider stands still, with the rod on the crank (β̇ = θ̇), or moves (β̇ = −θ̇): ẋ = r (β̇ − θ̇).
     """
     now, upright = case.instant("dead_point.yaml"), "closed form: crank, rod and guide along one line"
-    yield Answer("degrees of freedom", now.freedom, "", 2, upright, 0.0)
+    yield Answer("freedom", now.freedom, "", 2, upright, 0.0, says="There it has {} degrees of freedom.")
     for name in ("O", "B", "C", "guide"):
-        known = now.reactions[name].determined[:2]
-        yield Answer(f"{name}: whether Fx, Fy are determinate", known, "", [1, 0], upright, 0.0)
+        for part, known, check in zip(("Fx", "Fy"), now.reactions[name].determined, (True, False), strict=False):
+            yield Answer(f"{part} of {name} is determinate", known, check=check, against=upright, tolerance=0.0)
     for rate in (1.0, -1.0):
         way = case.instant("dead_point.yaml", rates={"theta": 1.0, "beta": rate})
-        yield Answer(f"ẋ for θ̇ = 1, β̇ = {rate:g}", way["rate(x)"], "m/s", 0.1 * (rate - 1), "closed form: loop", 1e-13, scale=0.1)
+        says = f"With θ̇ = 1, β̇ = {rate:g} rad/s the slider goes on at {{}}."
+        yield Answer("ẋ", way["rate(x)"], "m/s", 0.1 * (rate - 1), "closed form: loop", 1e-13, scale=0.1, says=says)
 
 
-@ask("inverse dynamics of a turn at 20 rad/s: torque and every reaction, its work")
+@ask("What do torque, reactions and work of a turn at 20 rad/s come to by inverse dynamics?")
 def turned(case):
     given = case.mechanism().inverse({"theta": {"is": "20 rad/s", "level": "velocity"}}, until=math.tau / 20, theta=0)
     times, hand = np.array(ANGLES) / 20, [BY_HAND.forces(BY_HAND.motion(theta, 20.0, 0.0)) for theta in ANGLES]
@@ -103,7 +103,7 @@ def turned(case):
     for i, pin in enumerate("OBC", start=1):
         value = np.concatenate([given.evaluate(f"{pin}.F{axis}", times) for axis in "xy"])
         check = np.array([f[i] for f in hand])
-        yield Answer(f"{pin}, x then y", value, "N", np.concatenate([check.real, check.imag]), HAND, 1e-10)
+        yield Answer(f"force at {pin}, along x, then y", value, "N", np.concatenate([check.real, check.imag]), HAND, 1e-10)
     yield Answer("guide on the slider", given.evaluate("guide.Fn", times), "N", [f[4] for f in hand], HAND, 1e-10)
     size = given.summary("'motion of theta'.power").greatest.value
     yield Answer("work of the turn", given.work("motion of theta"), "J", 0.0, "conservation: energy comes back", 1e-10, size)
