@@ -30,53 +30,39 @@ def beta(theta, side, bars=BARS):
     return mp.arg(d - l1 * mp.expj(theta) + l3 * mp.expj(phi(theta, side, bars)))
 
 
-def over_a_turn(case, side):
+def over_a_turn(case, side, variant=""):
     states = [case.instant(parameters={"side": side, "theta0": theta}) for theta in ANGLES]
     with mp.workdps(30):
         for name, letter, formula in (("beta", "β", beta), ("phi", "φ", phi)):
             exact = [[float(mp.diff(partial(formula, side=side), theta, n)) for theta in ANGLES] for n in range(3)]
             angle = [nearest_turn(now[name], check) for now, check in zip(states, exact[0], strict=True)]
-            yield Answer(f"{letter} every 15°", angle, "rad", exact[0], "closed form: two circles meet", 1e-13)
-            yield Answer(
-                f"d{letter}/dθ",
-                [now[f"rate({name})"] for now in states],
-                "",
-                exact[1],
-                "closed form, differentiated in 30 digits",
-                1e-12,
-            )
-            yield Answer(
-                f"d²{letter}/dθ²",
-                [now[f"accel({name})"] for now in states],
-                "",
-                exact[2],
-                "closed form, differentiated in 30 digits",
-                1e-12,
-            )
+            yield Answer(f"{letter} every 15°", angle, "rad", exact[0], "closed form: two circles meet", 1e-13, variant=variant)
+            slopes, bends = ([now[f"{word}({name})"] for now in states] for word in ("rate", "accel"))
+            against = "closed form, differentiated in 30 digits"
+            yield Answer(f"d{letter}/dθ", slopes, "", exact[1], against, 1e-12, variant=variant)
+            yield Answer(f"d²{letter}/dθ²", bends, "", exact[2], against, 1e-12, variant=variant)
 
 
-@ask("β and φ over a turn with two derivatives, C to the left of B→D")
-def left(case):
+@ask("What are β and φ with their first two derivatives by θ over a turn, C to the left of B→D?")
+def turns(case):
     yield from over_a_turn(case, 1)
+    yield from over_a_turn(case, -1, "the other assembly")
 
 
-@ask("the same in the other assembly")
-def right(case):
-    yield from over_a_turn(case, -1)
-
-
-@ask("bars 0.4, 0.3, 0.35, AD 0.5: the limits of θ")
+@ask("What are the limits of θ with bars 0.4, 0.3, 0.35, AD 0.5?")
 def limits(case):
     """θ turns back where BC and DC are in one line, BD = l2 + l3: the law of cosines in ABD."""
     check = math.acos((0.4**2 + 0.5**2 - 0.65**2) / (2 * 0.4 * 0.5))
     for way in (1, -1):
         run = case.run("limits.yaml", {"way": way})
         back = next(event for event in run.events if event.name == "turns back")
-        yield Answer("θ at which it turns back", back.q["theta"], "rad", way * check, "closed form: BC and DC in line", 1e-13)
-        yield Answer("when, the bend being 2 + t", back.t, "s", math.pi - 2, "closed form: BC and DC in line", 1e-12)
+        against, says = "closed form: BC and DC in line", "θ turns back at {}."
+        yield Answer("θ", back.q["theta"], "rad", way * check, against, 1e-13, says=says)
+        says = "That is at {}, the bend being 2 + t."
+        yield Answer("when", back.t, "s", math.pi - 2, against, 1e-12, says=says)
 
 
-@ask("Watt six-bar: the angles of EF and GF over a turn")
+@ask("What are the angles of EF and GF of the Watt six-bar over a turn?")
 def watt(case):
     """F from two circles about E and G, as C from those about B and D."""
     states = [case.instant("watt.yaml", {"theta0": theta}) for theta in ANGLES]

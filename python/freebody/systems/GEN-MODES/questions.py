@@ -54,7 +54,7 @@ def mass():
     return mechanics(THETA)[0]
 
 
-@ask("Frequencies and shapes")
+@ask("What are the frequencies and shapes?")
 def frequencies(case):
     (rest,) = case.mechanism().stability()
     squares, shapes = eigh(np.diag([500.0, 20e3]), mass())
@@ -64,7 +64,7 @@ def frequencies(case):
     yield Answer("bend of the rod for each radian of the crank", values, "", shapes[1] / shapes[0], HAND, 1e-9)
 
 
-@ask("Damping ratios with 1 N·m·s/rad across each spring")
+@ask("What are the damping ratios with 1 N·m·s/rad across each spring?")
 def damping(case):
     (rest,) = case.mechanism(c=1.0).stability()
     inverse = np.linalg.inv(mass())
@@ -74,14 +74,15 @@ def damping(case):
     yield Answer("damping ratios", [mode.damping for mode in rest.modes], "", check, HAND, 1e-9)
 
 
-@ask("Approach to a rigid rod as its stiffness grows")
+@ask("How does it come near to the rigid machine as the rod grows stiffer?")
 def stiffening(case):
     """The frequency of the shaft falls short of that of the rigid machine, √(k/M₁₁)/2π, by a part M₁₂² k/(2 M₁₁² k_rod) to first order."""
     m = mass()
     rigid = np.sqrt(500.0 / m[0, 0]) / (2 * pi)
     short = [case.mechanism(k_rod=k).stability()[0].modes[0].frequency / rigid - 1 for k in (1e5, 1e6, 1e7)]
     check = [np.sqrt(eigh(np.diag([500.0, k]), m)[0][0]) / (2 * pi) / rigid - 1 for k in (1e5, 1e6, 1e7)]
-    yield Answer("lowest frequency over that of a rigid rod, less 1", short, "", check, HAND, 1e-5)
+    says = "With 1e5, 1e6, 1e7 N·m/rad the lowest frequency differs from that of a rigid rod by {} of it."
+    yield Answer("lowest frequency", short, "", check, HAND, 1e-5, says=says)
 
 
 def extremes(torque, around, span):
@@ -95,7 +96,7 @@ def extremes(torque, around, span):
     return [torque(one.x) for one in found]
 
 
-@ask("Torque ripple with the rotor at 20 rad/s: rigid")
+@ask("How does the torque ripple with the rotor at 20 rad/s, all rigid?")
 def rigid_ripple(case):
     """Shaft and rod hold the crank at the rotor's speed: the torque is what the velocities take."""
     given = case.mechanism(k_shaft=0).inverse({"theta": steady("20 rad/s"), "bend": steady(0)}, until=tau / 20)
@@ -108,10 +109,12 @@ def rigid_ripple(case):
     yield Answer("torque, eighths of a turn on from 60°", value, "N·m", [torque(t) for t in times], HAND, 1e-10)
     said = given.summary("'motion of theta'.force")
     check = extremes(torque, (said.greatest.t, said.least.t), 0.01)
-    yield Answer("greatest and least", [said.greatest.value, said.least.value], "N·m", check, HAND, 1e-10)
+    yield Answer(
+        "greatest and least", [said.greatest.value, said.least.value], "N·m", check, HAND, 1e-10, says="It goes from {1} to {0}."
+    )
 
 
-@ask("Torque ripple with the rotor at 20 rad/s: elastic, 1 N·m·s/rad across each spring")
+@ask("How does it ripple elastic, with 1 N·m·s/rad across each spring?")
 def elastic_ripple(case):
     """Two turns leave 2e-4 of how it began."""
 

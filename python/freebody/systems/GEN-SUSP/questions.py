@@ -46,8 +46,8 @@ def modes(rest, values, of, tolerance=1e-9):
     check = sorted((x for x in values if x.imag > 1e-6), key=abs)
     found = sorted((mode for mode in rest.modes if mode.eigenvalue.imag > 1e-6), key=lambda mode: abs(mode.eigenvalue))
     frequencies, ratios = [x.imag / (2 * pi) for x in check], [-x.real / abs(x) for x in check]
-    yield Answer(f"frequencies, {of}", [mode.frequency for mode in found], "Hz", frequencies, MATRICES, 1e-9)
-    yield Answer(f"damping ratios, {of}", [mode.damping for mode in found], "", ratios, MATRICES, tolerance)
+    yield Answer("frequencies", [mode.frequency for mode in found], "Hz", frequencies, MATRICES, 1e-9, variant=of)
+    yield Answer("damping ratios", [mode.damping for mode in found], "", ratios, MATRICES, tolerance, variant=of)
 
 
 def quarter(h=0.0, one_sided=False):
@@ -163,22 +163,23 @@ def standing(case, car):
     return {"x": 0.0, **{name: rest.coordinates[name] for name in PLACES}}
 
 
-@ask("Equilibrium")
+@ask("Where do they stand in equilibrium?")
 def equilibrium(case):
     (rest,) = case.mechanism().stability(z=0, z_w=0)
     yield Answer("quarter car, wheel and body", [rest.coordinates[n] for n in ("z_w", "z")], "m", STANDING[:2], STATICS, 1e-11)
     for of, car in READINGS.items():
         rest = standing(case, car)
-        yield Answer(f"half car, G, {of}", rest["y"], "m", car.rest()[1], "Newton's method on statics by hand", 1e-11)
-        yield Answer(f"its pitch, {of}", rest["theta"], "rad", car.rest()[2], "Newton's method on statics by hand", 1e-9)
+        against, name = "statics by hand, by Newton's method", f"half car, {of}"
+        yield Answer("height of G", rest["y"], "m", car.rest()[1], against, 1e-11, variant=name)
+        yield Answer("pitch", rest["theta"], "rad", car.rest()[2], against, 1e-9, variant=name)
         value = [rest["s_f"], rest["s_r"]]
-        yield Answer(f"its struts, {of}", value, "m", car.rest()[3:], "Newton's method on statics by hand", 1e-11)
+        yield Answer("struts", value, "m", car.rest()[3:], against, 1e-11, variant=name)
     (rest,) = case.mechanism("washer.yaml").stability(x="1 cm", theta="10 deg")
     value = [rest.coordinates[n] for n in ("x", "y", "theta")]
     yield Answer("washing machine, the unbalance below", value, "", [0, -40.5 * G / 4e3, 0], STATICS, 1e-11)
 
 
-@ask("Modes, damping ratios")
+@ask("What are the modes and the damping ratios?")
 def vibrations(case):
     (rest,) = case.mechanism().stability()
     values = first_order(np.diag([M_W, M]), C * np.array([[1, -1], [-1, 1]]), np.array([[K_T + K, -K], [-K, K]]))
@@ -193,12 +194,12 @@ def vibrations(case):
     yield from modes(rest, values, "washing machine", 1e-6)  # the drum's swing, of ratio 7e-9, counts as undamped
 
 
-@ask("A step of 0.05 m at 10 m/s")
+@ask("How do the cars go over a step of 0.05 m at 10 m/s?")
 def step(case):
     """The quarter car is over it at t = 0; the half car's front wheel at 0.1 s, the rear wheel at 0.36 s."""
     run, check = case.run(parameters={"h": 0.05}), motion(quarter(0.05), STANDING, SAMPLES)
     heights = np.concatenate([run.evaluate("z_w", SAMPLES), run.evaluate("z", SAMPLES)])
-    yield Answer("quarter car, wheel then body", heights, "m", check[:, :2].T.ravel(), SCIPY, 1e-9)
+    yield Answer("quarter car, heights of wheel, then body", heights, "m", check[:, :2].T.ravel(), SCIPY, 1e-9)
     for of, car in READINGS.items():
         start, rolling = standing(case, car), {"x": "10 m/s", **dict.fromkeys(PLACES, 0)}
         front, rear = car.relaxed
@@ -207,11 +208,13 @@ def step(case):
         rates, over = car.rates(0.05)
         check = motion(rates, [*car.rest(), 10, 0, 0, 0, 0], times, kink=over)
         for i, (name, unit) in enumerate(zip(PLACES, ("m", "rad", "m", "m"), strict=True), start=1):
-            yield Answer(f"half car, {name}, {of}", run.evaluate(name, times), unit, check[:, i], SCIPY, 1e-8)
-        yield Answer(f"its speed, {of}", run.evaluate("rate(x)", times), "m/s", check[:, 5], SCIPY, 1e-9)
+            label = f"{name} at 0.2, 0.3, 0.5, 1, 2 s"
+            yield Answer(label, run.evaluate(name, times), unit, check[:, i], SCIPY, 1e-8, variant=f"half car, {of}")
+        speed = run.evaluate("rate(x)", times)
+        yield Answer("speed", speed, "m/s", check[:, 5], SCIPY, 1e-9, variant=f"half car, {of}")
 
 
-@ask("Tip-back under 3 m/s² of rear traction, from rest")
+@ask("How far does the half car tip back under 3 m/s² of rear traction, from rest?")
 def traction(case):
     """The law of time of x acts by the turn of the rear wheel against the body."""
     for of, car in READINGS.items():
@@ -225,27 +228,31 @@ def traction(case):
         rest = car.rest()[1:]
         times = [0.1, 0.3, 0.6, 1.0, 2.0]
         check = motion(rates, [*rest, 0, 0, 0, 0], times)
-        yield Answer(f"pitch at 0.1 … 2 s, {of}", found.evaluate("theta", times), "rad", check[:, 1], SCIPY, 1e-8)
+        name = "" if of == NEAR else of
+        yield Answer("pitch at 0.1 … 2 s", found.evaluate("theta", times), "rad", check[:, 1], SCIPY, 1e-8, variant=name)
         greatest, _ = highest(rates, [*rest, 0, 0, 0, 0], lambda y: y[1], (0.3, 0.5))
-        yield Answer(f"greatest pitch, {of}", found.summary("theta").greatest.value, "rad", greatest, SCIPY, 1e-9)
+        peak = found.summary("theta").greatest.value
+        yield Answer("greatest pitch", peak, "rad", greatest, SCIPY, 1e-9, variant=name)
         q = np.array([0, *fsolve(lambda q, car=car: car.driven(np.array([0, *q]), np.zeros(5), 3.0)[:4], rest, xtol=1e-13)])
         balance = "statics in the frame of the car"
-        yield Answer(f"pitch in the end, {of}", found.evaluate("theta", 15.0), "rad", q[2], balance, 1e-8)
+        yield Answer("pitch in the end", found.evaluate("theta", 15.0), "rad", q[2], balance, 1e-8, variant=name)
         torque = car.driven(q, np.zeros(5), 3.0)[4]
-        yield Answer(f"torque in the end, {of}", found.evaluate("'motion of x'.force", 15.0), "N·m", torque, balance, 1e-8)
+        given = found.evaluate("'motion of x'.force", 15.0)
+        yield Answer("torque in the end", given, "N·m", torque, balance, 1e-8, variant=name)
         loads = [car.k_t * (car.R - car.wheel(q, i)[1]) for i in range(2)]
         value = [found.evaluate(f"'{end} road'.Fn", 15.0) for end in ("front", "rear")]
-        yield Answer(f"front and rear load of the road then, {of}", value, "N", loads, balance, 1e-8)
+        says = "The road carries the front with {} then, the rear with {}."
+        yield Answer("loads of the road", value, "N", loads, balance, 1e-8, says=says, variant=name)
 
 
-@ask("One-sided tyre over a step of 0.15 m")
+@ask("Does the quarter car on a one-sided tyre lift off over a step of 0.15 m, and when does it come down?")
 def one_sided(case):
     run, rates = case.run("one_sided.yaml"), quarter(0.15, True)
     lifts, lands = (next(c.t for c in run.changes if c.kind == kind) for kind in ("lift-off", "contact"))
     up, there = event(rates, STANDING, lambda t, y: y[0] - 0.15, 0.06)
     flight, _ = event(rates, there, lambda t, y: y[0] - 0.15 + 1e-9 * (t < 1e-3), 0.2)
-    yield Answer("the wheel lifts off at", lifts, "s", up, SCIPY, 1e-8)
-    yield Answer("it comes down at", lands, "s", up + flight, SCIPY, 1e-6)
+    yield Answer("lift-off", lifts, "s", up, SCIPY, 1e-8, says="The wheel lifts off at {}.")
+    yield Answer("landing", lands, "s", up + flight, SCIPY, 1e-6, says="It comes down at {}.")
     yield Answer(
         "greatest force", run.report["greatest force of the tyre"].value, "N", K_T * 0.15 + (M + M_W) * G, STATICS, 1e-10
     )
@@ -282,7 +289,7 @@ def half_one_sided(case):
         yield Answer(end, left, "m", 0.0, SCIPY, 1e-9, 0.15, says=says)
 
 
-@ask("Washing machine: peak through resonance")
+@ask("How far does the washing machine swing through resonance, and when?")
 def resonance(case):
     """It runs up through 9.9 rad/s within some turns, and swings less far than at a steady speed."""
     m, e, whole, k, c, alpha = 0.5, 0.2, 40.5, 4e3, 40.0, 10.0
@@ -294,8 +301,9 @@ def resonance(case):
 
     peak = case.run("washer.yaml").report["peak"]
     greatest, when = highest(rates, [0, 0, 0, 0], lambda y: abs(complex(y[0], y[1])), (1.3, 2.0))
-    yield Answer("peak of the axle's way from rest", peak.value, "m", greatest, SCIPY, 1e-9)
-    yield Answer("when", peak.t, "s", when, SCIPY, 1e-5)
+    says = "The axle goes {} from rest at most."
+    yield Answer("peak", peak.value, "m", greatest, SCIPY, 1e-9, says=says)
+    yield Answer("when", peak.t, "s", when, SCIPY, 1e-5, says="That is at {}.")
     run, times = case.run("washer.yaml"), [1.0, 2.0, 5.0, 10.0]
     check = motion(rates, [0, 0, 0, 0], times)
     value = np.concatenate([run.evaluate("x", times), run.evaluate("y + (M + m)*g/k", times)])
@@ -308,11 +316,5 @@ def resonance(case):
     yield Answer("torque of the drive then", torque, "N·m", wanted, SCIPY, 1e-8)
     ratio = c / 2 / sqrt(k * whole)
     closed = m * e / whole / (2 * ratio * sqrt(1 - ratio**2))
-    yield Answer(
-        "peak of the run-up less than that of a steady speed (1)",
-        float(peak.value < closed),
-        "",
-        1.0,
-        "closed form: me/(M + m)/(2ζ√(1 − ζ²))",
-        0.0,
-    )
+    less, against = peak.value < closed, "closed form: me/(M + m)/(2ζ√(1 − ζ²))"
+    yield Answer("less than at a steady speed", less, check=True, against=against, tolerance=0.0)
