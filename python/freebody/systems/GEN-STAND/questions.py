@@ -105,23 +105,27 @@ def standing():
     return np.array(q)
 
 
-@ask("degrees of freedom")
+@ask("How many degrees of freedom are there?")
 def freedoms(case):
-    yield Answer("degrees of freedom", case.instant().freedom, "", 5 * 3 - 6 * 2, "count: five bodies, six pins", 0.0)
+    found, says = case.instant().freedom, "There are {} degrees of freedom."
+    yield Answer("freedom", found, "", 5 * 3 - 6 * 2, "count: five bodies, six pins", 0.0, says=says)
 
 
-@ask("holding torques: are they unique?")
+@ask("Are the holding torques unique?")
 def unique(case):
     """They are not: one combination of them changes the horizontal forces on the feet and nothing else."""
     holding = case.mechanism().inverse("rest", MOTORS, least=True)
     free = holding.found(0.0).free
     slope = torques(1.0) - torques(0.0)
-    yield Answer("how many combinations of the torques are free", free.shape[1], "", 1, STATICS, 0.0)
+    count = free.shape[1]
+    says = "They are not: {} combination of them is free." if count else "They are: {} combinations are free."
+    yield Answer("combinations", count, "", 1, STATICS, 0.0, says=says)
     way = free[:, 0] / free[0, 0]
-    yield Answer("what can be added: back knee, back hip, front hip, front knee", way, "", slope / slope[0], STATICS, 1e-10)
+    says = "At back knee, back hip, front hip and front knee a multiple of {}, {}, {}, {} can be added."
+    yield Answer("what can be added", way, "", slope / slope[0], STATICS, 1e-10, says=says)
 
 
-@ask("holding torques with the least sum of squares")
+@ask("Which holding torques have the least sum of squares, and what do the feet carry then?")
 def holding(case):
     found = case.mechanism().inverse("rest", MOTORS, least=True)
     push, check = least()
@@ -129,10 +133,11 @@ def holding(case):
     back, front = foot_forces()
     texts = ["back_foot.Fx", "back_foot.Fy", "front_foot.Fx", "front_foot.Fy"]
     value = found.values(texts, np.array([0.0]))[0]
-    yield Answer("forces on back and front foot then, x and y", value, "N", [push, back, -push, front], STATICS, 1e-10)
+    says = "The ground pushes the back foot with ({}, {}) then, the front foot with ({}, {})."
+    yield Answer("forces on the feet", value, "N", [push, back, -push, front], STATICS, 1e-10, says=says)
 
 
-@ask("collapse with no torques")
+@ask("How does the person collapse with no torques?")
 def collapse(case):
     start = standing()
     now, (accelerations, forces) = case.instant(), constrained(start, np.zeros(15))
@@ -140,7 +145,8 @@ def collapse(case):
     route = "other route: five free bars with twelve constraints"
     yield Answer("angular accelerations at release, back foot to front foot", value, "rad/s²", accelerations[2::3], route, 1e-11)
     value = [now[text] for text in ("back_foot.Fx", "back_foot.Fy", "front_foot.Fx", "front_foot.Fy")]
-    yield Answer("forces on back and front foot, x and y", value, "N", -forces[[0, 1, 10, 11]], route, 1e-11)
+    says = "The ground pushes the back foot with ({}, {}), the front foot with ({}, {})."
+    yield Answer("forces on the feet", value, "N", -forces[[0, 1, 10, 11]], route, 1e-11, says=says)
     times = np.array([0.1, 0.2])
     run = case.run(until=0.2)
     check = motion(lambda t, y: [*y[15:], *constrained(y[:15], y[15:])[0]], [*start, *np.zeros(15)], times)
@@ -148,9 +154,11 @@ def collapse(case):
     yield Answer("x, then y of the trunk's centre at 0.1, 0.2 s", value, "m", check[:, [6, 7]].T.ravel(), f"{route}, SciPy", 1e-9)
 
 
-@ask("all joints locked: which components of the foot forces are determinate?")
+@ask("With all joints locked, which components of the foot forces are determinate?")
 def locked(case):
     now, text = case.instant("locked.yaml"), "statics: two pins under one rigid body leave the force along their line open"
     for foot, vertical in zip(("back_foot", "front_foot"), foot_forces(), strict=True):
-        yield Answer(f"{foot}: whether Fx, Fy are determinate", now.reactions[foot].determined[:2], "", [0, 1], text, 0.0)
-        yield Answer(f"{foot}: Fy", now[f"{foot}.Fy"], "N", vertical, STATICS, 1e-12)
+        for part, known, check in zip(("Fx", "Fy"), now.reactions[foot].determined, (False, True), strict=False):
+            says = f"{part} of the {foot.replace('_', ' ')} is {'' if known else 'not '}determinate."
+            yield Answer(part, known, check=check, against=text, tolerance=0.0, says=says)
+        yield Answer("Fy", now[f"{foot}.Fy"], "N", vertical, STATICS, 1e-12, says="Fy is {}.")
