@@ -54,7 +54,7 @@ def released(n):
         return [float(a) for a in turn], [float(f) for f in forces], float(sum(turn))
 
 
-@ask("at release, symbolically: three links")
+@ask("What are the angular accelerations and vertical forces of three links at release, symbolically?")
 def symbolically(case):
     """M φ̈ = b in parts of mℓ² and mgℓ, exactly; hinge i carries what the links from i on weigh, less m times their fall."""
     places = range(3)
@@ -80,49 +80,40 @@ def solved(matrix, right):
     return [determinant(rows) / determinant(matrix) for rows in swapped]
 
 
-@ask("at release: angular accelerations, hinge forces, tip")
+@ask("What are they, and the acceleration of the tip, for N = 1, and for 2, 3, 10, 100?")
 def release(case):
     for n in (1, 2, 3, 10, 100):
         now, links = case.instant(parameters={"N": n}), range(1, n + 1)
         turn, forces, tip = released(n)
         against = "closed form: Lagrange's equations at rest, in 40 digits"
-        yield Answer(f"φ̈ of each link, N = {n}", [now[f"accel(phi[{i}])"] for i in links], "rad/s²", turn, against, 1e-11)
-        yield Answer(f"vertical force at each hinge, N = {n}", [now[f"pin[{i}].Fy"] for i in links], "N", forces, against, 1e-11)
-        yield Answer(f"acceleration of the tip, N = {n}", now[f"ay(link[{n}].end)"], "m/s²", tip, against, 1e-11)
+        of, bends = f"N = {n}" if n > 1 else "", [now[f"accel(phi[{i}])"] for i in links]
+        yield Answer("φ̈ of each link", bends, "rad/s²", turn, against, 1e-11, variant=of)
+        found = [now[f"pin[{i}].Fy"] for i in links]
+        yield Answer("vertical force at each hinge", found, "N", forces, against, 1e-11, variant=of)
+        yield Answer("acceleration of the tip", now[f"ay(link[{n}].end)"], "m/s²", tip, against, 1e-11, variant=of)
 
 
-@ask("fall of 2 s (N = 3) and 1 s (N = 10), links of 1 m and chains of 1 m")
+@ask("How do they fall for 2 s (N = 3) and 1 s (N = 10), with links of 1 m and in all 1 m long?")
 def fall(case):
     for n, until in ((3, 2.0), (10, 1.0)):
         for l in (1.0, 1 / n):
             run, times = case.run(parameters={"N": n, "l": l}, until=until), np.array([until / 2, until])
             check = motion(rates(n, l), np.zeros(2 * n), times)
             values = [run.evaluate(f"phi[{i}]", until) for i in range(1, n + 1)]
-            yield Answer(f"angles after {until:g} s, N = {n}, l = {l:.3g}", values, "rad", check[-1, :n], SCIPY, 1e-9)
+            of = f"N = {n}, l = {l:.3g} m" if n > 3 or l < 1 else ""
+            yield Answer(f"angles after {until:g} s", values, "rad", check[-1, :n], SCIPY, 1e-9, variant=of)
             tip = l * np.sin(check[:, :n]).sum(axis=1)
-            yield Answer(
-                f"height of the tip after {until / 2:g} and {until:g} s, N = {n}, l = {l:.3g}",
-                run.evaluate(f"y(link[{n}].end)", times),
-                "m",
-                tip,
-                SCIPY,
-                1e-9,
-            )
+            value, label = run.evaluate(f"y(link[{n}].end)", times), f"height of the tip after {until / 2:g} and {until:g} s"
+            yield Answer(label, value, "m", tip, SCIPY, 1e-9, variant=of)
 
 
-@ask("N = 100 for 10 s")
+@ask("How far does the energy drift for N = 100 in 10 s?")
 def hundred(case):
     run, times = case.run(parameters={"N": 100}, until=10, rtol=1e-9), np.array([2.0, 4.0, 6.0, 8.0, 10.0])
     size = run.evaluate("kinetic()", times).max()
-    yield Answer(
-        "energy at 2 … 10 s",
-        run.evaluate("energy()", times),
-        "J",
-        0 * times,
-        "conservation: all at the height of the pivot at the start",
-        1e-9,
-        scale=size,
-    )
+    value, says = run.evaluate("energy()", times), "At 2 … 10 s the energy is {}, as at the start."
+    against = "conservation: all at the height of the pivot at the start"
+    yield Answer("energy", value, "J", 0 * times, against, 1e-9, scale=size, says=says)
 
 
 def two_bars():
@@ -141,7 +132,7 @@ def two_bars():
     return rates
 
 
-@ask("two unequal bars for 10 s, and how long the digits can be believed")
+@ask("How do two unequal bars move for 10 s, and how long can the digits be believed?")
 def unequal(case):
     """The error of a run, estimated from a tighter one, against that found with 20 digits."""
     times = np.arange(1.0, 10.5)
