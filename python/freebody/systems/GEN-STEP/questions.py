@@ -30,7 +30,8 @@ CENTRES = [{0: B - 0.19}, {0: B, 1: A - 0.18}, TO_HIP | {2: 0.3}, TO_HIP | {3: -
            TO_HIP | {2: 0.6, 5: -0.28}, TO_HIP | {2: 0.6, 6: -0.28}]  # fmt: skip
 BACK, FRONT = {}, TO_HIP | {3: -A, 4: -B}
 JOINTS = [(1, 0), (2, 1), (3, 2), (4, 3), (5, 2), (6, 2)]
-MOTORS = {"motors on": {"K": 300.0, "c": 30.0}, "motors off": {"K": 0.0, "c": 0.0}}
+MOTORS = {"": {"K": 300.0, "c": 30.0}, "motors off": {"K": 0.0, "c": 0.0}}
+FEET = {"model.yaml": "", "floor.yaml": "on a floor with friction 0.6"}
 POWER = "closed form: virtual power"
 SCIPY = "other route: virtual power, SciPy"
 
@@ -147,23 +148,18 @@ def first(run, kind, name, after=0.0):
     return next(c for c in run.changes if c.kind == kind and name in c.of and c.t > after)
 
 
-@ask("At rest, on the back foot: accelerations and force of the foot")
+@ask("What are the accelerations and the force of the foot at rest on the back foot?")
 def instant(case):
     for file in ("model.yaml", "floor.yaml"):
         now = case.instant(file)
         turning, force = Person(300, 30).solve(np.concatenate([REST, np.zeros(9)]), [(BACK, None)])
-        yield Answer(
-            f"angular accelerations of the bodies, {file}",
-            [now[f"alpha({body})"] for body in BODIES],
-            "rad/s²",
-            turning[2:],
-            POWER,
-            1e-11,
-        )
-        yield Answer(f"floor on the back foot, {file}", [now["foot.Fx"], now["foot.Fy"]], "N", force, POWER, 1e-11)
+        value = [now[f"alpha({body})"] for body in BODIES]
+        yield Answer("angular accelerations", value, "rad/s²", turning[2:], POWER, 1e-11, variant=FEET[file])
+        value, says = [now["foot.Fx"], now["foot.Fy"]], "The floor pushes the back foot with ({}, {})."
+        yield Answer("floor on the back foot", value, "N", force, POWER, 1e-11, says=says, variant=FEET[file])
 
 
-@ask("Motion on the back foot until the other one strikes")
+@ask("How does it move on the back foot with the joint torques, and when does the other one strike?")
 def single(case):
     for of, motors in MOTORS.items():
         person = Person(**motors)
@@ -173,15 +169,17 @@ def single(case):
         check = motion(person.rates(held), np.concatenate([REST, np.zeros(9)]), times)
         force = np.array([person.solve(z, held)[1] for z in check])
         for file in ("model.yaml", "floor.yaml"):
-            run, label = case.run(file, motors, until=0.3), f"{of}, {file}"
+            run, label = case.run(file, motors, until=0.3), ", ".join(filter(None, (of, FEET[file])))
             for i, t in enumerate(times):
-                yield Answer(f"angles of the bodies at {t:.3f} s, {label}", angles(run, t), "rad", check[i, 2:9], SCIPY, 1e-9)
+                told = f"angles of the bodies at {t:.3f} s"
+                yield Answer(told, angles(run, t), "rad", check[i, 2:9], SCIPY, 1e-9, variant=label)
             for i, text in enumerate(("foot.Fx", "foot.Fy")):
-                yield Answer(f"{text} at {'these times'}, {label}", run.evaluate(text, times), "N", force[:, i], SCIPY, 1e-8)
-            yield Answer(f"strike at t, {label}", first(run, "impact", "other").t, "s", when, SCIPY, 1e-9)
+                yield Answer(f"{text} then", run.evaluate(text, times), "N", force[:, i], SCIPY, 1e-8, variant=label)
+            hit, says = first(run, "impact", "other").t, "The other foot strikes after {}."
+            yield Answer("strike", hit, "s", when, SCIPY, 1e-9, says=says, variant=label)
 
 
-@ask("The strike, back foot hinged, front foot rough: the loop is closed")
+@ask("What does the strike do with the back foot hinged, where it closes the loop?")
 def closed(case):
     for of, motors in MOTORS.items():
         person = Person(**motors)
@@ -190,27 +188,24 @@ def closed(case):
         after, impulses, lost = person.strike(z, both)
         run = case.run("model.yaml", motors, until=0.3)
         hit = first(run, "impact", "other")
-        yield Answer(f"rates of the bodies after it, {of}", angles(run, hit.t, "omega"), "rad/s", after[2:], POWER, 1e-8)
+        yield Answer("rates after it", angles(run, hit.t, "omega"), "rad/s", after[2:], POWER, 1e-8, variant=of)
         [(along, up)] = hit.impulses.contacts.values()
-        yield Answer(f"impulse on the front foot, {of}", [along, up], "N·s", impulses[2:], POWER, 1e-8)
-        yield Answer(
-            f"impulse on the back foot, {of}",
-            hit.impulses.joints["foot"][:2],
-            "N·s",
-            impulses[:2],
-            f"{POWER}; downward it would have left",
-            1e-8,
-        )
-        yield Answer(f"energy lost, {of}", hit.lost, "J", lost, POWER, 1e-8)
+        says = "The impulse on the front foot is ({}, {})."
+        yield Answer("front foot", [along, up], "N·s", impulses[2:], POWER, 1e-8, says=says, variant=of)
+        value, says = hit.impulses.joints["foot"][:2], "That on the back foot is ({}, {})."
+        yield Answer("back foot", value, "N·s", impulses[:2], POWER, 1e-8, says=says, variant=of)
+        yield Answer("energy lost", hit.lost, "J", lost, POWER, 1e-8, variant=of)
         z[9:] = after
         force = person.solve(z, both)[1]
         value = [run.evaluate(text, hit.t) for text in ("foot.Fx", "foot.Fy", "other.T", "other.N")]
-        yield Answer(f"forces on both feet just after, {of}", value, "N", force, POWER, 1e-7)
+        says = "Just after, the back foot is pushed with ({}, {}), the front foot with ({}, {})."
+        yield Answer("forces", value, "N", force, POWER, 1e-7, says=says, variant=of)
         later = motion(person.rates(both), z, [0.02])[0]
-        yield Answer(f"angles of the bodies 0.02 s after, {of}", angles(run, hit.t + 0.02), "rad", later[2:9], SCIPY, 1e-8)
+        value = angles(run, hit.t + 0.02)
+        yield Answer("angles 0.02 s after", value, "rad", later[2:9], SCIPY, 1e-8, variant=of)
 
 
-@ask("The strike on a floor with friction 0.6: the front foot slides on or stops, the old one leaves")
+@ask("What does the strike do on a floor with friction 0.6, and does the old foot leave?")
 def leaves(case):
     for of, motors in MOTORS.items():
         person = Person(**motors)
@@ -219,25 +214,21 @@ def leaves(case):
         run = case.run("floor.yaml", motors, until=0.3)
         hit = first(run, "impact", "other")
         [(along, up)] = hit.impulses.contacts.values()
-        yield Answer(f"rates of the bodies after it, {of}", angles(run, hit.t, "omega"), "rad/s", after[2:], POWER, 1e-8)
-        yield Answer(f"impulse on the front foot, {of}", [along, up], "N·s", impulses, POWER, 1e-8)
-        yield Answer(f"energy lost, {of}", hit.lost, "J", lost, POWER, 1e-8)
+        yield Answer("rates after it", angles(run, hit.t, "omega"), "rad/s", after[2:], POWER, 1e-8, variant=of)
+        says = "The impulse on the front foot is ({}, {})."
+        yield Answer("front foot", [along, up], "N·s", impulses, POWER, 1e-8, says=says, variant=of)
+        yield Answer("energy lost", hit.lost, "J", lost, POWER, 1e-8, variant=of)
         old = after[:2]
-        yield Answer(
-            f"velocity of the old foot then: upward, {of}",
-            [run.evaluate(f"{v}(back_shank.F)", hit.t) for v in ("vx", "vy")],
-            "m/s",
-            old,
-            POWER,
-            1e-8,
-        )
+        value, says = [run.evaluate(f"{v}(back_shank.F)", hit.t) for v in ("vx", "vy")], "The old foot moves off at ({}, {})."
+        yield Answer("old foot", value, "m/s", old, POWER, 1e-8, says=says, variant=of)
         back = first(run, "impact", "foot", hit.t).t - hit.t
         z[9:] = after
         feet = [(FRONT, None if abs(impulses[0]) < MU * impulses[1] else -np.sign(impulses[0]))]
         height = partial(lambda person, z, feet, t: motion(person.rates(feet), z, [t])[0][1], person, z, feet)
-        yield Answer(f"and comes down after, {of}", back, "s", brentq(height, 0.5 * back, 2 * back, xtol=1e-16), SCIPY, 1e-7)
+        check, says = brentq(height, 0.5 * back, 2 * back, xtol=1e-16), "It comes down after {}."
+        yield Answer("comes down", back, "s", check, SCIPY, 1e-7, says=says, variant=of)
         gone = [c.kind for c in run.changes if c.t == hit.t and c.of == ("foot",)]
-        yield Answer(f"the old foot leaves (1), {of}", float(gone == ["lift-off"]), "", float(old[1] > 0), POWER)
+        yield Answer("the old foot leaves", gone == ["lift-off"], check=bool(old[1] > 0), against=POWER, variant=of)
 
 
 def held_until(person, z, held, foot, what):
@@ -251,11 +242,11 @@ def held_until(person, z, held, foot, what):
     return event(person.rates(held), z, left, before=1.5)
 
 
-@ask("Slip and lift of the feet on the floor")
+@ask("When do the feet slip and lift off on the floor?")
 def slips(case):
     """From the run's own state once both feet stand: what becomes of it, by the other route."""
     plans = {
-        "motors on": (0.25, ["slip foot"]),
+        "": (0.25, ["slip foot"]),
         "motors off": (0.15, ["slip foot", "lift-off foot", "slip other", "lift-off other"]),
     }
     for of, (t, plan) in plans.items():
@@ -267,9 +258,9 @@ def slips(case):
             feet = [(arms[n], slides) for n, slides in held.items()]
             span, z = held_until(person, z, feet, list(held).index(name), what)
             begin, t = t, t + span
-            label = f"{of}: {what} of the {'back' if name == 'foot' else 'front'} foot"
-            yield Answer(f"{label} at t", first(run, what, name, begin).t, "s", t, SCIPY, 1e-8)
-            yield Answer(f"{label}: angles of the bodies then", angles(run, t), "rad", z[2:9], SCIPY, 1e-8)
+            label = f"{what} of the {'back' if name == 'foot' else 'front'} foot"
+            yield Answer(label, first(run, what, name, begin).t, "s", t, SCIPY, 1e-8, variant=of)
+            yield Answer("angles of the bodies then", angles(run, t), "rad", z[2:9], SCIPY, 1e-8, variant=of)
             if what == "slip":
                 force = person.solve(z, feet)[1][2 * list(held).index(name) :]
                 held[name] = -np.sign(force[0])
