@@ -184,3 +184,23 @@ def test_declarations_in_lines():
     }
     with pytest.raises(ModelProblem, match="declares no symbol"):
         declarations(["phi"])
+
+
+_CART = """
+freebody: 1
+parameters: {{m: 2 kg, k: 8 N/m, {name}: 3 rad/s}}
+bodies: {{cart: {{shape: particle, mass: m}}}}
+joints: {{rail: {{type: slot, along: {{through: ground.O, angle: 0}}, point: cart.centre, coordinate: x}}}}
+forces: {{spring: {{type: spring, along: x, stiffness: k}}}}
+initial: {{x: 0.3 m, rates: {{x: "{name}*0.1 m"}}}}
+"""
+
+
+@pytest.mark.parametrize(("name", "own"), [("omega", "ω"), ("Omega", "Ω"), ("m_1", "m₁"), ("w1", "w_1"), ("epsilon", "eps")])
+def test_own_letters_go_before_names_of_the_model_that_read_alike(name, own):
+    checker = fb.check.Checker(fb.Mechanism.loads(_CART.format(name=name)), {own: "sqrt(k/m)", "T": f"2 pi/{own}"})
+    verdict = checker.check(f"x'' = −{own}² x", correcting=False)
+    assert verdict.kind is fb.check.Kind.TRUE
+    assert verdict.notes == (f"Here {own} is what is declared, not the parameter {name} of the model.",)
+    assert checker.check(f"T {name} = 2 pi", correcting=False).ok
+    assert not checker.check(f"{own} = 3", correcting=False).ok

@@ -171,7 +171,8 @@ class StatementSymbols:
         """Symbols that measure the configuration, those of the statement first; the model's own where some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
-        own = [Sym(c["name"]) for c in self.sampler.coordinates if c["name"].isidentifier() and (c["name"],) not in said]
+        names = [c["name"] for c in self.sampler.coordinates if c["name"].isidentifier() and c["name"] in self.symbols.meanings]
+        own = [Sym(name) for name in names if (name,) not in said]
         own += [n for n in map(Sym, self.symbols.of_kind("declared")) if self._moves(n)]
         missing = max(len(self.sampler.coordinates) - len(movable), 0)
         return [*movable, *[n for n in own if n not in movable][:missing]]

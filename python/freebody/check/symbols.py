@@ -86,8 +86,10 @@ class Symbols:
         self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         self.declared: set[str] = set()
+        self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         for name, said in (declared or {}).items():
             self._declare(name, said)
+            self._hide_others(name)
 
     # --- what there is -------------------------------------------------------------------------
 
@@ -179,6 +181,9 @@ class Symbols:
         clashes = [
             f"Here {name} is what the statement gives that name, not the {self.meanings[name].kind} of the model." for name in own
         ]
+        clashes += [
+            f"Here {n} is what is declared, not {other} of the model." for n, other in self.hidden.items() if folded(n) in used
+        ]
         gone = [line for line in program.assignments if isinstance(line, Elimination)]
         said = [re.split(r"[;\n]", program.text[line.span[0] :])[0].strip() for line in gone]
         made = [f"Here {line.name.name} is what `{text}` makes it." for line, text in zip(gone, said, strict=True)]
@@ -266,6 +271,13 @@ class Symbols:
             self._put(name, read(" ".join(said.split()) if isinstance(said, str) else said))
         except ModelProblem as problem:
             raise ModelProblem(f"symbol `{name}`: {problem.what}", problem.hint) from None
+
+    def _hide_others(self, name: str) -> None:
+        """What of the model reads like a declared symbol is not meant by it: ω is not the parameter omega."""
+        for other in [n for n in self.meanings if n not in self.declared and folded(n) == folded(name)]:
+            meaning = self.meanings.pop(other)
+            if meaning.texts != self.meanings[name].texts:
+                self.hidden[name] = f"the {meaning.kind} {other}"
 
     def _put(self, name: str, meaning: Meaning) -> None:
         self.meanings[name] = meaning

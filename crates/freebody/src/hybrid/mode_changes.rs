@@ -1,6 +1,6 @@
 //! What switched: the record of a motion's modes.
 
-use super::parts::NOTHING_LOST;
+use super::scales::NOTHING_LOST;
 use super::HybridSystem;
 use crate::dynamics::Source;
 use crate::mode::{ContactMode, Mode};

@@ -1,14 +1,12 @@
 //! Parts that are released and engaged during a motion, and rates that are given at once.
 
 use super::mode_changes::{Impulses, ModeChange};
+use super::scales::NOTHING_LOST;
 use super::HybridSystem;
 use crate::dynamics::DynamicsError;
 use crate::gauges::ModelExpr;
 use crate::mechanism::{EventAction, Part};
 use crate::mode::{ContactMode, Mode};
-
-/// Part of an energy below which what a change of mode takes is round-off, as of an engagement of what met at one speed.
-pub(super) const NOTHING_LOST: f64 = 1e-14;
 
 impl HybridSystem<'_> {
     /// Releases and engages parts and resets rates, as the actions of an event ask.

@@ -5,6 +5,9 @@ use super::HybridSystem;
 /// Size of a guard, for its round-off, while coordinates are small: places are sums of some lengths.
 pub(super) const ROUNDOFF: f64 = 4.0;
 
+/// Part of an energy below which what a change of mode takes is round-off, as of an engagement of what met at one speed.
+pub(super) const NOTHING_LOST: f64 = 1e-14;
+
 impl HybridSystem<'_> {
     /// Learns the physical sizes of the state's components from the starting state: lengths from the mechanism, the time
     /// from its speeds and accelerations there and from gravity, or from the end of the run where nothing moves yet.
