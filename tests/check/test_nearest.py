@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from store import mechanism
 from textbook import BOOKS
 
 from freebody.check import Checker, Kind
@@ -26,3 +27,9 @@ def test_the_nearest_balance_is_true(name: str, text: str, what: str) -> None:
     words, _, equation = verdict.true.partition(" reads: ")
     assert what in words
     assert checker.check(equation).ok, equation
+
+
+def test_the_nearest_balance_of_what_rolls() -> None:
+    """Rolling holds rates and no place: its row of places is empty."""
+    verdict = mechanism("19.3.29/model").check("foot.N = 3*m*g")
+    assert verdict.kind is Kind.WRONG

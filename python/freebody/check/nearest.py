@@ -63,7 +63,9 @@ def nearest(case: Case, equation: Equation) -> str:
         there = frozenset(read(each["symbol"]) for each in answer["linear"]["coefficients"])
         found.append(_True(words, read(answer["left"]), read(answer["right"]), there))
     for row in stated.answers[0]:  # what loops ask of the configuration, the rates or the accelerations
-        tree = read(row[_LEVELS[level]])
+        if (stated_there := row[_LEVELS[level]]) is None:
+            continue  # what sticks or rolls holds rates, and no place
+        tree = read(stated_there)
         there = frozenset(s for s in symbols(tree) if s.dots == level)
         found.append(_True(f"the closure at {row['name']}", tree, ZERO, there))
     wanted = unknown or frozenset(s for s in said if s.dots == 1)

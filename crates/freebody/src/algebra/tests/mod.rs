@@ -46,7 +46,8 @@ impl Random {
             Random::Multiply(a, b) => of(a) * of(b),
             // Undefined at once, not infinite first.
             Random::Divide(a, b) => of(a) / proper(of(b)),
-            Random::Whole(a, n) => proper(of(a)).powi(*n),
+            Random::Whole(a, n) if *n < 0 => proper(of(a)).powi(*n),
+            Random::Whole(a, n) => of(a).powi(*n),
             Random::Root(a) => (S::one() + of(a).powi(2)).sqrt(),
             Random::Power(a, e) => (S::one() + of(a).powi(2)).powf(S::of(*e)),
             Random::Ln(a) => (S::of(2.0) + of(a).powi(2)).ln(),
