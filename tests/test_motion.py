@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -138,3 +139,32 @@ def test_prescribed_motions_that_exclude_each_other_are_refused():
     m.motion("second", of="theta", is_="2*t")
     with pytest.raises(fb.MotionError):
         m.simulate(until=1)
+
+
+def bending_pendulum() -> fb.Mechanism:
+    """A rod that bends at its middle."""
+    m = fb.Mechanism("bending pendulum", gravity=G)
+    stiffness, damping = m.parameter("k_rod", 1), m.parameter("c_rod", 1)
+    near, far = (m.body(name, shape="rod", length=0.15, mass=1) for name in ("near", "far"))
+    m.hinge("ground.O", near.start, coordinate="theta")
+    m.hinge(near.end, far.start, coordinate="bend")
+    m.spring(along="bend", stiffness=stiffness, damping=damping)
+    m.initial(theta=1, bend=0, rates={"theta": 20, "bend": 0})
+    return m
+
+
+def bending_slider_crank() -> fb.Mechanism:
+    mechanism = fb.Mechanism.load(Path(fb.__file__).parent / "systems/GEN-MODES/model.yaml")
+    mechanism.parameters.update(w=20, c=1)
+    return mechanism
+
+
+@pytest.mark.parametrize("machine", [bending_pendulum, bending_slider_crank])
+def test_stiffness_costs_radau_nothing(machine):
+    """Steps follow the slow motion (Hairer & Wanner, Solving ODEs II, IV.8), also where loops are closed after each of them: what
+    bends ever less, damped by a tenth of critical, costs no more evaluations."""
+    mechanism, counts = machine(), []
+    for stiffness in (2e4, 2e6, 2e8):
+        mechanism.parameters.update(k_rod=stiffness, c_rod=0.2 * math.sqrt(1e-3 * stiffness))
+        counts.append(mechanism.simulate(until=0.1, method="radau", rtol=1e-8).stats["evaluations"])
+    assert max(counts) < 1.5 * counts[0], counts

@@ -88,6 +88,12 @@ pub(super) trait Stepper {
     /// The dense output of the last attempt, after `to` has been projected.
     fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure>;
 
+    /// The part of a small change of the state that dies out within a part of the last step; `None` where the method does
+    /// not know it.
+    fn stiff_part(&self, _change: &[f64]) -> Option<Vec<f64>> {
+        None
+    }
+
     /// Whether the last accepted steps look stiff.
     fn is_stiff(&self) -> bool {
         false

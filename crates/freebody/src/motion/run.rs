@@ -22,6 +22,10 @@ const SHORT_OF_GAP: f64 = 1.05;
 const FAILED: f64 = 0.25;
 /// and where Newton's method did not converge: its error grows with the step.
 const NOT_CONVERGED: f64 = 0.5;
+/// Projections at the end of a step that leave out what is stiff; where the last one is not down to round-off it is kept whole,
+const PROJECTIONS: usize = 3;
+/// of this size, relative to the physical sizes.
+const PROJECTED: f64 = 1e-13;
 
 /// What may be chosen about a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -260,12 +264,25 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Projects the end of the step onto the invariants.
+    /// Projects the end of the step onto the invariants, but not along what is stiff: even round-off of a loop is a
+    /// vibration there, which the next step would have to follow.
     pub fn project(&mut self) -> Result<(), Outcome> {
         let before = self.next.y.clone();
-        let system = &mut *self.system.system;
-        let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::DynamicsError)?;
-        self.run.largest_correction = self.run.largest_correction.max(correction);
+        for round in 1..=PROJECTIONS {
+            let from = self.next.y.clone();
+            let system = &mut *self.system.system;
+            let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::DynamicsError)?;
+            self.run.largest_correction = self.run.largest_correction.max(correction);
+            if round == PROJECTIONS && correction > PROJECTED {
+                break;
+            }
+            let change: Vec<f64> = self.next.y.iter().zip(&from).map(|(to, from)| to - from).collect();
+            let Some(stiff) = self.stepper.stiff_part(&change) else { break };
+            self.next.y.iter_mut().zip(stiff).for_each(|(y, stiff)| *y -= stiff);
+            if correction <= PROJECTED {
+                break;
+            }
+        }
         if self.next.y != before {
             self.system.rate_of(&mut self.next).map_err(ending)?;
         }
