@@ -1,5 +1,7 @@
 """A plate that slides and turns on a rough table, seen from above: Coulomb friction of every point of its area, or of its rim."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -180,6 +182,8 @@ def test_equations_hold_its_friction():
     assert not made.check("m*accel(x) = -mu*m*g").ok
     text = made.equations().text()
     assert "M_rub" in text and "mean of V/|V|" in text
+    gun = fb.Mechanism.load(Path(__file__).parents[1] / "examples/new_gun.yaml")
+    assert "V/|V|" not in gun.equations().text(), "the couple of a motor is none of friction"
 
 
 @pytest.mark.parametrize(

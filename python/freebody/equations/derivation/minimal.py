@@ -142,7 +142,7 @@ def _friction(subject: SymbolicState) -> list[Block]:
             made.append(
                 [f"the friction of {load.name} is ", *size, Sym(subject.free.loads[place].symbol), ", against the sliding"]
             )
-        elif load.path.startswith("forces.") and load.card.couple:
+        elif load.kind == "friction" and load.path.startswith("forces.") and load.card.couple:
             mean = f"the friction of {load.name} is the coefficient times the load, against the mean of V/|V| over its area, and "
             where = "; V is the velocity of a point, r its place from the mass centre"
             made.append([mean, Sym(load.symbol), " as much, against that of r × V/|V|", where])
