@@ -76,7 +76,7 @@ MENDS = {
     ("S19.21", "BAR-7"): "R_D",  # its moment about A, r_D/A × R_D or d R_Dy
     ("S19.22", "BAR-8a"): "(n1 · λ3)/(n2 · λ3)",
     ("S19.22", "BAR-8b"): "(n1 · λ2)/(n3 · λ2)",
-    ("S19.22", "BAR-9"): "- [-cos(beta), cos(phi); sin(beta), -sin(phi)]",
+    ("S19.22", "BAR-9"): "- [-cos(β), cos(φ); sin(β), -sin(φ)]",
     ("S19.22", "BAR-10c"): "R_D",
 }
 """What each mended equation must hold; each was found by hand from the mechanics of the system."""

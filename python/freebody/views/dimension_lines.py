@@ -46,7 +46,7 @@ class DimensionLine:
 
 @dataclass(frozen=True)
 class _Asked:
-    """A coordinate of a joint: ``word`` is what the joint's card calls it."""
+    """A coordinate of a joint: ``word`` is what the joint's card calls it; ``zero`` the joint's own measure where it is 0."""
 
     name: str
     joint: Mapping[str, Any]
@@ -56,6 +56,7 @@ class _Asked:
     dimension: str
     value: float
     sense: int = 1
+    zero: float = 0.0
 
 
 def dimension_lines(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
@@ -108,7 +109,9 @@ def _asked(sketch: Sketch) -> Iterator[_Asked]:
         joint = stated.get(coordinate["joint"], {"type": "free", "with": {"of": [f"{first}.origin", f"{second}.origin"]}})
         name = coordinate["name"]
         given: Mapping[str, Any] = next((c for c in joint.get("coordinates", []) if c["name"] == name), {})
-        yield _Asked(name, joint, first, second, coordinate["word"], coordinate["dimension"], float(value), given.get("sense", 1))
+        word, dimension = coordinate["word"], coordinate["dimension"]
+        zero = sketch.number(given.get("zero") or 0.0)
+        yield _Asked(name, joint, first, second, word, dimension, float(value), given.get("sense", 1), zero)
 
 
 def _as_if_free(sketch: Sketch) -> Iterator[_Asked]:
@@ -154,13 +157,13 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offer
 
 
 def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:
-    """Beside the curve from where its parameter is 0."""
+    """Beside the curve from where the coordinate is 0."""
     curve = next(each for each in sketch.spec["curves"] if each["name"] == asked.joint["with"]["along"])
-    start = points_of_curve(sketch, curve, np.array([0.0, 1e-4]))
+    start = points_of_curve(sketch, curve, asked.zero + np.array([0.0, 1e-4]))
     least = sketch.size * 1e-4 / float(np.hypot(*(start[1] - start[0])))
     end = asked.value if abs(asked.value) > least else 3 * least
-    line = sketch.moved(curve["body"], points_of_curve(sketch, curve, np.linspace(0.0, end, 61)))
-    slopes = np.gradient(line, axis=0) * np.sign(end)
+    line = sketch.moved(curve["body"], points_of_curve(sketch, curve, asked.zero + asked.sense * np.linspace(0.0, end, 61)))
+    slopes = np.gradient(line, axis=0) * np.sign(end) * asked.sense
     left = aside * np.column_stack([-slopes[:, 1], slopes[:, 0]]) / np.hypot(*slopes.T)[:, None]
     return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])], end
 

@@ -59,8 +59,12 @@ def balanced(kinetic: Tree, potential: Tree, subject: SymbolicState) -> tuple[fl
         given.append((load, [load.value * np.dot(part.wrench(body.G), (*body.v, body.omega)) for part, body in parts]))
     rounding = POWER * max([1.0, *(abs(x) for _, powers in given for x in powers)])
     elastic = ("spring", "torsion_spring")  # beside a damper, too
-    stored = [x for load, x in given
-              if load.kind == "weight" or (load.kind == "force" and (conservative[load.name] or load.card.name in elastic))]  # fmt: skip
+    limits = [each for kind in ("contacts", "strings", "stops") for each in subject.source.spec[kind]]
+    soft = {
+        each["name"] for each in limits if each.get("stiffness") and not each.get("damping")
+    }  # what touches on a spring alone
+    stored = [x for load, x in given if load.kind == "weight" or (load.name in soft and load.kind != "friction")
+              or (load.kind == "force" and (conservative[load.name] or load.card.name in elastic))]  # fmt: skip
     rates = rate(kinetic, subject), rate(potential, subject)
     assert rates[0] == pytest.approx(sum(sum(x) for _, x in given), abs=rounding)
     assert rates[1] == pytest.approx(-sum(map(sum, stored)), abs=rounding)
