@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -66,6 +67,16 @@ class Case:
             tree = found.limits[name, what.split(" → ")[0]] if what else found[name]
             parts = [text(found.wanted[name], found.letters), what.replace("inf", "∞"), of]
             yield formula(", ".join(filter(None, parts)), tree, closed[key], against, found.letters)
+
+    def balances(self, closed: Sequence[str], against: str, file: str = "model.yaml") -> Iterator[Answer]:
+        """The balance equations without reactions, beside closed forms of left − right in the same order."""
+        from freebody.symbolic.printers.text import text
+
+        found = self.mechanism(file).equations()
+        for balance, each in zip(found.parts, closed, strict=True):
+            sides = " = ".join(text(side, found.letters) for side in (balance.left, balance.right))
+            answer = formula(balance.title, balance.residual, each, against, found.letters)
+            yield replace(answer, said=sides, says=f"{balance.title}: {{}}")
 
     def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
         """The characteristic polynomial, in s, of small perturbations from rest, beside a closed form."""

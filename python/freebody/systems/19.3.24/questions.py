@@ -11,6 +11,8 @@ A foot that can only push and does not slip ends where N = 0: friction still act
 floor; held, the floor would pull. No motion is possible; a foot with friction slides before.
 """
 
+from itertools import product
+
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq, minimize_scalar
@@ -24,8 +26,20 @@ TIMES = [0.2, 0.4, 0.6, 0.8, 0.9]
 SCIPY = "other route: moments about A and B, SciPy"
 MOMENTS = "closed form: moments about A and B"
 GIVEN = {"m1": 5.0, "m2": 5.0, "M": 10.0, "l": 1.0, "d1": 0.55, "d2": 0.45, "I1": 0.4, "I2": 0.4}
+COLUMNS = [("theta1", "θ1", "rad"), ("theta2", "θ2", "rad"), ("rate(theta1)", "θ̇1", "rad/s"), ("rate(theta2)", "θ̇2", "rad/s")]
+FLOORS = {"model.yaml": "", "one_sided.yaml": "a foot that only pushes"}
+PUSH = "min of foot.Fy over 0 s .. 1 s"
+STARTS = {
+    "": (0.25, -0.3, 0.8),
+    "θ̇2 = −4 rad/s": (0.25, -0.3, -4.0),
+    "θ̇2 = 0": (0.25, -0.3, 0.0),
+    "θ̇2 = 2 rad/s": (0.25, -0.3, 2.0),
+    "legs together, θ1 = θ2 = 0.1": (0.1, 0.1, 0.8),
+    "legs wide apart, θ1 = 0.4, θ2 = −0.5": (0.4, -0.5, 0.8),
+}
+"""θ1, θ2, θ̇2 of every start."""
 SETS = {
-    "as given": {},
+    "": {},
     "M = 0": {"M": 0.0},
     "uniform legs": {"d1": 0.5, "d2": 0.5, "I1": 5 / 12, "I2": 5 / 12},
     "mass low in the legs": {"d1": 0.3, "d2": 0.7},
@@ -67,24 +81,18 @@ class Legs:
         return self.m2 * (self.accelerations(y)[2] + np.array([0, G]))
 
 
-@ask("One instant, with the forces of foot and hip")
-def instant(case):
-    for of, changes in SETS.items():
-        legs = Legs(**changes)
-        for file in ("model.yaml", "one_sided.yaml"):
-            now, label = case.instant(file, changes), f"{of}, {file}"
-            yield Answer(
-                f"θ̈1, θ̈2, {label}", [now["accel(theta1)"], now["accel(theta2)"]], "rad/s²", legs.turning(START), MOMENTS, 1e-12
-            )
-            foot = [now["foot.Fx"], now["foot.Fy"]]
-            yield Answer(f"floor on the foot, {label}", foot, "N", legs.foot(START), "closed form: momentum of the whole", 1e-12)
-            hip = [now["pelvis.Fx"], now["pelvis.Fy"]]
-            yield Answer(f"hip on leg BC, {label}", hip, "N", legs.hip(START), "closed form: momentum of leg BC", 1e-12)
+@ask("Which two equations for θ̈1, θ̈2 hold no reaction?")
+def symbolically(case):
+    swing = "(I2 + m2*d2^2)*accel(theta2) - m2*l*d2*(cos({0})*accel(theta1) - sin({0})*rate(theta1)^2)".format("theta1 - theta2")
+    swing += " + m2*g*d2*sin(theta2)"
+    rest = "(I1 + m1*d1^2 + (M + m2)*l^2)*accel(theta1) - (m1*d1 + (M + m2)*l)*g*sin(theta1)"
+    rest += " - m2*l*d2*(cos({0})*accel(theta2) + sin({0})*rate(theta2)^2)".format("theta1 - theta2")
+    yield from case.balances([f"{swing} + {rest}", swing], MOMENTS)
 
 
-@ask("LEGS-1: ΣM/A = Ḣ/A for the whole, ΣM/B = Ḣ/B for leg BC")
+@ask("Is ΣM/A = Ḣ/A for the whole, ΣM/B = Ḣ/B for leg BC (LEGS-1)?")
 def balances(case):
-    """Printed statement, true: both sides from the solved instant, the rate of angular momentum taken of each part."""
+    """Both sides from the solved instant, the rate of angular momentum taken of each part."""
     now, legs = case.instant(), Legs()
 
     def spin(points, about, turns):
@@ -98,64 +106,76 @@ def balances(case):
 
     one, two = (0.4 * now[f"alpha({leg})"] for leg in ("stance", "swing"))
     parts = [(legs.m1, "stance.G"), (legs.M, "hip.centre"), (legs.m2, "swing.G")]
-    for label, sides in (
-        ("whole about A", spin(parts, "stance.A", [one, two])),
-        ("BC about B", spin(parts[2:], "stance.B", [two])),
+    for name, (moment, rate) in (
+        ("Of the whole about A", spin(parts, "stance.A", [one, two])),
+        ("Of leg BC about B", spin(parts[2:], "stance.B", [two])),
     ):
-        yield Answer(f"Ḣ, {label}", sides[1], "N·m", sides[0], "closed form: moment of the weights", 1e-12)
+        says = f"{name} Ḣ is {{}}, as large as the moment of the weights."
+        yield Answer("Ḣ", rate, "N·m", moment, "closed form: moment of the weights", 1e-12, says=says)
 
 
-@ask("1 s of motion, pinned")
+@ask("What are θ̈1, θ̈2 and the forces of floor and hip at θ1 = 0.25, θ2 = −0.3, θ̇1 = −1.1, θ̇2 = 0.8?")
+def instant(case):
+    for (of, changes), file in product(SETS.items(), FLOORS):
+        legs, now, of = Legs(**changes), case.instant(file, changes), ", ".join(filter(None, (of, FLOORS[file])))
+        value = [now["accel(theta1)"], now["accel(theta2)"]]
+        yield Answer("θ̈1, θ̈2", value, "rad/s²", legs.turning(START), MOMENTS, 1e-12, variant=of)
+        says, against = "The floor's force on the foot is ({}, {}).", "closed form: momentum of the whole"
+        foot = [now["foot.Fx"], now["foot.Fy"]]
+        yield Answer("foot", foot, "N", legs.foot(START), against, 1e-12, says=says, variant=of)
+        says, against = "The hip's force on leg BC is ({}, {}).", "closed form: momentum of leg BC"
+        hip = [now["pelvis.Fx"], now["pelvis.Fy"]]
+        yield Answer("hip", hip, "N", legs.hip(START), against, 1e-12, says=says, variant=of)
+
+
+@ask("How do the legs move in 1 s with the foot pinned, and with which force on the foot?")
 def pinned(case):
-    for of in ("as given", "M = 0"):
-        legs, run, times = Legs(**SETS[of]), case.run(parameters=SETS[of]), [*TIMES, 1.0]
+    times = [*TIMES, 1.0]
+    for of in ("", "M = 0"):
+        legs, run = Legs(**SETS[of]), case.run(parameters=SETS[of])
         check = motion(legs.rates, START, times)
-        for i, text in enumerate(("theta1", "theta2", "rate(theta1)", "rate(theta2)")):
-            yield Answer(f"{text} at 0.2 … 1 s, {of}", run.evaluate(text, times), "rad, rad/s", check[:, i], SCIPY, 1e-9)
-        for i, text in enumerate(("foot.Fx", "foot.Fy")):
+        for i, (text, name, unit) in enumerate(COLUMNS):
+            label = f"{name} at 0.2, 0.4, 0.6, 0.8, 0.9, 1 s"
+            yield Answer(label, run.evaluate(text, times), unit, check[:, i], SCIPY, 1e-9, variant=of)
+        for i, part in enumerate(("Fx", "Fy")):
             forces = [legs.foot(y)[i] for y in check]
-            yield Answer(f"{text}, {of}", run.evaluate(text, times), "N", forces, SCIPY, 1e-9)
+            yield Answer(f"{part} of the foot then", run.evaluate(f"foot.{part}", times), "N", forces, SCIPY, 1e-9, variant=of)
 
 
-@ask("On a floor that only pushes, without slip")
+@ask("And with a foot that can only push and does not slip?")
 def pushed(case):
     legs = Legs()
+    run, check = case.run("one_sided.yaml", until=0.9), motion(legs.rates, START, TIMES)
+    for i, (text, name, unit) in enumerate(COLUMNS[:2]):
+        yield Answer(f"{name} at 0.2, 0.4, 0.6, 0.8, 0.9 s", run.evaluate(text, TIMES), unit, check[:, i], SCIPY, 1e-9)
+    for i, part in enumerate("TN"):
+        yield Answer(f"{part} then", run.evaluate(f"foot.{part}", TIMES), "N", [legs.foot(y)[i] for y in check], SCIPY, 1e-9)
     when, state = event(legs.rates, START, lambda t, y: legs.foot(y)[1], before=1.0)
     outcome = case.mechanism("one_sided.yaml").simulate(rtol=1e-12).outcome
     yield Answer("end", outcome.t, "s", when, SCIPY, 1e-9, says="The floor's push ends at {}.")
     says = "There the foot can neither hold nor part: the run ends and says so."
     yield Answer("ends", outcome.name == "painleve_inconsistent", "", released(legs, state) < 0,
                  "closed form: let go, the foot presses into the floor", says=says)  # fmt: skip
-    force = case.run().evaluate("foot.Fy", [when, 1.0])
-    yield Answer(
-        "force of the pinned foot then, and at 1 s: it pulls",
-        force,
-        "N",
-        [0.0, legs.foot(motion(legs.rates, START, [1.0])[0])[1]],
-        SCIPY,
-        1e-8,
-    )
-    run, check = case.run("one_sided.yaml", until=0.9), motion(legs.rates, START, TIMES)
-    for i, text in enumerate(("theta1", "theta2")):
-        yield Answer(f"{text} until 0.9 s", run.evaluate(text, TIMES), "rad", check[:, i], SCIPY, 1e-9)
-    for i, text in enumerate(("foot.T", "foot.N")):
-        yield Answer(f"{text} until 0.9 s", run.evaluate(text, TIMES), "N", [legs.foot(y)[i] for y in check], SCIPY, 1e-9)
+    forces, last = case.run().evaluate("foot.Fy", [when, 1.0]), legs.foot(motion(legs.rates, START, [1.0])[0])[1]
+    says = "The floor pushes the pinned foot with {} then, and with {} at 1 s: it pulls."
+    yield Answer("Fy of the pinned foot", forces, "N", [0.0, last], SCIPY, 1e-8, says=says)
 
 
 @ask("From which starts is the foot pressed on the floor for a whole second?")
 def every_start(case):
-    """The hinged foot's least push, by the rate that the stance leg starts with; the floor has to pull in all other motions."""
-    found = case.mechanism().find("min of foot.Fy over 0 s .. 1 s", 0, vary="rate(theta1)", within=(-4, 3), until=1, rtol=1e-11)
-    check = [brentq(least_push, root - 0.05, root + 0.05, xtol=1e-12) for root in found.values]
-    says = "From rates of the stance leg of {} it just is, between them all the time, from others the floor would have to pull."
-    yield Answer("θ̇1", found.values, "rad/s", check, SCIPY, 1e-7, says=says)
+    """The hinged foot's least push, by the rates and the posture that the legs start with; in all other motions the floor has to pull."""
+    for of, (one, two, rate) in STARTS.items():
+        start = {"theta1": one, "theta2": two, "rates": {"theta2": rate}}
+        within, points = ((-4, 3), 33) if not of else ((-3, 1), 9)
+        found = case.mechanism().find(PUSH, 0, vary="rate(theta1)", within=within, points=points, until=1, rtol=1e-11, **start)
+        check = [brentq(least_push, x - 0.05, x + 0.05, (one, two, rate), xtol=1e-12) for x in found.values]
+        says = "From θ̇1 between {} and {}; from others the floor would have to pull."
+        yield Answer("θ̇1", found.values, "rad/s", check, SCIPY, 1e-7, says=says, variant=of)
 
 
-def least_push(rate):
-    legs = Legs()
-    solution = solve_ivp(
-        legs.rates, (0, 1), [*START[:2], rate, START[3]], method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True
-    )
+def least_push(first, one, two, second):
+    legs, start = Legs(), [one, two, first, second]
+    solution = solve_ivp(legs.rates, (0, 1), start, method="DOP853", rtol=1e-12, atol=1e-13, dense_output=True)
     times = np.linspace(0, 1, 401)
     pushes = [legs.foot(solution.sol(t))[1] for t in times]
     i = int(np.argmin(pushes))
@@ -180,10 +200,9 @@ def released(legs, y):
     return np.linalg.solve(matrix, right)[1]
 
 
-@ask("On a floor with friction 3: the foot slides")
+@ask("When does the foot slide on a floor with friction 3?")
 def slides(case):
     legs = Legs()
     when, _ = event(legs.rates, START, lambda t, y: 3 * legs.foot(y)[1] - abs(legs.foot(y)[0]), before=1.0)
-    run = case.run("slippery.yaml", until=0.96)
-    slip = next(c.t for c in run.changes if c.kind == "slip")
-    yield Answer("slip", slip, "s", when, SCIPY, 1e-9, says="The foot slides from {} on.")
+    slip = next(c.t for c in case.run("slippery.yaml", until=0.96).changes if c.kind == "slip")
+    yield Answer("slip", slip, "s", when, SCIPY, 1e-9, says="From {} on.")

@@ -59,6 +59,19 @@ def instant(case, state, gravity=DOWN, variant=""):
     yield Answer("forces at O and E, x and y", forces(now), "N", check, against, 1e-12, says=says, variant=variant)
 
 
+@ask("Which two equations hold no reaction?")
+def equations(case):
+    forearm = "(I2 + m2*l2^2)*accel(theta2) + m2*l2*l3*(cos({0})*accel(theta1) + sin({0})*rate(theta1)^2)".format(
+        "theta2 - theta1"
+    )
+    forearm += " - Me - m2*l2*(gy*cos(theta2) - gx*sin(theta2))"
+    rest = "(I1 + m1*l1^2 + m2*l3^2)*accel(theta1) + m2*l2*l3*(cos({0})*accel(theta2) - sin({0})*rate(theta2)^2)".format(
+        "theta2 - theta1"
+    )
+    rest += " - Ms + Me - (m1*l1 + m2*l3)*(gy*cos(theta1) - gx*sin(theta1))"
+    yield from case.balances([f"{forearm} + {rest}", forearm], "closed form: moments about O and E")
+
+
 @ask("Which torques hold the arm straight out?")
 def symbolically(case):
     closed = {"elbow motor": "m2*g*l2", "shoulder motor": "g*(m1*l1 + m2*(l3 + l2))"}

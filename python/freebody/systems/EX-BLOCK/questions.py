@@ -49,6 +49,15 @@ def rollers_below(case):
         yield Answer("F_A, F_B, F_C, F_D", values, "N", check, against, 1e-12, variant=of)
 
 
+@ask("Which two equations hold no reaction, and how many are there of the other forms?")
+def equations(case):
+    closed = ["(m1 + m2)*accel(x) - m2*cos(tip)*accel(y)", "m2*(accel(y) - cos(tip)*accel(x)) - m2*g*sin(tip)"]
+    yield from case.balances(closed, "closed form: momentum along the ground and down the slope")
+    for form, says, check in (("brute", "Brute force has {}.", 6), ("constraints", "Most brute force has {}.", 10)):
+        count, against = len(case.mechanism().equations(form).equations), "count: 3 a body, 1 a place held along a line or turned"
+        yield Answer("equations", count, "", check, against, 0.0, says=says)
+
+
 @ask("What are the accelerations, symbolically?")
 def symbolically(case):
     below = "(m1 + m2*sin(tip)^2)"
