@@ -174,6 +174,29 @@ def test_instants_of_an_impact_are_compared_and_not_what_jumps_there():
     assert accuracy.digits("rate(ball.y)", np.array([0.3, 0.6, 0.8])).min() >= 7
 
 
+def test_the_work_of_a_drive_in_an_impact_is_known_as_far_as_it_is_in_the_other_run():
+    """What strikes a bat that keeps its speed V: the drive does (1 + e) m V²."""
+    runs = [
+        fb.Mechanism.loads(f"""
+freebody: 1
+gravity: none
+ground: {{lines: {{way: {{through: O, angle: 0}}}}}}
+bodies: {{bat: {{shape: particle, mass: 9}}, ball: {{shape: particle, mass: 3}}}}
+joints:
+  g: {{type: slot, along: ground.way, point: bat.centre, coordinate: z}}
+  b: {{type: slot, along: ground.way, point: ball.centre, coordinate: x}}
+stops: {{hit: {{of: x - z, least: 0, restitution: 0.4}}}}
+motions: {{push: {{of: z, is: "{speed!r}*t"}}}}
+initial: {{x: 1, rates: {{x: 0}}}}
+""").simulate(1)
+        for speed in (2.0, 2.0 + 2e-9)
+    ]
+    accuracy = Accuracy(*runs)
+    (hit,) = accuracy.changes
+    for work in (hit.work, accuracy.energy["work of push"]):
+        assert work == pytest.approx(1.4 * 3 * 2**2) and work.error == pytest.approx(6e-9 * work, rel=1e-3)
+
+
 def test_nothing_holds_after_the_events_of_the_two_runs_part():
     runs = [ball(height).simulate(1.2) for height in (1.0, 8.0)]
     accuracy = Accuracy(*runs)

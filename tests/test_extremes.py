@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import freebody as fb
+from freebody.run.records import Window, maxima
 
 OSCILLATOR = """
 freebody: 1
@@ -89,3 +90,33 @@ def test_a_rocker_turns_back_where_crank_and_coupler_align():
     for figure, reach, side in ((report["most"], b - a, np.pi), (report["least"], b + a, 0.0)):
         crank = np.arccos((reach * reach + d * d - c * c) / (2 * reach * d)) + side
         assert np.sin((0.5 + 2 * figure.t - crank) / 2) == pytest.approx(0.0, abs=1e-11)
+
+
+@pytest.mark.parametrize(("ripple", "found"), [(1e-3, 10), (1e-11, 10), (2e-14, 0)])
+def test_what_rises_and_falls_by_round_off_is_level(ripple, found):
+    """5 + r sin 2π t has its maxima at 1/4, 5/4 …"""
+    peaks = maxima(lambda t: 5 + ripple * np.sin(2 * np.pi * t), Window(np.linspace(0, 10, 41)))
+    assert [t for t, _ in peaks] == pytest.approx((0.25 + np.arange(10))[:found], abs=1e-2)
+
+
+SINGULAR = """
+freebody: 1
+gravity: none
+bodies: {b: {shape: particle, mass: 2}}
+initial: {b.x: 0, b.y: 0, rates: {b.x: 1, b.y: 0}}
+run: {until: 2}
+events: {e: {EVENT}}
+report: {sum: integral of 1/abs(READ - A)^p, mean: mean of 1/abs(READ - A)^p}
+"""
+
+
+@pytest.mark.parametrize("event", ["at: A s", "when: b.x - A"])
+@pytest.mark.parametrize("read", ["t", "b.x"])
+@pytest.mark.parametrize("a", [0.3, 1.0])
+@pytest.mark.parametrize("p", [0.5, 0.8])
+def test_an_integral_over_what_is_singular_where_something_happens(event, read, a, p):
+    """∫ |t − a|^(−p) dt = (a^(1−p) + (2 − a)^(1−p))/(1 − p), for x = t."""
+    text = SINGULAR.replace("EVENT", event).replace("READ", read).replace("A", str(a)).replace("^p", f"^{p}")
+    known, true = fb.Mechanism.loads(text).simulate().accuracy.report, (a ** (1 - p) + (2 - a) ** (1 - p)) / (1 - p)
+    for name, expected in (("sum", true), ("mean", true / 2)):
+        assert known[name].value == pytest.approx(expected, rel=1e-9) and known[name].value.error < 1e-8

@@ -130,6 +130,28 @@ initial: {{ball.x: 0, ball.y: 1, rates: {{ball.y: {-v}}}}}
     assert lift.t == pytest.approx(0.5 + leaves, abs=1e-9)
 
 
+@pytest.mark.parametrize("depth", [0.0, 0.02])
+@pytest.mark.parametrize("rate", [-2.0, 0.0, 0.5, 2.0])
+def test_a_start_in_the_floor_is_pushed_out_but_never_pulled_back(depth, rate):
+    """m ÿ = max(0, k δ − c ẏ) at a depth δ, as of the ball above; here for less than it takes to leave."""
+    m, k, c = 0.5, 200.0, 3.0
+    text = f"""
+gravity: none
+bodies: {{ball: {{shape: particle, mass: {m}}}}}
+contacts: {{floor: {{of: [ball, {{through: ground.O, angle: 0}}], stiffness: {k}, damping: {c}}}}}
+initial: {{ball.x: 0, ball.y: {-depth}, rates: {{ball.y: {rate}}}}}
+"""
+    run, delta, t = model(text).simulate(until=0.01, rtol=1e-12), c / (2 * m), np.linspace(0, 0.01, 11)
+    y, push = -depth + rate * t, 0 * t
+    if k * depth > c * rate:
+        omega = np.sqrt(k / m - delta**2)
+        sine, cosine = np.exp(-delta * t) * np.sin(omega * t), np.exp(-delta * t) * np.cos(omega * t)
+        y = -depth * cosine + (rate - delta * depth) / omega * sine
+        push = -k * y - c * (rate * cosine + (k * depth / m - delta * rate) / omega * sine)
+    assert run.evaluate("ball.y", t) == pytest.approx(y, abs=1e-11)
+    assert run.evaluate("floor.N", t[1:]) == pytest.approx(push[1:], abs=1e-7)
+
+
 def test_newtons_laws_hold_while_a_box_comes_to_rest_on_springs():
     # Of a motion with twenty stiff contacts the ledger leaves some 1.5 times the tolerance.
     run = motion(TUMBLING, 2.0, {"rtol": 1e-10}, alpha=0.1)

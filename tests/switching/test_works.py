@@ -13,9 +13,13 @@ from freebody.core import cards
 BOX = """
 parameters: {c: 30, k: 0.2, rest: 0.3 m, e: 0.6, K: 3e4 N/m}
 ground: {points: {P: [-1, 0], Q: [1, 0], post: [0, 1.2]}, lines: {floor: [P, Q]}}
-bodies: {box: {shape: rectangle, width: 0.5 m, height: 0.3 m, mass: 2 kg, points: {A: [0.25, 0.15], B: [-0.25, 0.15], C: [-0.25, 0]}}}
+bodies: {box: {shape: rectangle, width: 0.5 m, height: 0.3 m, mass: 2 kg, points: {A: [0.25, 0.15], B: [-0.25, 0.15], C: [-0.25, 0]}}, load: {shape: particle, mass: 1.5}, crank: {shape: rod, length: 0.4, mass: 0.7}}
 contacts: {floor: {of: [box, ground.floor], restitution: e, friction: 0.3}}
 strings: {leash: {ends: [ground.post, box.C], length: 1.1 m, restitution: 0.2}}
+joints:
+  lift: {type: slot, along: [ground.P, ground.post], point: load.centre, coordinate: lift}
+  knob: {type: hinge, of: [ground.Q, crank.start], coordinate: knob}
+motions: {winch: {of: lift, is: 0.1*sin(3*t)}, motor: {of: knob, is: 2 + 0.3*cos(5*t), level: velocity}}
 stops: {wall: {of: box.x, most: 0.3 m, stiffness: K, damping: 40}}
 forces: {it: %s}
 initial: {box.x: 0.1, box.y: 0.5, box.angle: 0.4, rates: {box.x: 0.8, box.y: -1, box.angle: -4}}
@@ -54,13 +58,14 @@ def test_its_work_is_the_integral_of_its_power(force: str):
     run = model(BOX % force).simulate()
     assert run.outcome.ok and {"impact", "released", "engaged"} <= {change.kind for change in run.changes}
     nodes, weights = np.polynomial.legendre.leggauss(8)
-    done, largest = 0.0, 1e-3
-    for start, end in pairwise(run.edges):
-        powers = run.evaluate("it.power", (start + end) / 2 + (end - start) / 2 * nodes)
-        done += (end - start) / 2 * float(weights @ powers)
-        largest = max(largest, abs(done))
-        assert run.evaluate("it.work", end) == pytest.approx(done, abs=1e-8 * largest)
-    assert largest > 0.02
+    for part in ("it", "winch", "motor"):
+        done, largest = 0.0, 1e-3
+        for start, end in pairwise(run.edges):
+            powers = run.evaluate(f"{part}.power", (start + end) / 2 + (end - start) / 2 * nodes)
+            done += (end - start) / 2 * float(weights @ powers)
+            largest = max(largest, abs(done))
+            assert run.evaluate(f"{part}.work", end) == pytest.approx(done, abs=1e-8 * largest)
+        assert largest > 0.02
     for state in (run.start, run.motion.state(0.3), run.end):
         work, power, rate = run.source.evaluate(["it.work", "it.power", "rate(it.work)"], state)
         assert rate == pytest.approx(power, abs=1e-9 * largest)

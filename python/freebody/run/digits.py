@@ -353,7 +353,8 @@ class Accuracy:
     def _integral(self, how: str, read: Read, over: Window, value: float, its_value: float) -> Known:
         """A mean, rms or integral over a window: it is known as far as the integrals up to any time agree."""
         t = self.t[(self.t >= over.edges[0]) & (self.t <= over.edges[-1])]
-        mine, other = (read(run, t)[:-1, 0] ** (2 if how == "rms" else 1) for run in (self.run, self.other))
+        amid = Window(t).amid  # what is singular is so at an edge of a step, which may be one of the times
+        mine, other = (read(run, amid)[:, 0] ** (2 if how == "rms" else 1) for run in (self.run, self.other))
         per = {"integral": 1.0, "mean": over.length, "rms": 2 * abs(value) * over.length}[how]
         apart, size = (float(np.abs(np.cumsum(y * np.diff(t))).max(initial=0.0)) / per for y in (mine - other, mine))
         return Known(value, SAFETY * max(apart, abs(value - its_value)), max(abs(value), size))
