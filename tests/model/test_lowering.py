@@ -103,6 +103,17 @@ def test_parts_come_in_under_their_name(tmp_path):
     assert made.report[0].value == "left.height - right.l"
 
 
+def test_a_pin_of_several_bodies_is_named_in_its_part_as_outside(tmp_path):
+    leg = "bodies: {thigh: {shape: rod, length: 1, mass: 1}, shank: {shape: rod, length: 1, mass: 1}}\n"
+    leg += "joints: {hip: {type: hinge, of: [ground.O, thigh.start, shank.start]}}\n"
+    (tmp_path / "leg.yaml").write_text("freebody: 1\n" + leg)
+    (tmp_path / "model.yaml").write_text("freebody: 1\nparts: {left: {file: leg.yaml}}\ninitial: {left.hip.thigh.angle: 0.2}\n")
+    made = Mechanism.load(tmp_path / "model.yaml")
+    assert made.compile().coordinate_names == ["left.hip.thigh.angle", "left.hip.shank.angle"]
+    assert made.solve()["left.hip.thigh.angle"] == 0.2
+    assert made.compile().metadata["joints"][0]["name"] == "left.hip.thigh"
+
+
 def test_a_wrong_parameter_of_a_part(tmp_path):
     (tmp_path / "leg.yaml").write_text(LEG)
     with pytest.raises(ModelFileError, match="has no parameter `length`"):

@@ -33,7 +33,7 @@ def _routes(case: Case) -> Iterator[Answer]:
         accelerations.append(max(gap[0] for gap in gaps))
         reactions.append(max(gap[1] for gap in gaps))
         residuals.append(max(each.residual for each in (one, *others)))
-    at = f"at {len(names)} states"
+    at = f"at {len(names)} state{'s' * (len(names) > 1)}"
     yield _greatest(f"They give the same accelerations {at}.", accelerations, names, "the other two routes", 1e-10)
     yield _greatest(f"They give the same reactions {at}.", reactions, names, "the other two routes", 1e-10)
     yield _greatest(f"No momentum is left over {at}.", residuals, names, "balance of every body", 1e-12)

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from itertools import groupby
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import rich
@@ -44,7 +44,7 @@ def show_title(system: System) -> None:
 
 
 def show_asked(asked: Asked, full: bool = False) -> None:
-    """One question, what was found, and how it was checked in a small print. Variants are folded to a line each unless ``full``,
+    """One question, what was found, and how it was checked in a small print. Variants are folded into a paragraph each unless ``full``,
     which also tells all figures of long rows."""
     _line(asked.label, 0, "bold")
     variants: dict[str, list[Answer]] = {}
@@ -56,7 +56,7 @@ def show_asked(asked: Asked, full: bool = False) -> None:
             _line(f"{variant}:", 2, "italic")
             _show_answers(answers, full)
         else:
-            _line(folded(variant, answers), 2, _style(answers), overflow="ellipsis", no_wrap=True)
+            _line(folded(variant, answers), 2, _style(answers), hanging=2)
     if variants and not full:
         _line(checks([answer for answers in variants.values() for answer in answers]), 4, "dim")
     if asked.failure:
@@ -77,13 +77,15 @@ def _style(answers: Iterable[Answer]) -> str:
     return "" if all(answer.ok for answer in answers) else "bold red"
 
 
-def _line(text: str, indent: int, style: str, **how: Any) -> None:
+def _line(text: str, indent: int, style: str, hanging: int = 0) -> None:
     console = rich.get_console()
     errors = getattr(console.file, "errors", None) or "strict"
     spelt = text.encode(console.encoding, errors).decode(console.encoding)  # as a terminal of ASCII will show it
-    for line in Text(spelt, style, **how).wrap(console, console.width - indent):
+    for line in Text(spelt, style).wrap(console, console.width - indent - hanging):
         line.rstrip()
         rich.print(Text(" " * indent) + line)
+        indent += hanging
+        hanging = 0
 
 
 def show_statements(system: System, judged: Iterable[Judged]) -> None:

@@ -50,17 +50,18 @@ fn no_such_joint(path: &str, word: &str) -> CompileError {
     CompileError::from(format!("{path}.type"), unknown("type of joint", word, words.iter()))
 }
 
-/// A pin shared by several bodies is a hinge of each with the first, named after the other body.
+/// A pin shared by several bodies is a hinge of each with the first, named after the other body as its part calls it.
 fn separate(element: &Element, card: &Card, bodies: &HashMap<&str, &str>) -> Vec<Element> {
     let field = card.fields.iter().find(|f| f.role == Role::Both).map(|f| f.name);
     let points = match field.and_then(|f| element.fields.get(f)) {
         Some(Value::List(points)) if points.len() > 2 => points.clone(),
         _ => return vec![element.clone()],
     };
+    let part = element.name.rfind('.').map_or("", |dot| &element.name[..=dot]);
     let one = |(i, other): (usize, &Value)| {
         let mut pair = element.clone();
         let body = other.text().and_then(|name| bodies.get(name).copied()).unwrap_or("?");
-        pair.name = format!("{}.{body}", element.name);
+        pair.name = format!("{}.{}", element.name, body.strip_prefix(part).unwrap_or(body));
         pair.fields.insert(field.unwrap_or("of").to_string(), Value::List(vec![points[0].clone(), other.clone()]));
         pair.coordinates = element.coordinates.get(i).cloned().into_iter().collect();
         pair

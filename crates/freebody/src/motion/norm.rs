@@ -82,18 +82,20 @@ const LONGER: f64 = 100.0;
 /// Rate and its change, in the same units, below which there is none.
 const STEADY: f64 = 1e-15;
 
-/// Hairer's first step (HNW I, II.4, eq. 4.14), from a rate at `from` and a rate function; time is in units of the
-/// system's own.
+/// Hairer's first step (HNW I, II.4, eq. 4.14), from a rate at `from` and a rate function, which is tried no further
+/// than `within`, a time of the sign of the run; time is in units of the system's own.
 pub(super) fn first_step<E>(
     norm: &Norm,
     from: &Point,
-    sign: f64,
+    within: f64,
     estimate_order: u32,
     mut rate: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>,
 ) -> Result<f64, E> {
     let weights = norm.physical(from);
     let (d0, d1) = (measure(&from.y, &weights), measure(&from.dy, &weights) * norm.time);
+    let sign = within.signum();
     let h0 = norm.time * if d0 < NEGLIGIBLE || d1 < NEGLIGIBLE { SMALL_STEP } else { FIRST_CHANGE * d0 / d1 };
+    let h0 = h0.min(within.abs());
     let y: Vec<f64> = from.y.iter().zip(&from.dy).map(|(y, dy)| y + sign * h0 * dy).collect();
     let mut dy = vec![0.0; y.len()];
     rate(from.t + sign * h0, &y, &mut dy)?;

@@ -156,12 +156,13 @@ impl<'a> Runner<'a> {
 
     /// Chooses the step anew, as at the start.
     pub fn restart_steps(&mut self) {
-        let (Some(order), sign) = (self.estimate_order, self.sign()) else { return };
+        let Some(order) = self.estimate_order else { return };
+        let (left, most) = (self.t_end - self.now.t, self.system.system.horizon());
         let system = &mut self.system;
-        let h = first_step(&self.norm, &self.now, sign, order, |t, y, dy| system.rate(t, y, dy));
+        let h = first_step(&self.norm, &self.now, left, order, |t, y, dy| system.rate(t, y, dy));
         // Where even the trial fails, the first steps are rejected until they fit.
-        let most = self.system.system.horizon();
-        self.steps.restart(h.unwrap_or(sign * SMALL_STEP * self.norm.time).clamp(-most, most));
+        let h = h.ok().filter(|&h| h != 0.0).unwrap_or(left.signum() * SMALL_STEP * self.norm.time);
+        self.steps.restart(h.clamp(-most, most));
     }
 
     /// One accepted step, or the part of it up to an event.

@@ -20,6 +20,7 @@ from freebody.catalogue import Answer, ask
 from freebody.catalogue.answers import formula
 from freebody.catalogue.reference import motion
 from freebody.equations import Sym
+from freebody.symbolic.printers.text import text
 from freebody.systems._linkages import cross, dot
 
 G, R, THROW, L = 9.81, 0.3, 0.04, 0.14
@@ -111,126 +112,126 @@ def forces(theta, rate, turning):
     return found
 
 
-@ask("each part's motion as a function of the crank angle")
+ANGLES = (10, 75, 140, 250)
+BALANCES = "closed form: one balance after another"
+
+
+@ask("What is each part's motion as a function of the crank angle, the crank at 80 rad/s?")
 def parts(case):
-    for degrees in (10, 75, 140, 250):
-        theta, rate = math.radians(degrees), 80.0
-        now, engine = case.instant(thc=theta), Engine(theta)
+    for degrees in ANGLES:
+        theta, rate, at = math.radians(degrees), 80.0, f"at {degrees}°"
+        now, engine = case.instant(theta_c=theta), Engine(theta)
         turning = acceleration(theta, rate)
         piston = engine.piston[1] * turning + engine.piston[2] * rate**2
-        yield Answer(f"height of the piston at {degrees}°", now["h"], "m", engine.piston[0].imag, "closed form: triangle", 1e-13)
-        yield Answer(
-            f"its speed and acceleration at {degrees}°",
-            [now["rate(h)"], now["accel(h)"]],
-            "",
-            [engine.piston[1].imag * rate, piston.imag],
-            "closed form: triangle, differentiated",
-            1e-12,
-        )
+        against, says = "closed form: triangle", "The piston is at {}."
+        yield Answer("height of the piston", now["h"], "m", engine.piston[0].imag, against, 1e-13, says=says, variant=at)
+        against, says = "closed form: triangle, differentiated", "It moves up at {}."
+        yield Answer("its speed", now["rate(h)"], "m/s", engine.piston[1].imag * rate, against, 1e-12, says=says, variant=at)
+        says = "Its acceleration is {}."
+        yield Answer("its acceleration", now["accel(h)"], "m/s²", piston.imag, against, 1e-12, says=says, variant=at)
         spins = [now[f"omega({body})"] for body in ("rod", "crank", "shaft", "wheel")]
-        yield Answer(
-            f"spin of rod, crank, shaft, wheel at {degrees}°",
-            spins,
-            "rad/s",
-            [engine.psi[1] * rate, -rate, rate / 3, -rate / 12],
-            "closed form: triangle, gear ratios",
-            1e-12,
-        )
+        check = [engine.psi[1] * rate, -rate, rate / 3, -rate / 12]
+        against, says = "closed form: triangle, gear ratios", "Rod, crank, shaft and wheel turn at {}, {}, {} and {}."
+        yield Answer("spins", spins, "rad/s", check, against, 1e-12, says=says, variant=at)
 
 
-@ask("symbolically:  each part's rate by that of the crank, and the one equation of motion")
+@ask("What are each part's rate by that of the crank, and the one equation of motion, symbolically?")
 def symbolically(case):
     """The rod's centre is at x + r sin θ − l/2 sin ψ, r cos θ + l/2 cos ψ; k are rates for θ̇ = 1, c accelerations for θ̈ = 0."""
-    found = case.mechanism().solve_in_letters(["thc"])
-    across, up = "(R/12 + r*cos(thc) - l*cos(psi)*k_psi/2)", "(-r*sin(thc) - l*sin(psi)*k_psi/2)"
-    aside = "(-r*sin(thc)*rate(thc)^2 + l*sin(psi)*rate(psi)^2/2 - l*cos(psi)*c_psi/2)"
-    down = "(-r*cos(thc)*rate(thc)^2 - l*cos(psi)*rate(psi)^2/2 - l*sin(psi)*c_psi/2)"
+    found = case.mechanism().solve_in_letters(["theta_c"])
+    across, up = "(R/12 + r*cos(theta_c) - l*cos(psi)*k_psi/2)", "(-r*sin(theta_c) - l*sin(psi)*k_psi/2)"
+    aside = "(-r*sin(theta_c)*rate(theta_c)^2 + l*sin(psi)*rate(psi)^2/2 - l*cos(psi)*c_psi/2)"
+    down = "(-r*cos(theta_c)*rate(theta_c)^2 - l*cos(psi)*rate(psi)^2/2 - l*sin(psi)*c_psi/2)"
     shift = "whole*(R/12)^2 + J_crank + J_shaft/9 + J_wheel/144"
     rod = f"m_rod*({across}^2 - (R/12)^2 + {up}^2 + l^2*k_psi^2/12)"
     load = (
-        f"-resistance*R/12 - (m_piston*(g + c_h) + gas*sin(thc))*k_h"
+        f"-resistance*R/12 - (m_piston*(g + c_h) + gas*sin(theta_c))*k_h"
         f" - m_rod*({across}*{aside} + {up}*({down} + g) + l^2*k_psi*c_psi/12)"
     )
-    closed = {"k_psi": "r*cos(thc)/(l*cos(psi))", "k_h": "-r*sin(thc) - l*sin(psi)*k_psi"}
-    for name, text in closed.items():
-        yield formula(name, found.named[Sym(name)], text, "closed form: the loop, differentiated", found.letters)
+    closed = {"k_psi": "r*cos(theta_c)/(l*cos(psi))", "k_h": "-r*sin(theta_c) - l*sin(psi)*k_psi"}
+    for name, formed in closed.items():
+        label = text(Sym(name), found.letters)
+        yield formula(label, found.named[Sym(name)], formed, "closed form: the loop, differentiated", found.letters)
     whole = f"({load})/({shift} + m_piston*k_h^2 + {rod})"
-    yield formula("thc′′", found["thc"], whole, "closed form: power of loads and inertia", found.letters)
+    label = text(Sym("theta_c", 2), found.letters)
+    yield formula(label, found["theta_c"], whole, "closed form: power of loads and inertia", found.letters)
 
 
-@ask("inertia felt at the crank, and the equation of motion")
+@ask("What inertia is felt at the crank, and how does it accelerate at 80 rad/s?")
 def equation(case):
     """Kinetic energy is J θ̇²/2."""
-    for degrees in (10, 75, 140, 250):
-        theta = math.radians(degrees)
-        now = case.instant(thc=theta)
-        yield Answer(
-            f"J at {degrees}°",
-            2 * now["kinetic()"] / 80**2,
-            "kg·m²",
-            Engine(theta).inertia()[1],
-            "closed form: sum over the parts",
-            1e-12,
-        )
-        yield Answer(
-            f"θ̈ at {degrees}°", now["accel(thc)"], "rad/s²", acceleration(theta, 80.0), "closed form: power balance", 1e-11
-        )
+    for degrees in ANGLES:
+        theta, at = math.radians(degrees), f"at {degrees}°"
+        now = case.instant(theta_c=theta)
+        value, against = 2 * now["kinetic()"] / 80**2, "closed form: sum over the parts"
+        yield Answer("J", value, "kg·m²", Engine(theta).inertia()[1], against, 1e-12, says="J is {}.", variant=at)
+        value, check, says = now["accel(theta_c)"], acceleration(theta, 80.0), "θ̈ is {}."
+        yield Answer("θ̈", value, "rad/s²", check, "closed form: power balance", 1e-11, says=says, variant=at)
 
 
-@ask("forces at the start: bearings, piston side, teeth, road")
+@ask("What do bearings, piston side, teeth and road carry at the start?")
 def start(case):
     """The road's and the axle's upward force are not determined: the car is held level as well."""
     now, hand = case.instant(), forces(START, 80.0, acceleration(START, 80.0))
-    for name in ("small end", "big end", "main", "countershaft"):
-        yield Answer(
-            name,
-            [now[f"'{name}'.Fx"], now[f"'{name}'.Fy"]],
-            "N",
-            [hand[name].real, hand[name].imag],
-            "closed form: one balance after another",
-            1e-11,
-        )
-    yield Answer("car on piston, forward", now["guide.Fx"], "N", hand["guide"], "closed form: one balance after another", 1e-11)
+    pushes = {
+        "small end": "The rod pushes the piston with ({}, {}).",
+        "big end": "The crank pushes the rod with ({}, {}).",
+        "main": "The main bearing pushes the crank with ({}, {}).",
+        "countershaft": "The shaft's bearing pushes the shaft with ({}, {}).",
+    }
+    for name, says in pushes.items():
+        value = [now[f"'{name}'.Fx"], now[f"'{name}'.Fy"]]
+        yield Answer(name, value, "N", [hand[name].real, hand[name].imag], BALANCES, 1e-11, says=says)
+    says = "The guide pushes the piston forward with {}."
+    yield Answer("guide", now["guide.Fx"], "N", hand["guide"], BALANCES, 1e-11, says=says)
+    value = [now["'first gear pair'.F"], now["'second gear pair'.F"]]
+    says = "The teeth of the first pair carry {}, those of the second {}."
+    yield Answer("teeth", value, "N", hand["teeth"], BALANCES, 1e-11, says=says)
+    says = "The car pushes the wheel forward with {}."
+    yield Answer("axle", now["axle.Fx"], "N", hand["axle"], BALANCES, 1e-11, says=says)
+    road, says = now["road.Fx"], "The road pushes the wheel forward with {}."
+    yield Answer("road", road, "N", hand["road"], BALANCES, 1e-11, says=says)
+    whole = now["alpha(wheel)"] * -R * WHOLE + 150 + ROD * (now["ax(rod.G)"] - now["ax(car.origin)"])
+    says = "That is what the whole takes."
     yield Answer(
-        "tooth forces, first and second pair",
-        [now["'first gear pair'.F"], now["'second gear pair'.F"]],
-        "N",
-        hand["teeth"],
-        "closed form: one balance after another",
-        1e-11,
+        "road and the whole", road, "N", whole, "momentum of the whole with the accelerations found", own=True, says=says
     )
-    yield Answer("road on wheel, forward", now["road.Fx"], "N", hand["road"], "closed form: one balance after another", 1e-11)
-    yield Answer("car on wheel, forward", now["axle.Fx"], "N", hand["axle"], "closed form: one balance after another", 1e-11)
-    whole = now["alpha(wheel)"] * -R * WHOLE + 150
-    yield Answer(
-        "the same, from the whole",
-        now["road.Fx"],
-        "N",
-        whole + ROD * (now["ax(rod.G)"] - now["ax(car.origin)"]),
-        "closed form: momentum of the whole",
-        1e-11,
-    )
+    free = [known for name in ("road", "axle") for known in now.reactions[name].determined[1:2]]
+    says = "Whether the upward forces of road and axle are determinate: {}."
+    against = "statics: the car held level carries them, too"
+    yield Answer("upward forces", free, check=[False, False], against=against, tolerance=0.0, says=says)
 
 
-@ask("1 s of motion")
+@ask("How does it move for 1 s?")
 def drive(case):
     run = case.run()
     check = motion(lambda t, y: [y[1], acceleration(*y)], [START, 80.0], TIMES, kink=top_dead_centre)
     against = "other route: power balance, integrated by SciPy"
-    yield Answer("θ at 0.1, 0.2, 0.5, 1 s", run.evaluate("thc", TIMES), "rad", check[:, 0], against, 1e-10)
-    yield Answer("θ̇", run.evaluate("rate(thc)", TIMES), "rad/s", check[:, 1], against, 1e-10)
-    yield Answer("speed of the car", run.evaluate("rate(x)", TIMES), "m/s", KAPPA * check[:, 1], against, 1e-10)
-    yield Answer(
-        "work of the resistance",
-        run.evaluate("resistance.work", TIMES),
-        "J",
-        -150 * KAPPA * (check[:, 0] - START),
-        against,
-        1e-10,
-    )
+    yield Answer("θ at 0.1, 0.2, 0.5, 1 s", run.evaluate("theta_c", TIMES), "rad", check[:, 0], against, 1e-10)
+    yield Answer("θ̇ then", run.evaluate("rate(theta_c)", TIMES), "rad/s", check[:, 1], against, 1e-10)
+    yield Answer("speed of the car then", run.evaluate("rate(x)", TIMES), "m/s", KAPPA * check[:, 1], against, 1e-10)
 
 
-@ask("variant: elastic driveshaft of 400 N·m/rad, two degrees of freedom")
+@ask("What is the energy ledger of that second?")
+def ledger(case):
+    """The gas gives what the sum takes: its work is integrated along the other route's motion."""
+    run = case.run()
+
+    def rates(t, y):
+        return [y[1], acceleration(y[0], y[1]), -gas(y[0]) * Engine(y[0]).piston[1].imag * y[1]]
+
+    check = motion(rates, [START, 80.0, 0.0], TIMES, kink=top_dead_centre)
+    against = "other route: power balance, integrated by SciPy"
+    turned = check[:, 0] - START
+    yield Answer("work of the gas until 0.1, 0.2, 0.5, 1 s", run.evaluate("gas.work", TIMES), "J", check[:, 2], against, 1e-9)
+    value = run.evaluate("resistance.work", TIMES)
+    yield Answer("work of the resistance", value, "J", -150 * KAPPA * turned, against, 1e-10)
+    inertias = np.array([Engine(theta).inertia()[1] for theta in check[:, 0]])
+    value = run.evaluate("kinetic()", TIMES)
+    yield Answer("kinetic energy", value, "J", inertias * check[:, 1] ** 2 / 2, against, 1e-9)
+
+
+@ask("How does it move for 1 s with an elastic driveshaft of 400 N·m/rad, two degrees of freedom?")
 def elastic(case):
     """The pinion turns by χ; the car moves by κ χ. Lagrange's equations of θ and χ."""
 
@@ -248,13 +249,12 @@ def elastic(case):
     run = case.run("driveshaft.yaml")
     check = motion(rates, [START, 0, 80, 80], TIMES, kink=top_dead_centre)
     against = "other route: Lagrange's equations, integrated by SciPy"
-    yield Answer("θ at 0.1, 0.2, 0.5, 1 s", run.evaluate("thc", TIMES), "rad", check[:, 0], against, 1e-10)
-    yield Answer(
-        "twist of the driveshaft",
-        run.evaluate("thc - chi", TIMES) - START,
-        "rad",
-        check[:, 0] - check[:, 1] - START,
-        against,
-        1e-8,
-    )
-    yield Answer("speed of the car", run.evaluate("rate(x)", TIMES), "m/s", KAPPA * check[:, 3], against, 1e-10)
+    yield Answer("θ at 0.1, 0.2, 0.5, 1 s", run.evaluate("theta_c", TIMES), "rad", check[:, 0], against, 1e-10)
+    twist = check[:, 0] - check[:, 1] - START
+    yield Answer("twist then", run.evaluate("theta_c - chi", TIMES) - START, "rad", twist, against, 1e-8)
+    yield Answer("speed of the car then", run.evaluate("rate(x)", TIMES), "m/s", KAPPA * check[:, 3], against, 1e-10)
+    every = np.linspace(0.01, 1, 100)
+    lugs = run.evaluate("theta_c - chi", every) - START
+    check = motion(rates, [START, 0, 80, 80], every, kink=top_dead_centre)
+    twist, says = check[:, 0] - check[:, 1] - START, "Of a hundred instants the twist is {} at least, {} at most: it lugs."
+    yield Answer("lugging", [lugs.min(), lugs.max()], "rad", [twist.min(), twist.max()], against, 1e-8, says=says)

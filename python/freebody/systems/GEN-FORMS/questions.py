@@ -66,8 +66,9 @@ def solved(system, subject):
     )[told]
 
 
-@ask("brute force and most brute force: equations and unknowns of each")
+@ask("How many equations, with how many unknowns, do brute force and most brute force have?")
 def counts(case):
+    says = "{} with {} by brute force, {} with {} by most brute force."
     for name, mechanism, subject in every(case):
         bodies = sum(2 if body.particle else 3 for body in subject.free.bodies.values())
         curves = sum(joint.type == "curved_slot" for joint in mechanism.model.joints.values())
@@ -75,18 +76,22 @@ def counts(case):
         value = [len(side) for form in forms for side in (form.system.matrix, form.system.unknowns)]
         most = 2 * bodies - left + more + curves
         check = [bodies + held, bodies + held + more, most, most]
-        yield Answer(name, value, "", check, COUNT, 0.0)
+        yield Answer("equations and unknowns", value, "", check, COUNT, 0.0, says=says, variant=name)
 
 
-@ask("clever: as many equations as accelerations, and no reaction in them")
+@ask("Which systems have a clever set, as many equations as accelerations and no reaction in them?")
 def clever(case):
+    found = {}
     for name, mechanism, subject in every(case):
         form = mechanism.minimal_form(**MOMENT.get(name, {}))
         if not form.least:
-            yield Answer(name, len(form.equations), "", free(subject)[0] + len(form.frictional), COUNT, 0.0)
+            found.setdefault(len(form.equations), {})[name] = free(subject)[0] + len(form.frictional)
+    for count, checks in sorted(found.items()):
+        says = f"{{}} equation{'s' * (count != 1)}: {', '.join(checks)}."
+        yield Answer("equations", [count] * len(checks), "", list(checks.values()), COUNT, 0.0, says=says)
 
 
-@ask("no clever set: reactions that cannot be kept out of balances; equations of virtual power without any")
+@ask("Which have none: what reactions cannot be kept out of the balances, and what does virtual power leave?")
 def unavoidable(case):
     for name, mechanism, subject in every(case):
         form = mechanism.minimal_form(**MOMENT.get(name, {}))
@@ -94,23 +99,35 @@ def unavoidable(case):
             left, _ = free(subject)
             stay = ", ".join(x.name for x in minimal(subject).system.unknowns if not x.dots)
             cut = free(subject, but=mechanism.model.motions)[1]
-            yield Answer(f"{name}: {stay}", form.least, "", cut, "closed form: components where the loops are cut", 0.0)
-            yield Answer(f"{name}: by virtual power", form.virtual, "", left, COUNT, 0.0)
+            says, against = f"{{}} cannot be kept out: {stay}.", "closed form: components where the loops are cut"
+            yield Answer("stay", form.least, "", cut, against, 0.0, says=says, variant=name)
+            says = f"Virtual power gives {{}} equation{'s' * (form.virtual != 1)} without any."
+            yield Answer("virtual power", form.virtual, "", left, COUNT, 0.0, says=says, variant=name)
 
 
-@ask("agreement: each form solved for accelerations and forces, beside the numbers of the core")
+def nothing_left(what, left, against, tolerance):
+    """That nothing is left in any system, by the one in which most is."""
+    worst = max(left, key=left.get)
+    yield Answer(worst, left[worst], "", 0.0, against, tolerance, 1.0, says=f"{what} in all {len(left)} systems.")
+
+
+@ask("Do the forms, each solved for accelerations and forces, agree with the numbers of the core to round-off?")
 def agreement(case):
-    for name, _, subject in every(case):
-        case.instant(f"../{name}/model.yaml", **MOMENT.get(name, {}))
-        for word, form in (("clever", minimal(subject)), ("brute", brute(subject)), ("most brute", constrained(subject)[0])):
-            value, check = solved(form.system, subject)
-            yield Answer(f"{name}: {word}", value, "SI", check, "other route: articulated bodies, in numbers", 1e-11, scale=1.0)
+    forms = {"Clever": minimal, "Brute": brute, "Most brute": lambda subject: constrained(subject)[0]}
+    for word, form in forms.items():
+        apart = {}
+        for name, _, subject in every(case):
+            case.instant(f"../{name}/model.yaml", **MOMENT.get(name, {}))
+            value, check = solved(form(subject).system, subject)
+            apart[name] = float(np.max(np.abs(value - check), initial=0.0) / np.max(np.abs(check), initial=1.0))
+        yield from nothing_left(f"{word} ones do", apart, "other route: articulated bodies, in numbers", 1e-11)
 
 
-@ask("Lagrange's equations give the same motion: what the accelerations of the balances leave of them")
+@ask("Do Lagrange's equations give the same motion?")
 def by_lagrange(case):
+    left = {}
     for name, _, subject in every(case):
         terms = [each.residual.terms if isinstance(each.residual, Add) else (each.residual,) for each in lagrange(subject)[2]]
         sizes = [[float(evaluate(term, subject.values, subject.tables)) for term in row] for row in terms]
-        size = max([1.0, *(abs(x) for row in sizes for x in row)])
-        yield Answer(name, [sum(row) for row in sizes], "N, N·m", 0.0, "balances", 1e-12, scale=size)
+        left[name] = max(abs(sum(row)) for row in sizes) / max([1.0, *(abs(x) for row in sizes for x in row)])
+    yield from nothing_left("The accelerations of the balances satisfy them", left, "balances", 1e-12)

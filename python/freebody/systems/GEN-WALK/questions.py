@@ -84,55 +84,78 @@ class ByHand:
         return sorted(np.linalg.eigvals(np.array(slopes).T).astype(complex), key=lambda mu: (-round(abs(mu), 9), -mu.imag))
 
 
-def compared(of, found, hand, within=1e-10):
-    """A gait beside that of the equations by hand."""
-    value = list(found.values.values())
-    start, time = hand.gait(value)
-    yield Answer(f"θ, θ̇, φ̇ just after a strike, {of}", value, "rad, rad/s", start, BY_HAND, within)
-    yield Answer(f"time of a step, {of}", found.period, "s", time, BY_HAND, within)
-    parts, known = (
-        [part for mu in all_of for part in (mu.real, mu.imag)] for all_of in (found.multipliers, hand.multipliers(start))
-    )
-    yield Answer(f"multipliers (real, imaginary), {of}", parts, "", known, BY_HAND, 1e-7, 1.0)
+def spelt(multipliers):
+    """Real and imaginary parts, one of a pair standing for both, and a sentence with a place for each."""
+    parts, told = [], []
+    for mu in multipliers:
+        if mu.imag >= 0:
+            parts += [mu.real, mu.imag] if mu.imag > 0 else [mu.real]
+            told.append("{} ± {} i" if mu.imag > 0 else "{}")
+    verdict = "stable" if max(abs(mu) for mu in multipliers) < 1 else "not stable"
+    return parts, f"Multipliers are {', '.join(told)}: it is {verdict}."
 
 
-@ask("All period-one gaits as the feet weigh nothing: start, step time, multipliers")
+def compared(found, hand, near, within=1e-10, variant=""):
+    """A gait beside that of the equations by hand, sought from a start near by."""
+    (theta, w, v), (start, time) = found.values.values(), hand.gait(near)
+    says, check = "It begins with θ = {} just after a strike.", start[0]
+    yield Answer("θ", theta, "rad", check, BY_HAND, within, says=says, variant=variant)
+    says = "θ̇ and φ̇ are {} and {} then."
+    yield Answer("θ̇, φ̇", [w, v], "rad/s", start[1:], BY_HAND, within, says=says, variant=variant)
+    yield Answer("time", found.period, "s", time, BY_HAND, within, says="A step takes {}.", variant=variant)
+    parts, says = spelt(found.multipliers)
+    yield Answer("μ", parts, "", spelt(hand.multipliers(start))[0], BY_HAND, 1e-7, 1.0, says=says, variant=variant)
+
+
+@ask("What are the period-one gaits as the feet weigh nothing: start, step time, multipliers?")
 def light(case):
     for gamma in (0.004, 0.009, 0.014):
         for gait in NEAR:
-            found = walker(case).limit("beta", 0.004, rough(gait, gamma), gamma=gamma)
-            of = f"γ = {gamma}, the {gait} gait, β → 0"
-            yield from compared(of, found, ByHand(gamma, 0.0))
-            yield Answer(f"error of the limit, {of}", found.error, "", 0.0, "extrapolation from β = 0.004 · 2⁻ⁿ", 1e-10, 1.0)
+            near = rough(gait, gamma)
+            found, of = walker(case).limit("beta", 0.004, near, gamma=gamma), f"γ = {gamma}, the {gait} gait"
+            yield from compared(found, ByHand(gamma, 0.0), list(near.values()), variant=of)
 
 
-@ask("How many there are: from starts all over (θ, θ̇), γ = 0.009, β = 0.01")
+@ask("How many period-one gaits are there, sought from starts all over (θ, θ̇, φ̇)?")
 def number(case):
-    within = {"theta0": (0.18, 0.21), "w": (-0.215, -0.19), "v": (-0.02, -0.01)}
-    found = walker(case).find_all(within, 16, beta=0.01)
-    check = sorted(ByHand(0.009, 0.01).gait(list(rough(gait, 0.009).values()))[0][0] for gait in NEAR)
-    yield Answer("θ of all gaits", [each.values["theta0"] for each in found], "rad", check, BY_HAND, 1e-10)
+    for gamma, beta in ((0.004, 0.001), (0.009, 0.001), (0.009, 0.01), (0.014, 0.001)):
+        low, high = (rough(gait, gamma)["theta0"] for gait in ("short", "long"))
+        within = {"theta0": (0.8 * low, 1.2 * high), "w": (-1.3 * high, -0.7 * low), "v": (-0.15 * high, 0.0)}
+        found = walker(case).find_all(within, 16, beta=beta, gamma=gamma)
+        light = [ByHand(gamma, 0.0).gait(list(rough(gait, gamma).values()))[0] for gait in NEAR]
+        check = sorted(ByHand(gamma, beta).gait(start)[0][0] for start in light)
+        value, of = [each.values["theta0"] for each in found], f"γ = {gamma}, β = {beta}"
+        says = f"{len(found)}, with θ = {' and '.join(['{}'] * len(found))} just after a strike."
+        yield Answer("θ of all gaits", value, "rad", check, BY_HAND, 1e-10, says=says, variant=of)
 
 
-@ask("Feet of mass: γ = 0.009")
+@ask("What are they with feet of mass, γ = 0.009?")
 def heavy(case):
-    for beta in (0.001, 0.01, 0.02, 0.03):
-        for gait in NEAR:
-            found = walker(case).find(rough(gait, 0.009), beta=beta)
-            yield from compared(f"β = {beta}, the {gait} gait", found, ByHand(0.009, beta), 1e-11)
+    """Each is sought from the one before, by both routes."""
+    for gait in NEAR:
+        near = rough(gait, 0.009)
+        by_hand = list(near.values())
+        for beta in (0.001, 0.01, 0.02, 0.03):
+            found, hand = walker(case).find(near, beta=beta), ByHand(0.009, beta)
+            yield from compared(found, hand, by_hand, 1e-11, f"β = {beta}, the {gait} gait")
+            near, by_hand = found.values, hand.gait(by_hand)[0]
 
 
-@ask("Published: the long and the short gait at γ = 0.009, β → 0")
+@ask("Are the long and the short gait at γ = 0.009, β → 0 those that were published?")
 def published(case):
     against = "Garcia et al. (1998), their table"
-    for gait, start in (("long", (0.200310900544287, -0.199832473004977)), ("short", (0.193937369810184, -0.203866927442010))):
-        found = walker(case).limit("beta", 0.004, rough(gait, 0.009))
-        value = [found.values["theta0"], found.values["w"]]
-        yield Answer(f"θ, θ̇, the {gait} gait", value, "rad, rad/s", start, against, 1e-9)
+    for gait, (theta, w) in (
+        ("long", (0.200310900544287, -0.199832473004977)),
+        ("short", (0.193937369810184, -0.203866927442010)),
+    ):
+        found, of = walker(case).limit("beta", 0.004, rough(gait, 0.009)).values, f"the {gait} gait"
+        yield Answer("θ", found["theta0"], "rad", theta, against, 1e-9, says="θ is {}.", variant=of)
+        yield Answer("θ̇", found["w"], "rad/s", w, against, 1e-9, says="θ̇ is {}.", variant=of)
 
 
-@ask("Three steps from the longer gait, θ̇ raised by 2 %; β → 0 is taken as 1e-7")
+@ask("How does it walk three steps from the longer gait, θ̇ raised by 2 %, γ = 0.009?")
 def three(case):
+    """β → 0 is taken as 1e-7."""
     for beta in (1e-7, 0.01):
         hand, gait = ByHand(0.009, beta), walker(case)
         near = rough("long", 0.009)
@@ -141,17 +164,21 @@ def three(case):
         here, check = np.array(list(begun.values())), []
         for _ in range(3):
             here, time = hand.step(here)
-            check += [*here[:2], time]
-        value = [x for values, time in gait.steps(3, begun, beta=beta) for x in (*values[:2], time)]
-        yield Answer(f"θ, θ̇ and time of each step, β = {beta:g}", value, "rad, rad/s, s", check, BY_HAND, 1e-9)
+            check.append([*here[:2], time])
+        value = np.array([[*values[:2], time] for values, time in gait.steps(3, begun, beta=beta)])
+        for (name, unit), found, known in zip(
+            (("θ", "rad"), ("θ̇", "rad/s"), ("Times", "s")), value.T, np.transpose(check), strict=True
+        ):
+            says = f"{name} of the steps: {{}}."
+            yield Answer(name, found, unit, known, BY_HAND, 1e-9, says=says, variant=f"β = {beta:g}")
 
 
-@ask("Compass gait at 3°: legs of 5 kg, hip of 10 kg, legs of 1 m")
+@ask("What is the gait of the compass at 3°, with legs of 5 kg and 1 m and a hip of 10 kg?")
 def compass(case):
     found = case.mechanism("compass.yaml").periodic(RETURNS, section="strike", horizon=3).find()
-    yield from compared("compass", found, ByHand(radians(3), 5.0, 10.0, 0.5, 9.81), 1e-11)
+    yield from compared(found, ByHand(radians(3), 5.0, 10.0, 0.5, 9.81), list(found.values.values()), 1e-11)
     theta, w, v = found.values.values()
-    value = [theta - radians(3), radians(3) - theta - 2 * radians(3), w, w - v]
     against = "Goswami, Thuilot & Espiau (1998), to their four digits"
-    known = [0.2187, -0.3234, -1.0918, -0.3772]
-    yield Answer("angles of the legs from the vertical, their rates", value, "rad, rad/s", known, against, 1e-3)
+    value, says = [theta - radians(3), -theta - radians(3)], "The legs are then at {} and {} from the vertical."
+    yield Answer("angles", value, "rad", [0.2187, -0.3234], against, 1e-3, says=says)
+    yield Answer("rates", [w, w - v], "rad/s", [-1.0918, -0.3772], against, 1e-3, says="They turn at {} and {}.")

@@ -59,6 +59,16 @@ fn round_off_about_zero_does_not_govern_the_step() {
     assert!(run.outcome.is_ok() && run.accepted < 60, "{} steps", run.accepted);
 }
 
+/// The change at the start is slow enough for a trial 10¹² s long, where the rate is beyond all numbers.
+#[test]
+fn the_first_step_is_tried_within_the_run() {
+    for name in ["dop853", "tsit5", "radau"] {
+        let mut system = Plain::new(&[1.0], |t, _, dy| dy[0] = 1e-14 + t.powi(40));
+        let run = system.run(name, (0.0, &[1.0]), 1.0, &rtol(1e-10));
+        assert!(run.outcome.is_ok() && (run.y[0] - 1.0 - 1.0 / 41.0).abs() < 1e-9, "{name}: {:?}", run.outcome);
+    }
+}
+
 #[test]
 fn outputs_never_change_the_steps() {
     let start = [1.0, 0.5, 0.0, 0.0];
