@@ -169,7 +169,8 @@ class Analysis:
 
         ``returns`` says what a motion starts with, and what that is when it comes back: ``{"omega": "-rate(wheel.angle)"}``, a parameter of
         the start, a coordinate or ``rate(coordinate)``, and an expression, which so relabels legs or spokes. A list of
-        names comes back as it is; by default the independent coordinates and their rates. Other words are changes as in ``solve``."""
+        names comes back as it is; by default the independent coordinates and their rates, angles less the whole turns that they make in the
+        period. Other words are changes as in ``solve``."""
         from freebody.periodic.ask import periodic
 
         with self.core_errors():

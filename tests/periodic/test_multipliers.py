@@ -96,6 +96,34 @@ def test_a_periodic_response_is_found_with_its_multipliers():
     assert found.stable and max(found.checks.values()) < 1e-10
 
 
+ROTOR = """
+freebody: 1
+parameters: {k: 30 N*m, c: 0.4 N*m*s, w: 9 rad/s}
+gravity: 9.81 m/s^2
+bodies: {wheel: {mass: 2 kg, inertia: 0.1 kg*m^2, centre: [0.05, 0]}}
+joints: {axle: {type: hinge, of: [ground.O, wheel.origin], coordinate: theta}}
+forces: {shaft: {type: law, along: theta, value: -k*(theta - w*t) - c*(rate(theta) - w)}}
+initial: {theta: 0, rates: {theta: w}}
+run: {until: 3 s}
+"""
+
+
+def test_an_angle_that_turns_comes_back_less_its_turn():
+    """A wheel with its mass beside the axle, driven through an elastic shaft: Liouville's formula, and that all is as a turn before."""
+    wheel = fb.Mechanism.loads(ROTOR)
+    driven = wheel.periodic(period="2*pi/w")
+    assert driven.map.returns == ("theta - 2*pi", "rate(theta)")
+    found = driven.find()
+    assert np.prod(found.multipliers) == pytest.approx(math.exp(-0.4 / (0.1 + 2 * 0.05**2) * found.period), rel=1e-9)
+    later = wheel.simulate(
+        2 * found.period, initial={"theta": found.values["theta"], "rates": {"theta": found.values["rate(theta)"]}}
+    )
+    theta = later.evaluate("theta", [0.3, 0.3 + found.period])
+    assert theta[1] - theta[0] == pytest.approx(2 * math.pi, rel=1e-8)
+    with pytest.raises(ValueError, match="differ from those at the start"):  # a turn ahead, which the damper takes back
+        wheel.periodic(["theta", "rate(theta)"], period="2*pi/w", c=20).find()
+
+
 @pytest.mark.long
 def test_without_friction_multipliers_come_in_pairs():
     """A Hamiltonian system: with μ also 1/μ (Arnold, *Mathematical Methods of Classical Mechanics*, §42)."""

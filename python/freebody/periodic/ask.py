@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.linalg
 
-from freebody.core import Array, CompiledModel, State, quote
+from freebody.core import Array, CompiledModel, MotionError, State, quote
 from freebody.model.errors import ModelProblem
 from freebody.model.names import suggestion
 from freebody.model.start import parameter_values, quantity
@@ -17,7 +17,7 @@ from freebody.periodic import boundary, motion
 from freebody.periodic.boundary import Crossing
 from freebody.periodic.limit import Limit, limit
 from freebody.periodic.motion import PeriodicMotion, PeriodicMotions
-from freebody.periodic.return_map import RTOL, Return, ReturnMap
+from freebody.periodic.return_map import RTOL, NoReturn, Return, ReturnMap
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -131,7 +131,20 @@ def periodic(
     start = np.array([parameters[name] if name in parameters else read[name] for name in named])
     longest = float(mechanism.run_plan(horizon, {}).until) if section else 0.0
     text = None if period is None else str(period)
-    return Periodic(ReturnMap(mechanism, tuple(named), tuple(named.values()), section, text, changes, rtol, longest), start)
+    found = ReturnMap(mechanism, tuple(named), tuple(named.values()), section, text, changes, rtol, longest)
+    return Periodic(found if returns or section else _turned_back(found, start), start)
+
+
+def _turned_back(returns: ReturnMap, start: Array) -> ReturnMap:
+    """The map of a driven mechanism in which angles come back less the whole turns that they make in the period from the start."""
+    try:
+        there, _ = returns.value(start)
+    except (NoReturn, MotionError):
+        return returns
+    angles = {quote(each["name"]) for each in returns.mechanism.compile().metadata["coordinates"] if each["dimension"] == "rad"}
+    turns = np.rint((there - start) / (2 * np.pi)).astype(int).tolist()
+    read = [f"{name} - {2 * n}*pi" if n and name in angles else name for name, n in zip(returns.unknowns, turns, strict=True)]
+    return replace(returns, returns=tuple(read))
 
 
 def independent(source: CompiledModel, state: State) -> list[str]:

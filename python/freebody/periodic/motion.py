@@ -31,6 +31,9 @@ _HALF = 0.5
 """Part of the step before to which one must come while Newton's method converges, however slowly."""
 _CLOSED = 1e-10
 """Part of these sizes by which the motion may miss its start."""
+_REPEATED = 1e-6
+"""Part of their largest on the way, or of those that make rates of the unknowns' sizes within the period, by which accelerations after it
+may differ from those at the start."""
 _SHORTEST = 2.0**-10
 """Part of a step of Newton's method below which it is given up."""
 _SAME = 1e-7
@@ -158,10 +161,28 @@ def _at(returns: ReturnMap, values: Array) -> str:
 def _periodic(returns: ReturnMap, values: Array, returned: Return, step: float) -> PeriodicMotion:
     if (miss := _miss(returned, values)) > _CLOSED:
         raise NoReturn(f"the motion misses its start by {miss:.1e} of its size")
+    _check_repeats(returns, returned)
     multipliers = by_size(np.linalg.eigvals(returned.slopes))
     named = dict(zip(returns.unknowns, values.tolist(), strict=True))
     checks = {"return": miss, "next step": step, **returned.checks}
     return PeriodicMotion(named, returned.time, returned.slopes, multipliers, checks, returned)
+
+
+def _check_repeats(returns: ReturnMap, returned: Return) -> None:
+    """Raises ``NoReturn`` where rates that come back after a period go on otherwise than at the start."""
+    pairs = zip(returns.unknowns, returns.returns, returned.scales.tolist(), strict=True)
+    same = {f"accel{name[4:]}": scale for name, text, scale in pairs if name == text and name.startswith("rate(")}
+    if returns.section or not same:
+        return
+    motion, begin = returned.run.motion, returned.run.start.t
+    first, last, *_ = found = motion.evaluate(list(same), np.array([begin, begin + returned.time, *motion.steps]))
+    sizes = np.maximum(np.abs(found).max(axis=0), np.array(list(same.values())) / returned.time)
+    other = np.abs(last - first) > _REPEATED * sizes
+    if other.any():
+        raise NoReturn(
+            f"after a period {', '.join(np.array(list(same))[other])} differ from those at the start: laws of time have another period, or "
+            "an angle has turned, which is to come back less its turn, returns={'theta': 'theta - 2*pi', …}"
+        )
 
 
 def find_all(returns: ReturnMap, within: Sequence[tuple[float, float]], starts: int = 32, **others: Any) -> PeriodicMotions:

@@ -23,8 +23,7 @@ _CONTINUOUS = 1e-9
 """Part of the largest rate or acceleration by which these may differ on both sides of what is no jump."""
 _READINGS = {"lift-off": "N", "slack": "tension", "stick": "slip", "reversal": "slip"}
 _IMPACTS = ("impact", "taut", "contact")
-_REFUSED = {"slip": "a joint begins to slide", "rest": "infinitely many bounces come to an end",
-            "reset": "rates are given at once"}  # fmt: skip
+_REFUSED = {"rest": "infinitely many bounces come to an end", "reset": "rates are given at once"}
 
 
 @dataclass(frozen=True)
@@ -72,7 +71,25 @@ class Moment:
             lost = [(name, change.kind) for change in self.changes.values() for name in change.of if name in limits]
             found = [f"{quote(name)}.{_READINGS[kind]}" for name, kind in lost if kind in _READINGS]
             found += [self._cone(name) for name, kind in lost if kind == "slip"]
-        return found
+            found += [
+                self._sliding(name, change.kind) for change in self.changes.values() for name in change.of if name not in limits
+            ]
+        return list(filter(None, found))
+
+    def _sliding(self, name: str, kind: str) -> str:
+        """Of a joint with friction that begins to slide the friction that is left, N or N·m; of one that ceases to, or turns back,
+        the rate of sliding."""
+        joint = next((each for each in self.run.metadata["joints"] if each["name"] == name), None)
+        stated = {each["name"]: each.get("friction") for each in self.run.source.spec["joints"]}
+        friction = stated.get(name) or stated.get(name.rpartition(".")[0])  # of one pair on a shared pin
+        if joint is None or not friction:
+            return ""
+        if kind == "slip":
+            most = f"({friction.get('fixed', friction['kinetic'])})*({friction.get('radius', 1)})*{quote(name)}.F"
+            return f"{most} - abs({quote(name)}.friction)"
+        if joint["type"] == "hinge":
+            return f"omega({quote(joint['second'])}) - omega({quote(joint['first'])})"
+        return f"rate({quote(joint['coordinates'][0])})"
 
     def _cone(self, contact: str) -> str:
         """How far the friction of a contact that sticks is within Coulomb's cone, N."""
