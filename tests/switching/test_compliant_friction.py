@@ -150,6 +150,7 @@ initial: {{ball.x: 0, ball.y: {-depth}, rates: {{ball.y: {rate}}}}}
         push = -k * y - c * (rate * cosine + (k * depth / m - delta * rate) / omega * sine)
     assert run.evaluate("ball.y", t) == pytest.approx(y, abs=1e-11)
     assert run.evaluate("floor.N", t[1:]) == pytest.approx(push[1:], abs=1e-7)
+    assert not changes(run) or depth == 0  # it begins as it is
 
 
 def test_newtons_laws_hold_while_a_box_comes_to_rest_on_springs():

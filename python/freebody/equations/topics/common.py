@@ -16,6 +16,7 @@ from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.differentiate import derivative
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.presentation import PATIENCE, presented
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, canonical, mul, negative
 
 if TYPE_CHECKING:
@@ -45,11 +46,19 @@ class Asked:
 
 def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: Sequence[SymbolEntry] = ()) -> Document:
     """A document with a title and the meaning of its symbols; ``more`` are those that the model does not have."""
-    nomenclature = Nomenclature({**subject.nomenclature, **{symbol.name: symbol for symbol in more}})
+    usual, renamed = subject.nomenclature, subject.symbols.taken.renamed
+    own = {symbol.name: renamed[symbol.doc] for symbol in more if symbol.doc in renamed}
+    nomenclature = Nomenclature({**usual, **{symbol.name: symbol for symbol in more}}, usual.renamed | own)
     first = Heading(subject.titled(title), 1)
     short = [readable(block, _ELSEWHERE) for block in blocks]
     made = (first, *preamble.configuration(subject), *preamble.nomenclature(nomenclature, used(short)), *short)
     return Document(tuple(lettered(block, nomenclature) for block in made), nomenclature)
+
+
+def own(subject: SymbolicState, kind: str, unit: str, doc: str, *wanted: str) -> SymbolEntry:
+    """A symbol of a topic's own: the first of the names that means nothing else in the model, or the last one numbered."""
+    name = subject.symbols.taken.give(doc, *map(Name.parse, wanted))
+    return SymbolEntry(name.ascii(), kind, unit, doc, name)
 
 
 def rate(tree: Tree, coordinates: Collection[str]) -> Tree:

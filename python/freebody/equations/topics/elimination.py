@@ -9,7 +9,7 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words,
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved
 from freebody.equations.solve import solve_equations
-from freebody.equations.topics.common import Asked, NotHere, brief, document, rate
+from freebody.equations.topics.common import Asked, NotHere, brief, document, own, rate
 from freebody.equations.topics.lagrange import equations
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.linear import linear_in
@@ -21,11 +21,11 @@ from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, replace, 
 
 @dataclass(frozen=True)
 class Eliminated:
-    """``momenta[c]`` is conserved for each coordinate c that only its rate matters of; ``rates`` these rates by the others and
-    the constants; ``equations`` of the other coordinates, which vanish; ``energy`` in them, where it is conserved."""
+    """``momenta[c]`` is conserved for each coordinate c that only its rate matters of; ``constants[c]`` is its symbol; ``rates`` these
+    rates by the others and the constants; ``equations`` of the other coordinates, which vanish; ``energy`` in them, where it is conserved."""
 
     momenta: Mapping[str, Tree]
-    constants: Mapping[str, Sym]
+    constants: Mapping[str, SymbolEntry]
     rates: Mapping[Sym, Tree]
     equations: Mapping[str, Tree]
     energy: Tree | None
@@ -41,13 +41,20 @@ def eliminated(subject: SymbolicState) -> Eliminated:
     gone = [x for x in free if Sym(x.coordinate) not in where]
     if not gone:
         raise NotHere("no momentum of a coordinate is conserved: every coordinate itself stands in the energies, or is driven")
-    constants = {each.coordinate: Sym(f"p_{each.coordinate}") for each in gone}
+    constants = {
+        each.coordinate: own(
+            subject, "constant", "", f"conserved momentum of {unicode_name(each.coordinate)}", f"p_{each.coordinate}"
+        )
+        for each in gone
+    }
     rates = solve_equations(
-        [(each.momentum, constants[each.coordinate]) for each in gone], [Sym(name, 1) for name in constants], subject.nomenclature
+        [(each.momentum, Sym(constants[each.coordinate].name)) for each in gone],
+        [Sym(name, 1) for name in constants],
+        subject.nomenclature,
     )
     kept = [each for each in found if each not in gone]
-    names = subject.names
-    second = {Sym(x.name, 2): rate(tree, [n for n in names if n not in constants]) for x, tree in rates.items()}
+    others = [name for name in subject.names if name not in constants]
+    second = {Sym(x.name, 2): rate(tree, others) for x, tree in rates.items()}
     left = {each.coordinate: _bare(subject, _put(subject, each.residual, rates, second)) for each in kept}
     total = conserved.total(subject)
     energy = None if total is None else _put(subject, total, rates, {})
@@ -64,7 +71,7 @@ def elimination(asked: Asked) -> Document:
         why = " stands in no energy, only its rate, and no force without a potential works on it. So its momentum "
         why += "∂E_k/∂q̇ is constant:"
     made: list[Block] = [Heading("Conserved"), Paragraph([*listed(map(Sym, names)), why])]
-    made += [Equation(found.constants[name], momentum) for name, momentum in found.momenta.items()]
+    made += [Equation(Sym(found.constants[name].name), momentum) for name, momentum in found.momenta.items()]
     made += [Heading("Rates by the conserved quantities")]
     made += [Equation(x, tree) for x, tree in found.rates.items()]
     left: Words = "Nothing: the rates above are the whole motion."
@@ -74,12 +81,10 @@ def elimination(asked: Asked) -> Document:
         left = [said, *listed(map(Sym, found.equations)), " alone:"]
     made += [Heading("What is left"), Paragraph(left)]
     made += [Equation(tree, ZERO, ["For ", Sym(name)]) for name, tree in found.equations.items()]
+    energy = own(subject, "constant", "J", "energy", "E", "energy")
     if found.energy is not None:
-        made.append(Equation(Sym("E"), found.energy, "Its first integral, the energy, which is constant"))
-    more = [
-        SymbolEntry(x.name, "constant", "", f"conserved momentum of {unicode_name(name)}") for name, x in found.constants.items()
-    ]
-    return document(subject, "elimination by what is conserved", made, [*more, SymbolEntry("E", "constant", "J", "energy")])
+        made.append(Equation(Sym(energy.name), found.energy, "Its first integral, the energy, which is constant"))
+    return document(subject, "elimination by what is conserved", made, [*found.constants.values(), energy])
 
 
 def _put(subject: SymbolicState, tree: Tree, first: Mapping[Sym, Tree], second: Mapping[Sym, Tree]) -> Tree:

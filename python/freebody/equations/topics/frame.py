@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written, equations
@@ -10,11 +10,12 @@ from freebody.document.document import Document
 from freebody.equations.derivation import preamble
 from freebody.equations.derivation.directions import Directions
 from freebody.equations.solve import Unconfirmed
-from freebody.equations.topics.common import Asked, NotHere, document, known, place_of, rates, spread
+from freebody.equations.topics.common import Asked, NotHere, document, known, own, place_of, rates, spread
 from freebody.solve.symbolic_state import Arrow, Direction, SymbolicState
 from freebody.symbolic.algebra import equal, quotient
 from freebody.symbolic.formula import Atom, Script, bold
 from freebody.symbolic.linear import linear_in
+from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.to_sympy import from_sympy, to_sympy
@@ -34,7 +35,11 @@ def frame(asked: Asked, *, point: str | None = None, body: str | None = None) ->
     if point is not None:
         known(point, subject.points, "point")
     point, body, stated = _chosen(subject, [point] if point else [f"{b}.G" for b in bodies], [body] if body else bodies)
-    return document(subject, f"{point} seen from {body}", _blocks(subject, point, body, stated))
+    turns = [
+        own(subject, "coordinate", unit, f"{what} of {body}", letter, f"{letter}_{body}")
+        for what, letter, unit in (("angular velocity", "omega", "rad/s"), ("angular acceleration", "alpha", "rad/s^2"))
+    ]
+    return document(subject, f"{point} seen from {body}", _blocks(subject, point, body, stated, turns), turns)
 
 
 def _chosen(subject: SymbolicState, points: list[str], bodies: list[str]) -> tuple[str, str, Mapping[str, Any]]:
@@ -48,13 +53,15 @@ def _chosen(subject: SymbolicState, points: list[str], bodies: list[str]) -> tup
     return *pairs[best], stated[best]
 
 
-def _blocks(subject: SymbolicState, point: str, body: str, stated: Mapping[str, Any]) -> list[Block]:
+def _blocks(
+    subject: SymbolicState, point: str, body: str, stated: Mapping[str, Any], turns: Sequence[SymbolEntry]
+) -> list[Block]:
     arrows = {word: Arrow.read(stated[word]) for word in _WORDS}
     place = place_of(subject, point)
     directions = preamble.directions(subject, [place, *arrows.values()])
     watched = f"The frame moves with {body}; {point} is watched from it. Its angular velocity and acceleration are"
     made: list[Block] = [Heading("The frame"), Paragraph(watched)]
-    made += [Equation(Sym("omega"), read(stated["omega"])), Equation(Sym("alpha"), read(stated["alpha"]))]
+    made += [Equation(Sym(turn.name), read(stated[word])) for turn, word in zip(turns, ("omega", "alpha"), strict=True)]
     made += [Paragraph(pair.sentence(directions.axes)) for pair in directions.pairs]
     parts = {
         "v_transport": f"Transport: of the place on {body} where {point} is, v of its origin + ω × r",

@@ -28,7 +28,7 @@ from freebody.equations.modes import Root
 from freebody.equations.solve import TooLarge
 from freebody.equations.stability import Stability
 from freebody.equations.substitutions import Substitutions, substitutions_of
-from freebody.equations.topics.common import Asked, NotHere, document
+from freebody.equations.topics.common import Asked, NotHere, document, own
 from freebody.equations.topics.stability_text import character
 from freebody.solve.instant import Instant
 from freebody.solve.perturbed_states import Closing, nearby
@@ -98,11 +98,11 @@ def linear(asked: Asked, **at: Any) -> LinearEquations:
     made, found, follow = _perturbations(subject, chosen)
     _require_two_sided(subject, rest, found.coordinates, follow)
     _require_agreement(subject, found, follow)
-    said, stability, eigenvalues = character(subject, found, _symbols_of(subject)) if found.coordinates else ([], None, ())
+    root = own(subject, "indeterminate", "1/s", "eigenvalue", "s", "lambda")
+    said, stability, eigenvalues = character(subject, found, _symbols_of(subject), root) if found.coordinates else ([], None, ())
     where = [Heading("Equilibrium"), Paragraph(_place(subject, chosen, rest is not first))]
     title = "linear equations about an equilibrium"
-    more = [SymbolEntry("s", "indeterminate", "1/s", "eigenvalue"), *_symbols_of(subject).values()]
-    whole = document(subject, title, where + made + said, more)
+    whole = document(subject, title, where + made + said, [root, *_symbols_of(subject).values()])
     return LinearEquations(
         whole.blocks, whole.letters, rest=rest, equations=found, follow=follow, eigenvalues=eigenvalues, stability=stability
     )

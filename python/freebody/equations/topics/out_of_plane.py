@@ -6,13 +6,11 @@ from typing import Any
 
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
-from freebody.equations.topics.common import Asked, document
+from freebody.equations.topics.common import Asked, document, own
 from freebody.model.start import quantity
 from freebody.symbolic.formula import typed
-from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.tree import ZERO, Sym, add, is_zero, mul
 
-_ACROSS = "g_z"
 _COUPLES = (
     "The plane also holds the bodies against tipping. In the model all forces act in one plane through the mass centres, and bodies "
     "are alike on both of its sides; then these couples are 0. If forces act at another height h than the mass centre, the plane takes "
@@ -25,6 +23,7 @@ def out_of_plane(asked: Asked, *, gravity: Any = None) -> Document:
 
     ``gravity`` into the plane, ``9.81 m/s^2``, of a model on a table or a slope."""
     subject = asked.subject
+    downward = own(subject, "constant", "m/s^2", "gravity into the plane", "g_z")
     masses = [(motion.body, motion.mass) for motion in subject.motions if not is_zero(motion.mass)]
     made: list[Block] = [Heading("Balance normal to the plane")]
     made.append(Paragraph("Nothing moves out of the plane, so along k = i × j what acts on each body adds up to 0."))
@@ -32,7 +31,7 @@ def out_of_plane(asked: Asked, *, gravity: Any = None) -> Document:
         said = "The model has no force out of the plane: gravity acts in it or not at all. So the plane exerts none, N = 0 on each of"
         made.append(Paragraph(f"{said} {', '.join(name for name, _ in masses)}."))
     else:
-        across, value = Sym(_ACROSS), quantity("gravity", gravity, "m/s^2")
+        across, value = Sym(downward.name), quantity("gravity", gravity, "m/s^2")
         each = [[f"{name}: N = ", mul(mass, across)] for name, mass in masses]
         whole = mul(add(*(mass for _, mass in masses)) if masses else ZERO, across)
         lead = [
@@ -44,4 +43,4 @@ def out_of_plane(asked: Asked, *, gravity: Any = None) -> Document:
         total = Equation(Written("Σ N", typed("∑N")), whole, "All together")
         made += [Paragraph(lead), Bullets(each), total, Paragraph(shared)]
     made += [Heading("Couples about axes in the plane"), Paragraph(_COUPLES)]
-    return document(subject, "out of the plane", made, [SymbolEntry(_ACROSS, "constant", "m/s^2", "gravity into the plane")])
+    return document(subject, "out of the plane", made, [downward])

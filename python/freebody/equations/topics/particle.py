@@ -5,14 +5,13 @@ from __future__ import annotations
 from freebody.core import GROUND
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Vector, Words
 from freebody.document.document import Document
-from freebody.equations.topics.common import Asked, NotHere, brief, document, known, place_of
+from freebody.equations.topics.common import Asked, NotHere, brief, document, known, own, place_of
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
+from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.tree import Fn, Sym, add, is_zero, minus, mul, negative, number, over, power, replace
-
-_R, _PHI = "r", "phi"
+from freebody.symbolic.tree import PI, Fn, Sym, add, is_zero, minus, mul, negative, number, over, power, replace
 
 
 def particle(asked: Asked, *, body: str | None = None, about: str = f"{GROUND}.O") -> Document:
@@ -46,22 +45,23 @@ def _cartesian(subject: SymbolicState, body: str, balances: list[Balance]) -> li
 
 def _polar(subject: SymbolicState, body: str, about: str, balances: list[Balance]) -> tuple[list[Block], list[SymbolEntry]]:
     place, motion = place_of(subject, about).xy, next(m for m in subject.motions if m.body == body)
-    taken = set(subject.nomenclature)
-    r, phi = (name if name not in taken else f"{name}_polar" for name in (_R, _PHI))
+    polar = [
+        own(subject, "coordinate", unit, what, name, f"{name}_polar")
+        for name, unit, what in (("r", "m", f"distance from {about}"), ("phi", "rad", "angle of that line from i"))
+    ]
+    r, phi = (symbol.name for symbol in polar)
     (x, y), forces = motion.r.xy, [b.left for b in balances]
     arm = (minus(x, place[0]), minus(y, place[1]))
     made: list[Block] = [Heading(f"Along e_r and e_φ about {about}")]
     made.append(Paragraph([Sym(r), f" is the distance of {body} from {about}, ", Sym(phi), " the angle of that line from i; "
                            "e_r points outward along it, e_φ a right angle further."]))  # fmt: skip
-    polar = [
-        SymbolEntry(r, "coordinate", "m", f"distance from {about}"),
-        SymbolEntry(phi, "coordinate", "rad", "angle of that line from i"),
-    ]
     along = motion.r.parts[0] if len(motion.r.parts) == 1 else None
     if along and is_zero(along.across) and (motion.r.i, motion.r.j) == place:  # along one direction that turns
         length, angle = along.along, along.angle
-        made += [Equation(Sym(r), length, "Here"), Equation(Sym(phi), angle)]
         unit = (Fn("cos", (angle,)), Fn("sin", (angle,)))
+        if evaluate(length, subject.values, subject.tables) < 0:  # it is on the other side
+            length, angle, unit = negative(length), add(angle, Sym(PI)), (negative(unit[0]), negative(unit[1]))
+        made += [Equation(Sym(r), length, "Here"), Equation(Sym(phi), angle)]
     elif isinstance(x, Sym) and isinstance(y, Sym):
         length, (cos, sin), (w, out) = Sym(r), (Fn(f, (Sym(phi),)) for f in ("cos", "sin")), (Sym(phi, 1), Sym(r, 1))
         new = {

@@ -27,20 +27,20 @@ Factors = list[tuple[list[Tree], int]]
 
 
 def character(
-    subject: SymbolicState, found: Linearised, shifts: Mapping[str, SymbolEntry]
+    subject: SymbolicState, found: Linearised, shifts: Mapping[str, SymbolEntry], root: SymbolEntry
 ) -> tuple[list[Block], Stability | None, tuple[Root, ...]]:
-    """Characteristic equation, eigenvalues and stability of linear equations, symbolically as far as they are short; with the
-    stability, where it is known, and the eigenvalues in numbers."""
+    """Characteristic equation, with ``root`` for an eigenvalue, eigenvalues and stability of linear equations, symbolically as far as
+    they are short; with the stability, where it is known, and the eigenvalues in numbers."""
     made: list[Block] = []
     stable: Stability | None = None
-    positive = _positive(subject)
+    positive, s = _positive(subject), Sym(root.name)
     try:
         require_few(2 * len(found.coordinates))
         matrix = found.first_order()
         parts = factors(characteristic(matrix, subject.nomenclature), subject.nomenclature)
         made += [
             Heading("Eigenvalues"),
-            Equation(shown(_product(parts)), ZERO, ["The characteristic equation of the eigenvalues ", Sym("s")]),
+            Equation(shown(_product(parts, s)), ZERO, ["The characteristic equation of the eigenvalues ", s]),
         ]
         try:
             found_ones = eigenvalues(matrix, subject.nomenclature, positive=positive)
@@ -75,11 +75,11 @@ def _positive(subject: SymbolicState) -> list[str]:
     return list(filter(is_positive, nomenclature.of_kind("parameter", "constant")))
 
 
-def _product(parts: Factors) -> Tree:
+def _product(parts: Factors, s: Sym) -> Tree:
     """The factors as a person writes them, powers of s falling."""
     made = []
     for coefficients, count in parts:
-        terms = [mul(factor, power(Sym("s"), n)) for n, factor in enumerate(coefficients[::-1]) if not is_zero(factor)][::-1]
+        terms = [mul(factor, power(s, n)) for n, factor in enumerate(coefficients[::-1]) if not is_zero(factor)][::-1]
         spread = [part for term in terms for part in (term.terms if isinstance(term, Add) else (term,))]
         made.append(power(spread[0] if len(spread) == 1 else Add(tuple(spread)), count))
     return made[0] if len(made) == 1 else Mul(tuple(made))
