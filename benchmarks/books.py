@@ -2,11 +2,13 @@
 
     python benchmarks/books.py [NAME …]
 
-The statements are in tests/check/books/, with the verdict that a person came to; those that are judged otherwise are printed.
+The statements are in tests/check/books/, with the verdict that a person came to and the correction that a tutor would give; those that
+are judged or corrected otherwise are printed.
 """
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from collections import Counter
@@ -14,20 +16,35 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "check"))
 
-from books import FILES, Book
+from books import FILES, Book, Said
 
 
 def main() -> None:
-    began, seen = time.perf_counter(), Counter()
+    began, seen, places = time.perf_counter(), Counter(), Counter()
     for name in sys.argv[1:] or FILES:
-        for said in Book(name).verdicts():
+        book = Book(name)
+        for said in book.verdicts():
             wanted, found = said.kind, said.verdict.kind
             seen[wanted.value, found.value] += 1
+            heading = f"{name}, {said.statement['id']}: {said.statement['says']}"
             if wanted is not found:
-                print(f"{name}, {said.statement['id']}: {said.statement['says']}\n    {wanted.value} is called {found.value}")
+                print(f"{heading}\n    {wanted.value} is called {found.value} {said.verdict.assumption}")
+            if "correction" in said.statement:
+                places[place := _place(book, said)] += 1
+                if place != "first":
+                    print(f"{heading}\n    {said.statement['correction']} is {place}")
+                    print(*(f"      {each}" for each in said.verdict.mends), sep="\n")
     print(f"{sum(seen.values())} statements in {time.perf_counter() - began:.0f} s")
     for (wanted, found), count in sorted(seen.items()):
         print(f"  {count:4d} {wanted} called {found}")
+    print("the correction of a tutor is " + ", ".join(f"{place} {count} times" for place, count in places.most_common()))
+
+
+def _place(book: Book, said: Said) -> str:
+    """At which place the correction of a tutor stands."""
+    text = re.sub(r"^limit:|as .*$", "", said.statement["correction"])
+    found = [i for i, each in enumerate(said.verdict.mends) if book.says_the_same(each.equation, text)]
+    return "missing" if not found else "first" if found[0] == 0 else "among three" if found[0] < 3 else "behind the third"
 
 
 if __name__ == "__main__":

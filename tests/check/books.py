@@ -13,10 +13,12 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from ruamel.yaml import YAML
 
 from freebody.check import Checker
 from freebody.check.file import WORDS, judged_alone
+from freebody.check.residual import residual
 from freebody.check.verdict import Verdict
 from freebody.mechanism import Mechanism
 
@@ -46,6 +48,18 @@ class Book:
     @cached_property
     def checker(self) -> Checker:
         return Checker(Mechanism.loads(json.dumps({"freebody": 1, **self.data["model"]})), self.data.get("letters"))
+
+    def says_the_same(self, one: str, other: str) -> bool:
+        """Whether two equations are one but for a factor that is a number, wherever their symbols have any values."""
+        case = self.checker.case(f"{one}\n{other}")
+        if len(case.equations) != 2:
+            return False
+        places = case.elsewhere(case.values(), bound=False)
+        first, second = (residual(equation, places).sides.residual for equation in case.equations)
+        if first.shape != second.shape:
+            return False
+        factor = np.sum(first * second) / np.sum(second**2)
+        return bool(np.allclose(first, factor * second, rtol=1e-7, atol=1e-9 * np.abs(first).max()))
 
     def verdicts(self, correcting: bool = True) -> Iterator[Said]:
         self.checker.correcting = correcting

@@ -147,7 +147,7 @@ SLIPS = [
     ("bead on a turning rod", "(m1 l^2/3 + m2 l^2) θ'' + 2 m2 R R' θ' = T", {"symbol"}, "m2*R^2"),
     ("mass on a spring", "m x'' + k x' + c x = F", {"convention"}, "c*xdot + k*x"),
     ("disk that rolls down a slope", "s'' = 2/3 m g sin(a)", {"extra factor"}, "sddot = 2/3*g*sin(a)"),
-    ("rod as a pendulum", "θ'' = -3g/2l sin θ", {"brackets"}, "3*g/(2*l)"),
+    ("rod as a pendulum", "θ'' = -3 g/2 l sin θ", {"brackets"}, "3*g/(2*l)"),
     # two slips
     ("bead on a turning rod", "(m1 l^2/12 + m2 R^2) θ'' + m2 R R' θ' = T", {"factor"}, "m1*l^2/3"),
     ("pendulum on a cart", "x'' = (F + m sin θ (l θ'^2 - g cos θ))/(M + m cos^2 θ)", {"sign", "function"}, "sin(theta)^2"),

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+import freebody
 from freebody.check import Checker, Kind
 from freebody.mechanism import Mechanism
 
@@ -248,3 +251,35 @@ run: {until: 1 s}
     bounced = box.check("constant: energy()")
     assert bounced.kind is W
     assert "impact floor" in str(bounced)
+
+
+SYSTEMS = Path(freebody.__file__).parent / "systems"
+_SIDES = {
+    # two prisms on smooth ground, by the balance of momentum along it; elsewhere their upright faces touch, and neither pushes
+    "prisms": ("19.3.13", {"A": "ax(lower.G)", "N": "slope.N"}, ("A = -g sin(alpha) cos(alpha)/(n + sin(alpha)^2)", "N = 0")),
+    # two blocks on a cable over a pulley; beyond it each would move to the other side
+    "cable": ("19.3.21", {}, ("(m1 + m2) x2'' = m2 g sin(alpha2) - m1 g sin(alpha1)", "x1'' = x2''")),
+    # a rocker on its round foot, small swings about the upright
+    "rocker": (
+        "19.3.29",
+        {},
+        ("limit: (L^2/12 + (R + d)^2) phi'' = g d phi as phi -> 0", "limit: (L^2/12 + d^2) phi'' = g d phi as phi -> 0"),
+    ),
+    # the same as it lies
+    "lying": (
+        "19.3.29",
+        {},
+        (
+            "if phi = pi/2: (L^2/12 + R^2 + d^2) phi'' - R d phi'^2 = g d",
+            "if phi = pi/2: (L^2/12 + R^2 + d^2) phi'' + R d phi'^2 = g d",
+        ),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", _SIDES)
+def test_what_touches_or_is_taut_is_as_at_the_start(name: str) -> None:
+    system, letters, (right, wrong) = _SIDES[name]
+    checker = Checker(Mechanism.load(SYSTEMS / system / "model.yaml"), letters)
+    assert checker.check(right, correcting=False).kind is T
+    assert checker.check(wrong, correcting=False).kind is W

@@ -62,6 +62,15 @@ pub struct History {
     pub works: Vec<f64>,
 }
 
+#[pymethods]
+impl History {
+    /// What touches or is taut, by its place in the list of limits, each with the feature on which it does.
+    fn touching(&self) -> Vec<(usize, usize)> {
+        let contacts = self.mode.contacts.iter().enumerate().filter(|(_, contact)| contact.mode.touches());
+        contacts.map(|(place, contact)| (place, contact.feature.index)).collect()
+    }
+}
+
 fn placed<'m>(m: &'m freebody::mechanism::Mechanism, (p, t, q, u, past): &State<'_>) -> PyResult<Workspace<'m>> {
     let mode = past.as_ref().map(|past| &past.mode);
     Workspace::of_state(m, p.as_slice()?, *t, [q.as_slice()?, u.as_slice()?], mode).map_err(errors::motion)

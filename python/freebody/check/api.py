@@ -13,6 +13,7 @@ from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.symbolic.errors import StatementError
 
+from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, Family
@@ -32,16 +33,21 @@ Declared = Mapping[str, str | Sequence[str | float]]
 class Checker:
     """Checks many statements about one model; its true motions are made once.
 
-    ``letters`` are own symbols for all of them. ``seed`` makes the random motions reproducible. ``asked`` tells the moment of which the
+    ``letters`` are own symbols for all of them. ``seconds`` of computing are spent on a statement at most before what was found is
+    answered: by default 2 up to ten bodies, 10 from twenty on. ``seed`` makes the random motions reproducible. ``asked`` tells the moment of which the
     model is spoken, ``at``, ``before`` or ``after``, and the start, ``initial``, ``t`` and changes, as in ``Mechanism.solve``.
     """
 
-    def __init__(self, mechanism: Builder, letters: Declared | None = None, seed: int = 0, **asked: Any) -> None:
+    def __init__(
+        self, mechanism: Builder, letters: Declared | None = None, seed: int = 0, seconds: float | None = None, **asked: Any
+    ) -> None:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
         self.sampler, self.printed = MotionSampler(mechanism, seed, **asked), PrintedSymbols(mechanism, **asked)
         self.hypothesis = ALL
         self.correcting = True
+        self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
+        self.budget = Budget(self.seconds)
         self._runs: list[Any] = []  # the model's own, once it is asked for
 
     def symbols(self, declared: Declared | None = None) -> Symbols:
@@ -56,7 +62,7 @@ class Checker:
         meaning = StatementSymbols(known, program, self.sampler)
         given = hypothesis or self.hypothesis
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
-        return Case(program, meaning, self.sampler, given, self.correcting)
+        return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
 
     def check(
         self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, correcting: bool = True
@@ -71,6 +77,7 @@ class Checker:
             raise StatementError("this is no character", broken.span(), "write it again", shown)
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
+        checker.budget = Budget(self.seconds)
         try:
             verdict = claimed(checker, text, letters or {}) or _stated(checker, text, letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
@@ -110,7 +117,8 @@ def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
         verdict = judged(case)
     else:
         verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
-    return replace(verdict, notes=case.meaning.symbols.notes(case.program))
+    unfinished = (case.budget.words,) if case.budget.spent else ()
+    return replace(verdict, notes=(*case.meaning.symbols.notes(case.program), *unfinished))
 
 
 def _in_figures(case: Case) -> Verdict | None:

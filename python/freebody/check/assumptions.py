@@ -7,13 +7,13 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.core import ModelError
 from freebody.model.errors import ModelProblem
+from freebody.symbolic.dimensions import LENGTH, MASS, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Fn, Sym, walk
@@ -25,6 +25,8 @@ from .residual import HOLDS, figures, residual, rounding, unreached
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
+
+_INERTIA = MASS.times(LENGTH, 2)
 
 FAR = 1e7
 """How far a parameter goes that goes to infinity (its inverse: to 0)."""
@@ -55,8 +57,8 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
 
     They count only where every term still takes part: an assumption explains what was left out, not what is wrong.
     """
-    for families in _assumptions(case):
-        if found := tuple(words for words, family in families if _holds(case, equation, family)):
+    for families in case.budget.within(_assumptions(case)):
+        if found := tuple(words for words, family in case.budget.within(families) if _holds(case, equation, family)):
             return found
     words = _to_first_order(case, equation) or _limit(case, equation)
     return (words,) if words else ()
@@ -143,7 +145,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
         ("at rest", replace(given, at_rest=True)),
         *([("without gravity", replace(given, gravity=False))] if sampler.gravities else ()),
         *((f"{name} = 0 (no friction)", with_zero(name)) for name in sampler.frictions),
-        *((f"{name} = 0", with_zero(name)) for name in others),
+        *((f"{name} = 0", with_zero(name)) for name in others if _of(case, name) != LENGTH),
     ]
     own = replace(given, numbers=True, zeros=False)
     yield [("these numbers of the model", own)]
@@ -161,18 +163,34 @@ def mattering(case: Case) -> list[str]:
     return [name for name in case.sampler.free_parameters if name in known and not case.sampler.shapes_loop(name)]
 
 
+def _of(case: Case, name: str) -> Known:
+    """The dimension of a parameter."""
+    return next(its for n, its in case.meaning.vocabulary.parameters.items() if name in case.meaning.texts(n))
+
+
+def _limits(case: Case) -> Iterator[tuple[str, int]]:
+    """Parameters with the power of the factor by which they go to ∞ or to 0, as a person would name it: no size goes to 0, nor to ∞ where
+    bodies turn, and no inertia to ∞."""
+    given, free = case.hypothesis, case.sampler.free_parameters
+    turns = any(coordinate["dimension"] == "rad" for coordinate in case.sampler.coordinates)
+    for name in mattering(case):
+        if not given.since and free[name] != 0 and name not in dict(given.held):
+            its = _of(case, name)
+            yield from ((name, 1),) if its != _INERTIA and not (its == LENGTH and turns) else ()
+            yield from ((name, -1),) if its != LENGTH else ()
+
+
 def _limit(case: Case, equation: Equation) -> str:
     """A limit in which the residual vanishes though every term still takes part, in words; nothing where there is none."""
-    given, free = case.hypothesis, case.sampler.free_parameters
-    names = [name for name in mattering(case) if not given.since and free[name] != 0 and name not in dict(given.held)]
-    for name, (words, power) in product(names, (("→ ∞", 1), ("→ 0", -1))):
+    given = case.hypothesis
+    for name, power in case.budget.within(_limits(case)):
         families = (replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)
         with suppress(NoMotion, StatementError, ModelError):
             near, far = (case.values(family, count=_STATES) for family in families)
             first, last = (float(np.median(np.abs(residual(equation, values).ratio).max(axis=1))) for values in (near, far))
             shrinks = first < _SLOPE and last < max(_SLOPE * first, HOLDS)
             if shrinks and residual(equation, far).worst < 1e-2 and not unreached(equation, far):
-                return f"{name} {words}"
+                return f"{name} → {'∞' if power > 0 else '0'}"
     return ""
 
 

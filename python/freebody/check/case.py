@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Iterable, Mapping
 from copy import copy
@@ -16,6 +17,7 @@ from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Sym
 
+from .budget import Budget
 from .families import ALL, Family, Samples
 from .language.dimensions import misfit
 from .language.statements import Equation, Program, inlined
@@ -86,8 +88,9 @@ class StatementSymbols:
 
     @property
     def needs_past(self) -> bool:
-        """Whether it reads works, which a state has only as one of a motion from the start."""
-        return any(_SUMMED.search(text) for n in self.required for text in self._one(n).texts)
+        """Whether it reads works, or where a motion started, which a state has only as one of a motion from the start."""
+        read = [self._one(n) for n in self.required]
+        return any(one.kind == "initial" or any(map(_SUMMED.search, one.texts)) for one in read)
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""
@@ -193,13 +196,14 @@ class StatementSymbols:
 @dataclass
 class Case:
     """A program of statements, what its symbols mean, and true motions. ``hypothesis`` is the family of which it is said;
-    ``correcting``: whether corrections are wanted where it is wrong."""
+    ``correcting``: whether corrections are wanted where it is wrong, as far as the ``budget`` goes."""
 
     program: Program
     meaning: StatementSymbols
     sampler: MotionSampler
     hypothesis: Family = ALL
     correcting: bool = True
+    budget: Budget = field(default_factory=lambda: Budget(math.inf))
     known: dict[tuple[Family, int, int], Mapping[str, Array]] = field(default_factory=dict)
 
     @property

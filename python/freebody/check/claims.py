@@ -13,6 +13,7 @@ import numpy as np
 from freebody.core import State
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
+from freebody.solve.perturbed_states import independent
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
@@ -24,7 +25,7 @@ from .families import ALL, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
-from .residual import HOLDS, equation_sides, jacobian, magnitude, residual
+from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 
 if TYPE_CHECKING:
@@ -34,11 +35,12 @@ _STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what 
 _MOMENTS = 6
 _RUNS = 12
 _NEWTON = 20  # steps by which premises are made true
+_FEWEST = 8  # places at which they have to be
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
-    given, claim = _defined(_AS_CONSTANT.sub(r"constant: \1", text.strip()))
+    given, claim = _defined(_AS_CONSTANT.sub(r"constant: \1", _BEHIND.sub(r"\2: \1", text.strip())))
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
             said = (part.strip() for part in found.groups())
@@ -66,6 +68,35 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     return replace(verdict, assumption=condition) if verdict.ok else verdict
 
 
+def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
+    """At a moment of the model's own run, at rest, or wherever something has a value."""
+    if found := re.fullmatch(r"t\s*=\s*(.+)", moment):
+        moment = "start" if re.fullmatch(r"0\s*s?", found[1]) else found[1]
+    elif "=" in moment or moment == "rest":
+        return _if(checker, declared, "at rest" if moment == "rest" else moment, statement)
+    return timed_claims.at(checker, declared, moment, statement)
+
+
+def _for_small(checker: Checker, declared: Declared, names: str, statement: str) -> Verdict:
+    """To first order in coordinates."""
+    return _limit(checker, declared, statement, ", ".join(f"{name} -> 0" for name in re.split(r",|\band\b|\s", names) if name))
+
+
+def _initially(checker: Checker, declared: Declared, statement: str) -> Verdict:
+    """Where the model starts."""
+    return _if(checker, declared, "at the start", statement)
+
+
+def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
+    """``ΔT + ΔV = 0``: a sum that stays the same, each term of it a change."""
+    case = _reading(checker, declared, f"({_CHANGE.sub('', left)}) - ({_CHANGE.sub('', right)})")
+    (equation,), changes = case.equations, _CHANGE.findall(left + right)
+    if len(terms(equation)) != len(changes):
+        what = "a change stands beside what is none"
+        raise ModelProblem(what, "write `Δ` before each term, or the work of a force by its name, like `motor.work`")
+    return _constant(checker, declared, spell(equation.left))
+
+
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """True under a hypothesis, and broken by an example without it."""
     under = _if(checker, declared, condition, statement)
@@ -90,7 +121,7 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
         found = residual(equation, values)
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
-            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(case, found))
+            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
 
 
@@ -99,7 +130,7 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
     for equation in case.equations:
         if not first_order(case, equation, case.hypothesis):
             found = residual(equation, case.values())
-            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(case, found))
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(found, case.values()))
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
 
@@ -218,23 +249,34 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
     rng = np.random.default_rng(3)
     values = {k: v * rng.uniform(0.5, 1.5, v.shape) for k, v in case.meaning.values(case.samples()).items()}
     said = [n for e in given for n in symbols_in(e) if n.key in values and values[n.key].ndim == 1]
-    top = [n.key for n in sorted(dict.fromkeys(said), key=lambda n: -n.dots)]  # made true by the symbols with most dots
+    order = [n.key for n in sorted(dict.fromkeys(said), key=lambda n: -n.dots)]  # made true by the symbols with most dots
+    columns = jacobian(given, values, order)[1][0].T * np.array([[values[key][0]] for key in order])
+    free = [order[i] for i in independent(columns / np.abs(columns).max(axis=0))]
+    most = np.array([np.max(np.abs(values[key])) for key in free])  # of a step: what is squared may have no root there
     for _ in range(_NEWTON):
-        count = sum(equation_sides(e, values).residual.shape[1] for e in given)
-        base, slopes = jacobian(given, values, top[:count])
-        steps = np.einsum("kij,kj->ki", np.linalg.pinv(slopes), base)
-        values |= {key: values[key] - steps[:, i] for i, key in enumerate(top[:count])}
-    found = residual(conclusion, values)
-    if max(residual(e, values).worst for e in given) > 1e-9:
+        base, slopes = jacobian(given, values, free)
+        steps = np.clip(np.einsum("kij,kj->ki", np.linalg.pinv(slopes), base), -most, most)
+        values |= {key: values[key] - steps[:, i] for i, key in enumerate(free)}
+    made = np.max([np.abs(residual(e, values).ratio).max(axis=1) for e in given], axis=0) < 1e-9
+    if made.sum() < _FEWEST:
         return Verdict(Kind.UNDECIDABLE, statement, "the premises could not be made true by their accelerations and forces")
+    there = {key: value[made] for key, value in values.items()}
+    found = residual(conclusion, there)
     if found.worst < 1e-8:
         return Verdict(Kind.TRUE, statement, f"holds wherever `{premises}` does, on {len(found.ratio)} random numbers")
-    return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(case, found))
+    return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(found, there))
 
 
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
-_AS_CONSTANT = re.compile(r"(?:[^=:;\n]+=\s*)*([^=:;\n]+?)\s*=\s*const(?:ant\b|\b\.?)(?=\s*$|\s+where\b|\s+with\b)")
-"""``E = T + V = const``, as people write that something is constant."""
+_AS_CONSTANT = re.compile(
+    r"(?:[^=:;\n]+=\s*)*([^=:;\n]+?)\s*(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
+    r"(?=\s*$|\s+where\b|\s+with\b)"
+)
+"""``E = T + V = const``, ``p is conserved``, as people write that something is constant."""
+_BEHIND = re.compile(r"\A([^:;\n]+=[^:;\n]+?),?\s+((?:when|if|for|at)\s[^:;\n]+)\Z")
+"""A condition behind an equation: ``… when θ = 0``."""
+_CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
+"""The change of something since the start."""
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",
@@ -252,7 +294,11 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),
     (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), timed_claims.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
-    (re.compile(r"at (.+?):(.+)", re.S), timed_claims.at),
+    (re.compile(r"at (.+?):(.+)", re.S), _at),
+    (re.compile(r"(?:when|for) small (.+?):(.+)", re.S), _for_small),
+    (re.compile(r"(?:when|for)\b(.+?):(.+)", re.S), _if),
+    (re.compile(r"initially:?(.+)", re.S), _initially),
+    (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), _changes),
     (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),
 )
 """Forms of claims, each with what judges it."""

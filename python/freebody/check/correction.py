@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain, combinations
 from typing import TYPE_CHECKING
 
@@ -36,6 +36,7 @@ _PLAIN = ("sign", "function")  # edits of which all pairs are tried
 _MOST_PLAIN = 24
 _BEST_FIGURES = 12
 _SHOWN = 6
+_SEARCHED, _CONFIRMED = 0.5, 0.8  # of the budget, after which no more is searched for, and none confirmed
 _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
@@ -136,7 +137,9 @@ class _Search:
         self.said = {n.key for n in symbols_in(equation)}
         self.given = case.meaning.given()
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
-        self.fits = FittedEdits(self.values, self.vocabulary)
+        self.within = partial(case.budget.within, part=_SEARCHED)
+        self.confirming = partial(case.budget.within, part=_CONFIRMED)
+        self.fits = FittedEdits(self.values, self.vocabulary, self.within)
         self.right = self._worst(equation, self.values) < HOLDS
 
     def singles(self) -> Iterator[_Found]:
@@ -172,7 +175,7 @@ class _Search:
 
     def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
         """The edits after which the least is left."""
-        tried = ((edit, self._residual(edit.after, self.few)) for edit in found)
+        tried = ((edit, self._residual(edit.after, self.few)) for edit in self.within(found))
         left = [(np.mean(each.ratio**2) if each else 0.0, edit) for edit, each in tried]
         return [edit for _, edit in sorted(left, key=lambda pair: pair[0] if pair[0] > 0 else np.inf)[:count]]
 
@@ -185,7 +188,7 @@ class _Search:
         ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
         kept: dict[tuple[float, ...], list[_Found]] = {}
         least = 0.0
-        for size, _, each in ranked:
+        for size, _, each in self.confirming(ranked):
             if kept and size > least + EQUAL:
                 break
             mark = self._mark(each.after)
@@ -223,7 +226,7 @@ class _Search:
         return holds and not (self.family.held and unreached(equation, self.values))  # what is held at 0 may hide what is wrong
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
-        return (edit for edit in found if self._worst(edit.after, self.few) < _PROMISING)
+        return (edit for edit in self.within(found) if self._worst(edit.after, self.few) < _PROMISING)
 
     def _worst(self, equation: Equation, values: Mapping[str, Array]) -> float:
         found = self._residual(equation, values)

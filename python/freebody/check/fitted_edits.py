@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import permutations
+from itertools import chain, permutations
 
 import numpy as np
 
@@ -30,10 +30,12 @@ _NUMERATOR = 60
 
 @dataclass
 class FittedEdits:
-    """What can be fitted to an equation: ``values`` are those of true states, ``vocabulary`` has the shapes of missing terms."""
+    """What can be fitted to an equation: ``values`` are those of true states, ``vocabulary`` has the shapes of missing terms,
+    of which as many are tried as lie ``within`` a budget."""
 
     values: Mapping[str, Array]
     vocabulary: Vocabulary
+    within: Callable[[Iterable[Node]], Iterator[Node]] = iter
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
@@ -172,7 +174,7 @@ class FittedEdits:
         long = tuple(dict.fromkeys(n for n in angles if isinstance(n, Add) and len(n.terms) > 2))
         key = (wanted, moving, long)
         if key not in self._made:
-            nodes = [*self.vocabulary.terms(wanted, moving, long), *self.vocabulary.moments(wanted)]
+            nodes = list(self.within(chain(self.vocabulary.moments(wanted), self.vocabulary.terms(wanted, moving, long))))
             rows = self._rows(nodes)
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]

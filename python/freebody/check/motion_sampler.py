@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -21,6 +20,7 @@ from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE, Dimension
 
 from .families import ALL, Family, NoMotion, Samples
+from .sides import changes_side, squares
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -31,7 +31,6 @@ _FEW_TRIES = 8  # where a parameter is far from the model's, and states are rare
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
 _STAGES = 12  # in which a closed loop goes from the start to another place
-_TOUCHING = 1e-9  # least square of a distance on the way, relative to that at its ends: below it the distance has been 0
 _AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
@@ -140,18 +139,14 @@ class MotionSampler:
             found = self._near_moment(rng, values, family)
         else:
             found = self._started(values) if family.at_start else self._anywhere(rng, values, family)
-        return found if found and all(self._vanishes(text, found, family) for text in family.vanishing) else None
+        lost = [text for text in family.vanishing if found and not self._vanishes(text, found)]
+        if lost and (family.at_start or family.since):
+            raise NoMotion(f"`{_stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
+        return None if lost else found
 
-    def _vanishes(self, text: str, state: State, family: Family) -> bool:
-        """Whether an expression is 0 there. Raises ``NoMotion`` where nothing can be done for it."""
-        if abs(float(Samples(self.core, [state]).values([text])[text][0])) <= _NOTHING * self._size(text, state):
-            return True
-        if self.restricted:
-            why = "contacts, strings, stops or friction decide how this model moves, so that it is tried on runs from its start"
-            raise NoMotion(f"`{_stated(text)}` cannot be arranged: {why}")
-        if family.at_start:
-            raise NoMotion(f"`{_stated(text)}` does not hold at the start of this model")
-        return False
+    def _vanishes(self, text: str, state: State) -> bool:
+        """Whether an expression is 0 there."""
+        return abs(float(Samples(self.core, [state]).values([text])[text][0])) <= _NOTHING * self._size(text, state)
 
     def _size(self, text: str, state: State) -> float:
         """What an expression changes by while coordinates, rates and parameters do by what is typical of the model."""
@@ -190,65 +185,66 @@ class MotionSampler:
         for done in np.arange(1, stages + 1) / stages:
             p, guess = self.first.p + done * (words["p"] - self.first.p), self._named(state.q + move / stages)
             state, _ = self.core.assemble(p, done * t, guess=guess, rates=rates, branch=words["branch"])
-        sizes = [(text, size * self._size(text, self.first)) for text, size in family.small]
-        small = [f"({text}) - ({size * _about(rng)!r})" for text, size in sizes]
-        slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
-        for text in (*family.vanishing, *small, *slow):
-            state = self._vanished(text, state, list(rates), words["branch"])
+        state = self._arranged(rng, family, state, list(rates), words["branch"])
         solved = self.core.instant(state)
-        if self._changes_side(state, own) or not all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values()):
+        if changes_side(self.core, self._squares, own, state) or not all(
+            limit.is_open and limit.gap >= 0 for limit in solved.limits.values()
+        ):
             return None
         judges = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all()
         return state if judges and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
 
-    def _changes_side(self, state: State, own: Array) -> bool:
-        """Whether a distance that the model reads, as of the ends of a spring, would be 0 on the straight way from the start: then
-        its two points would have changed sides, and what is x on the one is −x on the other."""
-        at = [self.core.evaluate(self._distances, state.at(q)) for q in (own, (own + state.q) / 2, state.q)]
-        first, half, last = np.array(at) ** 2  # along a line d² is a parabola, c + b s + a s²
-        a, b = 2 * (first - 2 * half + last), 4 * half - 3 * first - last
-        with np.errstate(all="ignore"):
-            between = (-b > 0) & (-b < 2 * a)
-            return bool(np.any(between & (first - b**2 / (4 * a) < _TOUCHING * np.maximum(first, last))))
+    def _arranged(
+        self, rng: np.random.Generator, family: Family, state: State, free: Sequence[str], branch: Mapping[str, int] | None = None
+    ) -> State:
+        """The nearest state at which what vanishes in a family does so, and what is small there is. Raises ``NoMotion``."""
+        sizes = [(text, size * self._size(text, self.first)) for text, size in family.small]
+        small = [f"({text}) - ({size * _about(rng)!r})" for text, size in sizes]
+        slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
+        for text in (*family.vanishing, *small, *slow):
+            if not self._vanishes(text, state):
+                state = self._vanished(text, state, free, branch or {})
+        return state
 
     @cached_property
-    def _distances(self) -> list[str]:
-        """The distances that springs, dampers, polar coordinates and expressions of the model read."""
-        pairs = [force["with"]["between"] for force in self.spec["forces"] if "between" in force["with"]]
-        pairs += [joint["with"]["of"] for joint in self.spec["joints"] if joint["type"] == "polar"]
-        read = re.findall(r"distance\([^()]*\)", json.dumps(self.spec, ensure_ascii=False))
-        return [*(f"distance({quote(a)}, {quote(b)})" for a, b in pairs), *read]
+    def _squares(self) -> list[str]:
+        return list(squares(self.spec))
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""
         n = len(self.names)
         drawn = self.rate * self.sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
-        chosen = sorted(rng.permutation(n)[: self.freedom].tolist())
+        order = rng.permutation(n)
+        chosen = sorted(order[independent(self._free_rates[order])].tolist())
         return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
     def _vanished(self, text: str, state: State, free: Sequence[str], branch: Mapping[str, int]) -> State:
         """The nearest rates, or where they are not in it the nearest place, at which an expression is 0: of the coordinates that
-        are ``free``; the others follow where loops close. Raises ``NoMotion`` and ``MotionError``."""
-        chosen = [self.names.index(name) for name in free]
+        are ``free``; the others follow where loops close. What rolls leaves more places free than rates. Raises ``NoMotion`` and
+        ``MotionError``."""
+        movable = free if state.history is None else self.names
+        places_of, rates_of = ([self.names.index(name) for name in names] for names in (movable, free))
 
         def moved(places: Array, rates: Array) -> State:
-            fixed, given = (dict(zip(free, x.tolist(), strict=True)) for x in (places, rates))
-            near = self._named(state.q)
-            return self.core.assemble(state.p, state.t, fixed=fixed, guess=near, rates=given, branch=branch)[0]
+            there, given = dict(zip(movable, places.tolist(), strict=True)), dict(zip(free, rates.tolist(), strict=True))
+            held = (
+                {"fixed": there, "guess": self._named(state.q), "branch": branch} if state.history is None else {"guess": there}
+            )
+            return self.core.assemble(state.p, state.t, rates=given, history=state.history, **held)[0]
 
         def value(places: Array, rates: Array) -> Array:
             return self.core.evaluate([text], moved(places, rates))
 
-        q, u, sizes = state.q[chosen], state.u[chosen], self.sizes[chosen]
-        slope, size = _slopes(lambda rates: value(q, rates), u, self.rate * sizes)[0], self._size(text, state)
-        if np.abs(slope * sizes).max(initial=0.0) * self.rate > _NOTHING * size:
+        q, u, sizes, size = state.q[places_of], state.u[rates_of], self.sizes[places_of], self._size(text, state)
+        slope = _slopes(lambda rates: value(q, rates), u, self.rate * self.sizes[rates_of])[0]
+        if np.abs(slope * self.sizes[rates_of]).max(initial=0.0) * self.rate > _NOTHING * size:
             return moved(q, u - slope * value(q, u) / (slope @ slope))
         for _ in range(_NEWTON):
             if abs(left := value(q, u)[0]) <= _DONE * size:
                 break
             slope = _slopes(lambda places: value(places, u), q, _STEP * sizes)[0]
             if not np.abs(slope * sizes).max(initial=0.0) > _NOTHING * size:
-                why = "it depends on nothing that is free in" if free else "no freedom is left in"
+                why = "it depends on nothing that is free in" if movable else "no freedom is left in"
                 raise NoMotion(f"`{_stated(text)}` cannot be arranged: {why} this mechanism")
             q = q - slope * left / (slope @ slope)
         return moved(q, u)
@@ -278,17 +274,20 @@ class MotionSampler:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
 
     def _near_moment(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        """A state of the same mode a little after one at the moment, with random numbers, and mostly at a random place with random
-        rates, at which what is closed stays so; as long as nothing switches."""
-        late = 0.0 if family.at_rest or family.at_start else _NEAR * rng.random() / self.rate
+        """A state of the same mode with random numbers, mostly at a random place with random rates, at which what is closed stays so;
+        else a little after the moment, as long as nothing switches."""
+        late = 0.0
         if family.at_start:
             state = self._at_moment(values)
         else:
             own, p, random = self.own, self.core.bind(values), rng.random() < _ELSEWHERE
-            q = own.q + _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * (random and not family.vanishing)
+            q = own.q + _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
             rates, there = self._rates(rng, family), self._named(own.u)
-            rates = rates if random or family.at_rest else {name: there[name] for name in rates}
+            if not (random or family.at_rest):
+                rates = {name: there[name] for name in rates}
+                late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state, _ = self.core.assemble(p, own.t, guess=self._named(q), rates=rates, history=own.history)
+            state = self._arranged(rng, family, state, list(rates))
         if "before" in self.moment:
             return self._sampled(state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
@@ -303,9 +302,13 @@ class MotionSampler:
         return self._sampled(motion.state(state.t + 0.99 * (min(ends) - state.t)))
 
     def _sampled(self, found: State) -> State | None:
-        """A state, if all holds there as at the model's moment, and it may judge."""
-        same = not self.restricted or same_mode(self.core.free_bodies(found), self._loads)
-        return found if same and self.core.instant(found).residual < _BALANCED else None
+        """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge."""
+        if self.restricted:
+            if not _touching(found) <= _touching(self.own) or changes_side(self.core, self._squares, self.own.q, found):
+                return None
+            if not same_mode(self.core.free_bodies(found), self._loads):
+                return None
+        return found if self.core.instant(found).residual < _BALANCED else None
 
     @cached_property
     def _loads(self) -> FreeBodies:
@@ -374,11 +377,13 @@ class MotionSampler:
         return mass**dimension.mass * self.length**dimension.length * self.rate ** (-dimension.time)
 
     @cached_property
-    def freedom(self) -> int:
-        """Rates that can be given at will: as many as coordinates less what closes loops, touches, is locked or driven."""
+    def _free_rates(self) -> Array:
+        """Rates that can be given at will, (n, f), one a column: those by which loops stay closed, what touches goes on touching, and
+        what is locked or driven stays so."""
         free = [motion["name"] for motion in self.spec["motions"] if motion["level"] == "acceleration"]
         rows = [[row.coefficients[name] for name in self.names] for row in self._loads.rows if row.name not in free]
-        return len(self.names) - len(independent(np.array(rows).reshape(len(rows), len(self.names))))
+        held = np.array(rows).reshape(len(rows), len(self.names))
+        return np.linalg.svd(held)[2][len(independent(held)) :].T
 
     @cached_property
     def loops(self) -> int:
@@ -389,6 +394,11 @@ class MotionSampler:
         """Whether a parameter may be a length of a closed loop."""
         dimension = self.start.parameters.get(name)
         return self.loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
+
+
+def _touching(state: State) -> set[tuple[int, int]]:
+    """What touches or is taut in a state, and on which of its features."""
+    return set(state.history.touching() if state.history else ())
 
 
 def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:

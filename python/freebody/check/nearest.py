@@ -51,15 +51,14 @@ def nearest(case: Case, equation: Equation) -> str:
     core = case.sampler.core
     given = problem([core.free_bodies(state)])
     points = core.points(core.bind())
-    asked = list(islice(_questions(given, points), _MOST))
-    questions = [{**question, "terms": False, "momentum": False} for _, question in asked]
-    stated = core.symbolic_answers(state, [{"ask": "rows"}, *questions])
+    stated = core.symbolic_answers(state, [{"ask": "rows"}])
     said = _said(case, equation, stated.symbols)
     kinds = {name: entry["kind"] for name, entry in stated.symbols.items()}
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
     level = max((s.dots for s in said), default=0)
     found = []
-    for (words, _), answer in zip(asked, stated.answers[1:], strict=True):
+    for words, question in case.budget.within(islice(_questions(given, points), _MOST)):
+        (answer,) = core.symbolic_answers(state, [{**question, "terms": False, "momentum": False}]).answers
         there = frozenset(read(each["symbol"]) for each in answer["linear"]["coefficients"])
         found.append(_True(words, read(answer["left"]), read(answer["right"]), there))
     for row in stated.answers[0]:  # what loops ask of the configuration, the rates or the accelerations

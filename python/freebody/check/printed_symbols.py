@@ -84,9 +84,10 @@ def _bodies(derived: SymbolicState) -> Iterator[tuple[str, str]]:
 
 def _whole(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     yield from ((name.text, meant) for name, meant in zip(energies(derived), ("kinetic()", "potential()"), strict=True))
+    alone = [spell(body["name"]) for body in derived.source.metadata["bodies"]]
     for axis in "xy":
         yield derived.symbols.quantity(f"L_{axis}", f"momentum along {axis}").unicode(), f"momentum_{axis}()"
-        yield f"{axis}_G", f"centre_{axis}()"
+        yield f"{axis}_G", f"{axis}({alone[0]}.G)" if len(alone) == 1 else f"centre_{axis}()"
     points = [spell(point) for point in derived.points]
     yield from ((f"H/{name}", f"angular_momentum({point})") for name, point in zip(derived.points, points, strict=True))
     for point in points[:1]:

@@ -26,6 +26,7 @@ from .language.statements import Program, symbols_in
 from .language.tokens import Names
 from .printed_symbols import PrintedSymbols
 from .user_symbols import Array, Meaning, Reader
+from .usual_names import ENERGIES, usual
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -46,6 +47,8 @@ _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _SHORT = {"Fx": "x", "Fy": "y"}
 _WORD = 3
 """Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
+_DOUBTFUL = re.compile(r"/\s*\d+[^\W\d]")
+"""2k/3m, of which only a person knows whether m is below the stroke."""
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
 
@@ -77,7 +80,7 @@ class Symbols:
     ) -> None:
         self.printed = printed or PrintedSymbols(mechanism)
         lowered = mechanism.lowered()
-        self.spec = lowered.spec
+        self.spec, self.start = lowered.spec, lowered.start
         self.named = meanings.meanings(lowered.root)
         if gravity is not None:
             self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
@@ -86,6 +89,7 @@ class Symbols:
         self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         self.declared: set[str] = set()
+        self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         for name, said in (declared or {}).items():
             self._declare(name, said)
@@ -128,28 +132,39 @@ class Symbols:
                 hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
                 raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
         program = parse(text, self.names, self.constants)
-        taken = {folded(name) for name in (*self.meanings, *(line.name.name for line in program.assignments))}
-        for part in ("plain", "momenta"):  # what printed equations call things comes after the symbols of the model
-            if not self._unknown(program):
-                break
-            for name, said in getattr(self.printed, part).items():
-                if folded(name) not in taken:
-                    with suppress(ModelProblem):
-                        self._declare(name, said)
-            program = parse(text, self.names, self.constants)
+        # what printed equations call things comes after the symbols of the model, and then what letters usually mean
+        for added in (lambda: self.printed.plain, lambda: self.printed.momenta, lambda: self._assume(self._usual)):
+            if self._unknown(program):
+                self._add(added(), program)
+                program = parse(text, self.names, self.constants)
         names = self.names
         if clashing := self._clashing(program):
             names = tuple(name for name in names if name not in clashing)
             program = parse(text, names, self.constants)
         program = self._eliminated(program)
-        if not units or not misfit(program, self.dimensions, strictly=True):
-            return program
-        try:  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
-            other = self._eliminated(parse(text, names, self.constants, units=True))
-            check_dimensions(other, self.dimensions)
-        except StatementError:
-            return program
-        return other
+        if self._unknown(program):
+            self._add(self._assume(ENERGIES), program)
+            names = (*names, *(name for name in self.names if name not in names))
+            program = self._eliminated(parse(text, names, self.constants))
+        others = ({"units": True}, {"tight": True}) if units else ({"tight": True},)
+        for way in others if misfit(program, self.dimensions, strictly=True) else ():
+            with suppress(StatementError):  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
+                other = self._eliminated(parse(text, names, self.constants, **way))
+                check_dimensions(other, self.dimensions)
+                return other
+        return program
+
+    def _assume(self, found: Mapping[str, str]) -> Mapping[str, str]:
+        self.assumed |= found
+        return found
+
+    def _add(self, found: Mapping[str, str], program: Program) -> None:
+        """Symbols that are not taken by what there is, or by a line of the statement."""
+        taken = {folded(name) for name in (*self.meanings, *(line.name.name for line in program.assignments))}
+        for name, said in found.items():
+            if folded(name) not in taken:
+                with suppress(ModelProblem):
+                    self._declare(name, said)
 
     def _unknown(self, program: Program) -> list[Sym]:
         """The symbols of a program that have no meaning."""
@@ -176,6 +191,7 @@ class Symbols:
 
     def notes(self, program: Program) -> tuple[str, ...]:
         """Of each symbol of a program that usually means something else what that is called here."""
+        said_names = {n.name for n in walk(program) if isinstance(n, Sym)} - {line.name.name for line in program.assignments}
         used = {folded(n.name) for n in walk(program) if isinstance(n, Sym)}
         own = [line.name.name for line in program.assignments if line.name.name in self.meanings and not line.name.dots]
         clashes = [
@@ -187,6 +203,9 @@ class Symbols:
         gone = [line for line in program.assignments if isinstance(line, Elimination)]
         said = [re.split(r"[;\n]", program.text[line.span[0] :])[0].strip() for line in gone]
         made = [f"Here {line.name.name} is what `{text}` makes it." for line, text in zip(gone, said, strict=True)]
+        made += [f"Here {name} is read as: {self.assumed[name]}." for name in self.assumed if name in said_names]
+        if program.tight or (_DOUBTFUL.search(program.text) and misfit(program, self.dimensions)):
+            made.append(f"It is read as: {written(program)}")
         return (*clashes, *made, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))
 
     # --- values --------------------------------------------------------------------------------
@@ -307,6 +326,10 @@ class Symbols:
             return token
         dots = name[1] if isinstance(name, tuple) else 0
         return "(" + found.needed(dots)[0] + ")"
+
+    @cached_property
+    def _usual(self) -> dict[str, str]:
+        return dict(usual(self.spec, self.metadata, self.start))
 
     @cached_property
     def _spellings(self) -> Names:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell, suggestion
-from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
 
 from .rates import derivative
 
@@ -26,7 +26,7 @@ Masses = Callable[[], Mapping[str, tuple[Array, Array]]]
 class Meaning:
     """What a symbol is. ``texts`` are one expression for a number, three for a vector along i, j, k.
 
-    ``kind`` is parameter, coordinate, gauge, time, gravity, direction, reaction or declared; ``dimension`` None fits any.
+    ``kind`` is parameter, coordinate, gauge, time, gravity, direction, reaction, initial or declared; ``dimension`` None fits any.
     """
 
     kind: str
@@ -82,7 +82,10 @@ _DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
 _JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
 _GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\[.+\]|\S+?)(, along k)?")
 _MOMENTUM = re.compile(r"momentum of (.+) along \[(.+)\]")
-_FORCE = re.compile(r"force on (.+)")
+_FORCE = re.compile(r"force on (.+?)(?: along ([xy]))?")
+_INERTIA = re.compile(rf"inertia of (.+) about {_POINT}")
+INITIAL = "at the start: "
+"""How a text begins that says what a coordinate or a rate is where the motion starts."""
 LOAD = "load "
 """How a text begins that names a load of the free-body diagrams, one place of a contact that holds at several, by its symbol."""
 
@@ -104,10 +107,12 @@ class Reader:
         if not isinstance(said, str):
             return self.components(list(said))
         phrase = " ".join(said.split())
+        if phrase.startswith(INITIAL):
+            return Meaning("initial", (self.measured(phrase.removeprefix(INITIAL))[0],))
         if phrase.startswith(LOAD):
             return Meaning("reaction", (phrase,), FORCE)
         phrases = {_PLACE: self.place, _DIRECTION: self.direction, _JOINT: self.reaction}
-        phrases |= {_GROUP: self.moment, _MOMENTUM: self.momentum, _FORCE: self.resultant}
+        phrases |= {_GROUP: self.moment, _MOMENTUM: self.momentum, _FORCE: self.resultant, _INERTIA: self.inertia}
         for pattern, reading in phrases.items():
             if found := pattern.fullmatch(phrase):
                 return reading(*found.groups())
@@ -181,11 +186,20 @@ class Reader:
             out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)
 
-    def resultant(self, bodies: str) -> Meaning:
-        """All that acts on bodies from outside: Σ m a of their mass centres."""
+    def inertia(self, body: str, point: str) -> Meaning:
+        """The moment of inertia of a body about a point, by the parallel axis."""
+        (name,) = self.group(body)
+        square = f"(x({point}) - x({spell(name)}.G))^2 + (y({point}) - y({spell(name)}.G))^2"
+        parts = ("0", "0", self.measured(square)[0], "0" if name in self.particles else "1")
+        return OfBodies("declared", parts, MASS.times(LENGTH, 2), (name,), axis=2)
+
+    def resultant(self, bodies: str, axis: str | None) -> Meaning:
+        """All that acts on bodies from outside: Σ m a of their mass centres; its component along an axis."""
         group = self.group(bodies)
         found = [[self.measured(f"{a}({body}.G)")[0] for a in ("ax", "ay")] for body in map(spell, group)]
-        return OfBodies("declared", tuple(text for x, y in found for text in (x, y, "0", "0")), FORCE, group)
+        return OfBodies(
+            "declared", tuple(text for x, y in found for text in (x, y, "0", "0")), FORCE, group, (), axis and "xy".index(axis)
+        )
 
     def group(self, bodies: str) -> tuple[str, ...]:
         """The bodies of ``upper, lower`` or ``all``."""

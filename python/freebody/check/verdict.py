@@ -156,9 +156,9 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
     if equation.relation != "=":  # one side is not above the other, on every state
         gap = found.ratio if equation.relation.startswith("<") else -found.ratio
         if gap.max() <= HOLDS:
-            return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(case, found))
+            return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(found, case.values()))
         broken = Residual(found.sides, np.maximum(gap, 0.0))
-        return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(case, broken))
+        return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(broken, case.values()))
     worst = found.worst
     if HOLDS <= worst <= FAILS:  # on fresh states, badly conditioned ones aside if they are few
         again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
@@ -169,10 +169,10 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         return _true(case, equation, text, found)
     if worst <= FAILS:
         what = f"the two sides differ by {worst:.1e} of their terms: more than round-off, less than a mistake"
-        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, found))
+        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(found, case.values()))
     if loose := case.depends_on_stress(equation):
         what = f"{', '.join(loose)} is not determined by the balances of this model: its parts can be pre-stressed"
-        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(case, found))
+        return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(found, case.values()))
     return _not_true(case, equation, text, found)
 
 
@@ -227,12 +227,12 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
     which = "from the start of this model " if case.hypothesis.since else ""
     share = f"{max(found.worst, 1e-16):.0e} of its terms"
     reason = f"holds on {len(found.ratio)} random motions {which}with random parameters, to {share}"
-    return Verdict(Kind.TRUE, text, reason, evidence=evidence(case, found), untested=tuple(blind))
+    return Verdict(Kind.TRUE, text, reason, evidence=evidence(found, case.values()), untested=tuple(blind))
 
 
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
     """A slip where one edit corrects it; else an assumption that excuses what was left out; else wrong."""
-    seen = evidence(case, found)
+    seen = evidence(found, case.values())
     if not case.correcting:
         return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(corrections(case, equation))
@@ -246,7 +246,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         fixes = tuple(replace(each, given=words) for each in corrections(near, equation))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
-    what = "wrong, and no single or double edit corrects it"
+    what = "wrong" if case.budget.spent else "wrong, and no single or double edit corrects it"
     return Verdict(Kind.WRONG, text, what, evidence=seen, true=nearest(case, equation))
 
 
@@ -266,10 +266,10 @@ def _sufficiency(case: Case) -> str:
     return f"all {rank} true, and independent in {', '.join(unknown)}"
 
 
-def evidence(case: Case, found: Residual) -> Evidence:
+def evidence(found: Residual, values: Mapping[str, Array]) -> Evidence:
     """The state at which the two sides are farthest apart."""
     k = int(np.abs(found.ratio).max(axis=1).argmax())
-    return Evidence.at(found.sides, case.values(), k, float(np.abs(found.ratio[k]).max()), len(found.ratio))
+    return Evidence.at(found.sides, values, k, float(np.abs(found.ratio[k]).max()), len(found.ratio))
 
 
 def _plain(value: Any) -> str:

@@ -71,11 +71,12 @@ _MORE = (
     "rps = turn / second",
     "kph = kilometer / hour",
 )
-_COMMON = (
+COMMON = (
     *("m", "mm", "cm", "km", "in", "ft", "yd", "kg", "g", "mg", "t", "lb", "lbm", "oz", "slug", "s", "ms", "min", "h"),
     *("rad", "deg", "rev", "N", "kN", "mN", "lbf", "kgf", "J", "kJ", "W", "kW", "hp", "Pa", "kPa", "MPa", "bar", "psi"),
     *("Hz", "rpm", "mph"),
 )
+"""Those that a slip of the pen may mean, and that are read where a symbol has their name."""
 _NO_UNITS = {"c", "pi", "tau", "e", "G", "speed_of_light", "count", "percent", "ppm"}
 
 _NUMBER = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*")
@@ -136,7 +137,7 @@ def unit(text: str) -> Unit:
     except LookupError:
         pass
     unknown = [piece for piece in pieces if piece[0].isalpha() and word(piece) is None]
-    near = nearest(unknown[0], _COMMON) if unknown else None
+    near = nearest(unknown[0], COMMON) if unknown else None
     what = f"there is no unit `{unknown[0]}`" if unknown else f"`{text}` is no unit"
     raise ModelProblem(what, f"did you mean `{near}`?" if near else "units look like `mm`, `N*m`, `kg*m^2`, `m/s^2`, `deg`")
 
@@ -219,7 +220,7 @@ def _unit_after(number: str, text: str, start: int, known: Callable[[str], bool]
         if name in ("and", "or", "not") or (sign and name == "t"):  # t is the time, and 2 t are two tonnes
             break
         if total is None and not sign and word(name) is None:
-            near = nearest(name, _COMMON)
+            near = nearest(name, COMMON)
             hint = f"for a product write `{number}*{name}`" + (f"; or did you mean the unit `{near}`?" if near else "")
             raise ModelProblem(f"after the number {number} stands `{name}`, which is no unit", hint)
         rate = sign == "/" and name in _TIMES and not divides and not known(name)  # 10/s

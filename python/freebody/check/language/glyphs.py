@@ -42,10 +42,12 @@ _SAME = {
     **dict.fromkeys("−–‐‒﹣", "-"),
     **dict.fromkeys("⋅∙•", "·"),
     **{"∗": "*", "⨯": "×", "∧": "×", "÷": "/", "⁄": "/", "≤": "<=", "≥": ">=", "√": "sqrt", "|": "|", "≔": "="},
+    **dict.fromkeys("≈≃≅", "="),
 }
 _FRACTIONS = {"½": "(1/2)", "¼": "(1/4)", "¾": "(3/4)", "⅓": "(1/3)", "⅔": "(2/3)", "⅛": "(1/8)"}
 _COMMANDS = {
     **{"cdot": "·", "times": "×", "wedge": "×", "ast": "*"},
+    **dict.fromkeys(("approx", "simeq", "cong", "equiv"), "="),
     **{"le": "<=", "leq": "<=", "ge": ">=", "geq": ">=", "lt": "<", "gt": ">"},
     **{"frac": "frac", "tfrac": "frac", "dfrac": "frac", "sqrt": "sqrt", "{": "(", "}": ")", "lbrack": "[", "rbrack": "]"},
     **{"partial": "∂", "circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
@@ -56,7 +58,7 @@ _WORDS = {"mathrm", "mathsf", "operatorname", "text", "textbf"}
 _FONTS = {
     *_WORDS,
     *("vec", "hat", "mathbf", "boldsymbol", "bm", "bar", "underline", "overrightarrow"),
-    *("mathit", "widehat", "overline", "tilde", "pmb"),
+    *("boxed", "mathit", "widehat", "overline", "tilde", "pmb"),
 }
 """Commands that change how a letter looks, and not what it is."""
 _NOTHING = {
@@ -64,13 +66,19 @@ _NOTHING = {
     *("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr"),
     *("displaystyle", "allowdisplaybreaks", "notag", "nonumber", "limits"),
 }
+_THEREFORE = {"Rightarrow", "implies", "therefore", "Longrightarrow", "Leftrightarrow", "iff"}
 _FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "log", "arcsin", "arccos", "arctan"}
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _BLANKS = re.compile(r"\s*")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
-_LABEL = re.compile(r"(?m)^[^=:\n\\]*:(?!=)|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$")
+_CONDITION = r"at|when|if|for|after|before|initially|just|until|while|during"
+"""Words with which no label begins: what stands there says of which motions it is."""
+_LABEL = re.compile(
+    rf"(?m)^(?!\s*(?:{_CONDITION})\b)[^=:\n\\]*:(?!=)|^\s*(?:\\sum|[Σ∑])[^:\n]*:(?!=)"
+    r"|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$"
+)
 _FITTED = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$)(.*?)\$\}", re.DOTALL)
 
 
@@ -164,6 +172,8 @@ class _Reader:
         return self.sign(word, span)
 
     def sign(self, word: str, span: Span) -> list[Glyph]:
+        if word in _THEREFORE:
+            return [Glyph(Kind.LINE, "\n", span)]
         if word == "\\":
             return [Glyph(Kind.SIGN, ";", span) if self.matrices else Glyph(Kind.LINE, "\n", span)]
         if word in _FUNCTIONS:
@@ -190,7 +200,7 @@ def _plain_glyph(char: str, span: Span) -> Glyph:
     """The glyph of one character with its marks."""
     base = unicodedata.normalize("NFD", char)[0]
     form = unicodedata.decomposition(base)
-    if char in "\n\r":
+    if char in "\n\r⇒⟹∴⇔":
         return Glyph(Kind.LINE, "\n", span)
     if char.isspace() or char in "~$":
         return Glyph(Kind.SPACE, " ", span)

@@ -53,7 +53,8 @@ class Line:
         if kind == "end" and self.now.kind in (")", "]", "}"):
             raise StatementError(f"a `{self.now.text}` that was never opened", self.now.span)
         expected = {"end": "the end", "symbol": "a symbol"}.get(kind, f"`{kind}`")
-        raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span)
+        hint = "conditions are `if …:`, `at rest:`, `at the start:`, `at θ = 0:`" if self.now.kind == ":" else ""
+        raise StatementError(f"`{self.now.text}` stands where {expected} is expected", self.now.span, hint)
 
     def end(self) -> Span:
         """The last character of the line."""
@@ -110,7 +111,10 @@ class Line:
             if unit := self.unit(factors[-1]):
                 factors.append(unit)
             elif self.accept("/"):
-                top, bottom = _product(factors), self.signed(self.factor)
+                top, below = _product(factors), [self.signed(self.factor)]
+                while self.names.tight and self.now.attached and self.now.kind in _BEGINS:
+                    below.append(self.factor())
+                bottom = _product(below)
                 factors = [Quotient(top, bottom, span=self.span(top))]
             elif self.accept("*"):
                 factors.append(self.signed(self.factor))
@@ -257,7 +261,7 @@ class Line:
         return found
 
     def bare_argument(self, token: Token) -> Node:
-        """One symbol, a number before it and a ``t`` directly behind it."""
+        """One symbol, a number before it and a ``t`` behind it."""
         sign = self.accept("-")
         if self.now.kind not in ("number", "symbol", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
@@ -267,7 +271,7 @@ class Line:
                 factors.append(unit)
             elif self.now.kind == "symbol" and token.text != "sqrt":
                 factors.append(self.primary())
-        if self.now.kind == "symbol" and self.now.text == "t" and self.now.attached:
+        if self.now.kind == "symbol" and self.now.text == "t" and not self.now.dots:
             factors.append(self.primary())
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found
@@ -315,12 +319,14 @@ class Line:
     def unit_ends(self, start: int) -> list[int]:
         """Where a unit that starts here can end: where tokens do, and some word of it is no symbol that is known.
 
-        A known symbol goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``.
+        A known symbol goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``; with
+        ``units`` a symbol that has the name of a common one is one.
         """
         ends, at, some_unknown = [], start, False
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
-            known = not self.names.units and self.names.find(folded(found["word"])) is not None
+            named = self.names.find(folded(found["word"])) is not None
+            known = named and not (self.names.units and found["word"] in units.COMMON)
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
                 break
             at, some_unknown = found.end(), some_unknown or not known

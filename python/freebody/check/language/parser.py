@@ -5,8 +5,8 @@ Rules of reading:
 - Side by side is times, like ``*``; ``*``, ``/`` and side by side go from left to right, so ``/`` takes the next factor only:
   ``a/b c`` is (a/b)·c, and ``m l/(M+m) (…)`` is (m l/(M+m))·(…).
 - ``×`` binds looser than these and ``·`` looser still: ``k·r×m a`` is k·(r×(m a)).
-- A function without brackets takes one symbol, with a number before it and a ``t`` directly behind it: ``cosθ θ̈`` is
-  (cos θ) θ̈, ``sin 2ωt`` is sin(2ωt).
+- A function without brackets takes one symbol, with a number before it and a ``t`` behind it: ``cosθ θ̈`` is (cos θ) θ̈,
+  ``sin 2ω t`` is sin(2ωt).
 - ``(a, b)`` is a column, ``[a, b; c, d]`` a matrix; brackets without commas only group.
 - Lines end at line ends, at ``;`` and ``,`` outside brackets, and at the words *where*, *with*, *and*. A line that starts with
   ``=``, ``+``, ``*``, ``/``, follows an operator, or starts with ``-`` where one of the two has no ``=``, goes on.
@@ -30,19 +30,22 @@ from .statements import Assignment, Equation, Partial, Program, Rate, written_ou
 from .tokens import Names, Token, tokens
 
 
-def parse(text: str, names: Iterable[str] = (), constants: Iterable[str] = (), units: bool = False) -> Program:
+def parse(
+    text: str, names: Iterable[str] = (), constants: Iterable[str] = (), units: bool = False, tight: bool = False
+) -> Program:
     """The lines of a statement. ``names`` are the symbols that are known, of which those in ``constants`` do not change with time;
-    unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name.
+    unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name; ``tight``: what stands directly behind a
+    factor below a stroke is below it, too, 2k/(3m) for ``2k/3m``.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
     own = tuple(names)
-    known = Names(own, frozenset(constants), units)
+    known = Names(own, frozenset(constants), units, tight)
     try:
         known = replace(known, known=(*own, *_assigned(tokens(text, known), known)))
         rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
         lines = _written_out(_meanings(rows, set(own)), known)
-        program = Program((*_rates(lines, known), *lines), text, units, span=(0, len(text)))
+        program = Program((*_rates(lines, known), *lines), text, units, tight, span=(0, len(text)))
     except StatementError as error:
         raise error.within(text) from None
     except RecursionError:

@@ -52,6 +52,8 @@ class Names:
     """Those that do not change with time."""
     units: bool = False
     """Whether what may be a unit behind a number is one, known symbol or not."""
+    tight: bool = False
+    """Whether what stands directly behind a factor below a stroke is below it, too."""
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
@@ -157,6 +159,8 @@ class _Reader:
         """The names that stand side by side from here."""
         if found := self.derivative():
             return self.take([found])
+        if found := self.slope():
+            return self.take(found)
         end = self.run_end(self.at)
         if (count := end - self.at) > _LONGEST:
             what = f"{count} letters without a sign between them"
@@ -315,6 +319,19 @@ class _Reader:
             return _Piece("rate", "d/dt", order, end)
         name, dots = self.names.find(folded(found[2])) or (found[2], 0)
         return _Piece("symbol", name, dots + order + self.marks(self.at, end), end)
+
+    def slope(self) -> list[_Piece] | None:
+        """dv/dx, from a d on, of two known names: the quotient of their rates, in brackets."""
+        middle = self.run_end(self.at)
+        end = self.run_end(middle + 1) if self.row[middle].text == "/" else middle
+        top, bottom = self.spelling(self.at, middle), self.spelling(middle + 1, end)
+        if not top.startswith("d") or not bottom.startswith("d") or self.names.find(top):
+            return None
+        found = [self.names.find(text[1:]) for text in (top, bottom)]
+        if None in found:
+            return None
+        rates = [_Piece("symbol", name, dots + 1, end) for name, dots in found]
+        return [_Piece("(", "(", 0, end), rates[0], _Piece("/", "/", 0, end), rates[1], _Piece(")", ")", 0, end)]
 
     def order(self, at: int) -> tuple[int, int]:
         """The order of a derivative written here (1 where nothing is), and the glyph behind it."""

@@ -1,0 +1,43 @@
+"""How long is looked for what would make a wrong statement true."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from time import process_time
+from typing import TypeVar
+
+import numpy as np
+
+T = TypeVar("T")
+_SECONDS = (10, 20), (2.0, 10.0)
+"""Bodies, and how long a statement about them may take."""
+
+
+@dataclass
+class Budget:
+    """Seconds of computing from the first question on. ``spent``: something was left out for want of time."""
+
+    seconds: float
+    spent: bool = False
+    begins: float = math.nan
+
+    @staticmethod
+    def seconds_for(bodies: int) -> float:
+        """How many a statement about a model of so many bodies may take."""
+        return float(np.interp(bodies, *_SECONDS))
+
+    @property
+    def words(self) -> str:
+        """That it was not enough."""
+        return f"After {self.seconds:g} s no more was looked for: there may be other corrections."
+
+    def within(self, found: Iterable[T], part: float = 1.0) -> Iterator[T]:
+        """What there is, as long as there is time; a ``part`` of it, so that some is left for what comes after."""
+        self.begins = process_time() if math.isnan(self.begins) else self.begins
+        for each in found:
+            if process_time() - self.begins > part * self.seconds:
+                self.spent = True
+                return
+            yield each

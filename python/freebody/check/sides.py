@@ -1,0 +1,44 @@
+"""On which side of its start a place is: of distances that the model reads, and of the ends of strings."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from freebody.core import Array, CompiledModel, State, quote
+
+_TOUCHING = 1e-9
+"""Least square of a distance on the way, relative to that at its ends: below it the distance has been 0."""
+
+
+def changes_side(core: CompiledModel, squares: Sequence[str], start: Array, state: State) -> bool:
+    """Whether one of the ``squares`` of distances would be 0 on the straight way from the coordinates ``start``: then its two points
+    would have changed sides, and what is x on the one is −x on the other."""
+    first, half, last = np.array([core.evaluate(squares, state.at(q)) for q in (start, (start + state.q) / 2, state.q)])
+    a, b = 2 * (first - 2 * half + last), 4 * half - 3 * first - last  # along a line d² is a parabola, c + b s + a s²
+    with np.errstate(all="ignore"):
+        between = (-b > 0) & (-b < 2 * a)
+        return bool(np.any(between & (first - b**2 / (4 * a) < _TOUCHING * np.maximum(first, last))))
+
+
+def squares(spec: Mapping[str, Any]) -> Iterator[str]:
+    """The squares of the distances that springs, dampers, polar coordinates and expressions of a model read, and of the free lengths
+    of its strings."""
+    pairs = [force["with"]["between"] for force in spec["forces"] if "between" in force["with"]]
+    pairs += [joint["with"]["of"] for joint in spec["joints"] if joint["type"] == "polar"]
+    yield from (f"distance({quote(a)}, {quote(b)})^2" for a, b in pairs)
+    yield from (f"{read}^2" for read in re.findall(r"distance\([^()]*\)", json.dumps(spec, ensure_ascii=False)))
+    for string in spec["strings"]:
+        stations = [_circle(item) for item in (string["ends"][0], *string["over"], string["ends"][1])]
+        yield from (f"distance({quote(a)}, {quote(b)})^2 - (({r}) + ({s}))^2" for (a, r), (b, s) in pairwise(stations))
+
+
+def _circle(item: Mapping[str, Any]) -> tuple[str, Any]:
+    """The centre and the radius of what a string ends at or goes over: a point, an eyelet, a pulley or a drum."""
+    (place,) = item.values()
+    return (place, 0) if isinstance(place, str) else (place["centre"], place["radius"])
