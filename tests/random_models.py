@@ -19,7 +19,7 @@ NAMES = ("g", "t", "pi", "e", "i", "m", "N", "kg", "rad", "x", "T", "s", "l", "s
 RESERVED = ("t", "pi")
 """Refused as names of coordinates and parameters."""
 RIGID = tuple(kind for kind, card in joints().items() if card.coordinates)
-PARTICLE = ("link", "slot", "curved_slot", "free", "polar")
+PARTICLE = ("link", "slot", "curved_slot", "one_sided_cam", "free", "polar")
 LOOPS = ("link", "slot", "hinge", "coupling")
 FORCES = ("force", "torque", "spring", "torsion_spring", "damper", "law")
 LIMITS = ("contact", "string", "stop")
@@ -28,7 +28,9 @@ LIMITS = ("contact", "string", "stop")
 class Draw:
     """A model being drawn; places in m, a few kg and N."""
 
-    def __init__(self, seed: int) -> None:
+    def __init__(self, seed: int, apart: bool = False) -> None:
+        """``apart``: followers that a curve can only push are off it."""
+        self.apart = apart
         self.rng = np.random.default_rng(seed)
         self.names = iter(self.rng.permutation(NAMES).tolist())
         self.letters = iter(
@@ -70,12 +72,14 @@ class Draw:
             kind, point = self.of(*RIGID), f"{name}.P"
         at = f"{carrier}.Q" if carrier != "ground" else "ground.O"
         line, circle = {"through": at, "angle": self.about(3)}, {"centre": point, "radius": 0.1}
+        pushed = {**circle, "radius": self.of(0, 0.1)}
         fields: dict[str, Any] = {
             "slider": {"along": line, "line": {"through": point, "angle": self.about(3)}},
             "rollers": {"along": line, "points": [point, f"{name}.Q"]},
             "slot": {"along": line, "point": point},
             "curved_slot": {"along": f"{carrier}.wave", "point": point},
             "cam": {"along": f"{carrier}.wave", "follower": circle},
+            "one_sided_cam": {"along": f"{carrier}.wave", "follower": pushed, "right": self.of(True, False)},
             "rolling": {"on": line, "circle": circle},
             "rolling_circles": {"on": {"centre": at, "radius": 0.4}, "circle": circle},
             "link": {"of": [at, point], "length": self.within(0.4, 1)},
@@ -84,7 +88,11 @@ class Draw:
         own = [f"q{len(self.values) + k}" if self.rng.random() < 0.5 else next(self.letters) for k in range(len(card))]
         self.model["joints"][f"J {name}"] = {"type": kind, **fields, "coordinates": own}
         for each, coordinate in zip(card, own, strict=True):
-            self.values[coordinate] = self.within(0.5, 1.5) if each.name == "r" else self.about(1)
+            if each.gap:
+                gap = self.within(0.2, 0.8)
+                self.values[coordinate] = self.of(gap if self.apart else 0.0, gap)
+            else:
+                self.values[coordinate] = self.within(0.5, 1.5) if each.name == "r" else self.about(1)
 
     def mass(self) -> float | str:
         """A number, or a parameter."""
@@ -213,8 +221,8 @@ def drawn(seed: int) -> fb.Mechanism:
     return _drawn(seed).mechanism()
 
 
-def _drawn(seed: int) -> Draw:
-    draw = Draw(seed)
+def _drawn(seed: int, apart: bool = False) -> Draw:
+    draw = Draw(seed, apart)
     for _ in range(draw.rng.integers(1, 4)):
         draw.body()
     for add, chance in ((draw.loop, 0.3), (draw.motion, 0.3), (draw.limit, 0.4), *(3 * [(draw.force, 0.6)]), (draw.lock, 0.2)):

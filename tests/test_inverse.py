@@ -32,7 +32,7 @@ run: {until: 1 s}
 
 def driven(seed: int) -> tuple[fb.Mechanism, list[str]]:
     """A random mechanism of one to three bodies, some with a loop, and a force with a parameter of its own along every coordinate."""
-    draw = _drawn(seed)
+    draw = _drawn(seed, apart=True)
     for word in ("motions", "contacts", "strings", "stops", "events"):
         draw.model[word] = {}
     names = [f"motor {i}" for i in range(len(draw.values))]

@@ -36,13 +36,15 @@ class Field:
 @dataclass(frozen=True)
 class Coordinate:
     """A coordinate of a joint with its SI unit (empty for a curve parameter); ``turn``: it is the second body's own turn.
-    ``line``: that along which, or ``across`` which, it moves this body, ``{}`` being the joint; or empty."""
+    ``line``: that along which, or ``across`` which, it moves this body, ``{}`` being the joint; or empty. ``gap``: a stop, called
+    ``JOINT.contact``, keeps it from falling below 0."""
 
     name: str
     unit: str
     turn: bool
     line: str
     across: bool
+    gap: bool
 
 
 @dataclass(frozen=True)
@@ -94,6 +96,11 @@ class Card:
     def pinned(self) -> bool:
         """Whether it holds a pin of the second body, about which that turns."""
         return self._second in ("point", "points") and any(coordinate.turn for coordinate in self.coordinates)
+
+    @property
+    def gap(self) -> int | None:
+        """Which coordinate is a gap that a stop keeps from falling below 0, if one is."""
+        return next((k for k, coordinate in enumerate(self.coordinates) if coordinate.gap), None)
 
     @property
     def slides(self) -> bool:
@@ -174,7 +181,8 @@ def _declared() -> dict[str, Any]:
 
 
 def _card(data: dict[str, Any], readings: dict[str, str | None]) -> Card:
-    coordinates = (Coordinate(c["name"], c["dimension"] or "", c["turn"], c["line"], c["across"]) for c in data["coordinates"])
+    words = ("turn", "line", "across", "gap")
+    coordinates = (Coordinate(c["name"], c["dimension"] or "", *(c[word] for word in words)) for c in data["coordinates"])
     rows, parts = (tuple(LoadCard(**load) for load in data[word]) for word in ("rows", "parts"))
     fields, outline = tuple(map(_field, data["fields"])), tuple(tuple(map(tuple, stroke)) for stroke in data["outline"])
     return Card(

@@ -95,7 +95,8 @@ def has_ends(card: cards.Card) -> bool:
 
 
 _ONLY_OF = {
-    "one_sided": "for two bodies that push each other write a contact, under `contacts`",
+    "one_sided": "along a curve write a `one_sided_cam`, for a point with a follower of radius 0; for two bodies that push each other "
+    "a contact, under `contacts`",
     "ends": f"only {', '.join(word for word, card in cards.joints().items() if has_ends(card))} run along a line with ends; "
     "for others write a stop, under `stops`",
 }

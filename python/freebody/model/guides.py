@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from freebody.core import Spec, cards
 
@@ -44,6 +44,11 @@ def ends_and_side(write: Writer, name: str, joint: elements.Element, written: Sp
     elif elements.given(joint, "end_restitution") is not None:
         here = (*path, "end_restitution")
         write.scope.complain(here, "`end_restitution` belongs to the stops of `ends: stop`", "leave it out")
+    if (gap := cards.joints()[joint.type].gap) is not None:
+        written["engaged"] = True  # what is engaged is the stop; its coordinates are there in any case
+        given = elements.given(joint, "restitution")
+        restitution = write.fraction((*path, "restitution"), 0 if given is None else given, "a restitution")
+        _stop(write, f"{full}.contact", _place(write, name, joint, written, gap), restitution, joint, path)
     if elements.given(joint, "one_sided"):
         for event, push in lifting(name, joint):
             _event(write, event, push.format(spell(full)), full, (*path, "one_sided"))
@@ -68,16 +73,19 @@ def _ends(write: Writer, path: Path, name: str, joint: elements.Element, written
     given = elements.given(joint, "end_restitution")
     restitution = write.fraction((*path[:-1], "end_restitution"), 0 if given is None else given, "a restitution")
     for side, gap in zip(("start", "end"), gaps, strict=True):
-        stop = f"{written['name']}.{side}"
-        write.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
-        write.items[f"stops.{stop}"] = (write.scope, path)
+        _stop(write, f"{written['name']}.{side}", gap, restitution, joint, path)
 
 
-def _place(write: Writer, name: str, joint: elements.Element, written: Spec) -> str:
-    """How far along its line the joint is, by its first coordinate."""
-    (own, _), *_ = scope.coordinate_names(name, joint)
+def _stop(write: Writer, stop: str, gap: str, restitution: Any, joint: elements.Element, path: Path) -> None:
+    write.spec["stops"].append({"name": stop, "gap": gap, "restitution": restitution, "engaged": joint.engaged})
+    write.items[f"stops.{stop}"] = (write.scope, path)
+
+
+def _place(write: Writer, name: str, joint: elements.Element, written: Spec, which: int = 0) -> str:
+    """How far along its line the joint is, by its first coordinate, or the measure of another."""
+    own, _ = scope.coordinate_names(name, joint)[which]
     coordinate = spell(write.prefix + own)
-    given = written["coordinates"][0] if written["coordinates"] else {}
+    given = dict(enumerate(written["coordinates"])).get(which, {})
     zero, sign = given.get("zero", 0.0), "-" if given.get("sense") == -1 else "+"
     if zero == 0.0:
         return coordinate if sign == "+" else f"-{coordinate}"

@@ -159,6 +159,8 @@ class _Declarations:
         if ends == "stop":
             self.stops_of(name, "start", "end")
             self.found.several[self.prefix + name].insert(0, self.prefix + name)
+        if cards.joints()[joint.type].gap is not None:
+            self.stops_of(name, "contact")
         events = guides.leaving(name) if ends == "free" else []
         if elements.given(joint, "one_sided"):
             events += [event for event, _ in guides.lifting(name, joint)]

@@ -20,6 +20,7 @@ _LEAST = 0.35  # rad, the arc that shows the sense of an angle whose own cannot 
 _LEVELS = 5  # places further and further out where an arrow may keep off others
 _APART = 1.6  # sizes of symbols between two arrows
 _TWO_POINTS = "direction"
+_GAP = "gap"  # of a follower from its curve
 _OWN_ANGLE = "phi"  # of a body by itself
 _AXES = {"x": np.array([1.0, 0.0]), "y": np.array([0.0, 1.0])}
 
@@ -147,6 +148,8 @@ def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Offer
 def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offered:
     """Beside the way from where the joint would be at 0."""
     along = _way(sketch, asked)
+    if asked.word == _GAP:  # measured to the rim of the follower
+        place = place - sketch.number(asked.joint["with"]["follower"]["radius"]) * along
     zero = place - asked.value * asked.sense * along
     shown = asked.value if abs(asked.value) > sketch.size else 3 * sketch.size
     left = aside * np.array([-along[1], along[0]])
@@ -158,7 +161,7 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offer
 
 def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:
     """Beside the curve from where the coordinate is 0."""
-    curve = next(each for each in sketch.spec["curves"] if each["name"] == asked.joint["with"]["along"])
+    curve = _curve_of(sketch, asked.joint)
     start = points_of_curve(sketch, curve, asked.zero + np.array([0.0, 1e-4]))
     least = sketch.size * 1e-4 / float(np.hypot(*(start[1] - start[0])))
     end = asked.value if abs(asked.value) > least else 3 * least
@@ -166,6 +169,18 @@ def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:
     slopes = np.gradient(line, axis=0) * np.sign(end) * asked.sense
     left = aside * np.column_stack([-slopes[:, 1], slopes[:, 0]]) / np.hypot(*slopes.T)[:, None]
     return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])], end
+
+
+def _curve_of(sketch: Sketch, joint: Mapping[str, Any]) -> Mapping[str, Any]:
+    return next(each for each in sketch.spec["curves"] if each["name"] == joint["with"]["along"])
+
+
+def _normal(sketch: Sketch, asked: _Asked) -> Array:
+    """Unit direction from the place of a curve that is nearest to its follower to that."""
+    s = next(c["name"] for c in sketch.metadata["coordinates"] if c["joint"] == asked.joint["name"])
+    near = points_of_curve(sketch, _curve_of(sketch, asked.joint), sketch.travel(s)[0] + np.array([-1e-4, 1e-4]))
+    x, y = (near[1] - near[0]) * (-1.0 if asked.joint["with"].get("right") else 1.0)
+    return np.array([-y, x]) / np.hypot(x, y)
 
 
 def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
@@ -194,12 +209,15 @@ def _outwards(sketch: Sketch, joint: Mapping[str, Any]) -> tuple[Array, Array]:
 
 
 def _way(sketch: Sketch, asked: _Asked) -> Array:
-    """Unit direction in which a length grows: an axis of the first body, from the first point to the second, or the line's."""
+    """Unit direction in which a length grows: an axis of the first body, from the first point to the second, the normal of a curve,
+    or the line's."""
     fields = asked.joint["with"]
     if asked.word == "r":
         return _outwards(sketch, asked.joint)[1]
     if asked.word in _AXES:
         body, along = asked.first, _AXES[asked.word]
+    elif asked.word == _GAP:
+        body, along = asked.first, _normal(sketch, asked)
     else:
         body, _, along = sketch.line(fields.get("along") or fields["on"])
     return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]

@@ -12,6 +12,8 @@ from freebody.solve.perturbed_states import Closing
 
 STEP = 1e-4
 """rad and m; of accelerations a difference of fourth order leaves 1e-12, their round-off as much."""
+PASSES = 3
+"""Each leaves the square of what the free coordinates are off."""
 
 
 def tangent(source: CompiledModel, state: State, free: Sequence[str]) -> np.ndarray:
@@ -39,10 +41,18 @@ def first_order(source: CompiledModel, state: State, free: Sequence[str]) -> np.
     places, ways = [names.index(name) for name in free], tangent(source, state, free)
     closing = Closing(source, state, source.free_bodies(state))
 
+    def moved(way: np.ndarray) -> np.ndarray:
+        """What is closed is closed from one side or the other, and the free ones are brought back to where they were to be."""
+        q = state.q + way
+        for _ in range(PASSES):
+            placed = closing.place(q)
+            assert placed is not None, "what is closed does not stay so"
+            q = placed + ways @ (state.q + way - placed)[places]
+        return placed
+
     def beside(way: np.ndarray, rates: bool) -> np.ndarray:
         def accelerations(h: float) -> np.ndarray:
-            q = state.q if rates else closing.place(state.q + h * way)
-            assert q is not None, "what is closed does not stay so"
+            q = state.q if rates else moved(h * way)
             return source.instant(replace(state, q=q, u=h * way if rates else np.zeros_like(way))).accelerations[places]
 
         return slope(accelerations)

@@ -115,8 +115,12 @@ pub const LIMIT: &[Answer] = &[
 ];
 
 /// What can be read of a joint, with the unit of what it acts along: those of every joint, one for each row, a tension where it pulls.
+/// Where one side only pushes, all is read of the stop.
 pub fn of_joint(card: &Card) -> Vec<(Answer, Option<&'static str>)> {
     let gauge = |turns: bool| Some(if turns { "rad" } else { "m" });
+    if card.is_one_sided() {
+        return vec![];
+    }
     let mut found: Vec<_> = JOINT.iter().map(|&each| (each, None)).collect();
     found.extend(ROWS.into_iter().zip(&card.rows).map(|(each, row)| (each, gauge(row.load.couple))));
     found.extend(card.rows.iter().any(|row| row.load.pulls).then_some((TENSION, None)));

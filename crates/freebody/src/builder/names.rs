@@ -138,7 +138,10 @@ impl Scope<'_> {
         };
         let Some(answer) = answers.iter().find(|answer| answer.word == part) else {
             let known: Vec<_> = answers.iter().map(|answer| answer.word).collect();
-            let hint = format!("it has {}", known.join(", "));
+            let hint = match known.is_empty() {
+                true => format!("what it pushes with is `'{owner}.contact'.N`"),
+                false => format!("it has {}", known.join(", ")),
+            };
             return Some(Err(Message::new(format!("`{owner}` has no such part"), hint)));
         };
         let reading = (answer.read)(number);

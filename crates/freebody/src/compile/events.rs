@@ -3,6 +3,7 @@
 use crate::builder::{unknown, Builder, Names, Reach, Result};
 use crate::error::CompileError;
 use crate::gauges::{ModelExpr, ModelVariable};
+use crate::joints::Joint as _;
 use crate::mechanism::{CurveFollower, Drive, DriveKind, Event, EventAction, Level, Part};
 use crate::spec::{Action, Element, Event as EventSpec, Spec};
 
@@ -45,6 +46,11 @@ impl Builder<'_> {
     pub(crate) fn curve_followers(&mut self) -> Result<()> {
         for element in self.spec.joints.iter().filter(|element| !stays(self.spec, element)) {
             let Some(&(joint, _)) = self.names.joints.get(&element.name) else { continue };
+            if self.m.joints[joint].kind.card().is_one_sided() {
+                let what = "what only pushes opens and closes by itself";
+                let hint = format!("release its stop, `{}.contact`", element.name);
+                return Err(CompileError::new(format!("joints.{}", element.name), what, hint));
+            }
             let Some(pin) = self.m.pin_of(joint) else { continue };
             let hold = self.m.drives.len();
             let (name, of) = (element.name.clone(), ModelExpr::variable(ModelVariable::Coordinate(joint, 0)));

@@ -302,7 +302,7 @@ fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
 /// The rows of a joint, of the tree or not, expressed as a constraint; where its reaction acts, fixed axes.
 pub fn constraint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, out: &mut Vec<Row<S>>) -> Vec2<S> {
     let joint = &at.m.joints[index];
-    if joint.curve.is_some() {
+    if joint.curve.is_some() && !joint.rows.is_empty() {
         let (row, place) = curve_row(at, index);
         out.push(row);
         return place;

@@ -104,6 +104,8 @@ pub struct CoordinateCard {
     pub line: &'static str,
     /// Whether it moves the body across that line.
     pub across: bool,
+    /// Whether it is a gap, which a stop called `JOINT.contact` keeps from falling below 0.
+    pub gap: bool,
 }
 
 /// What a load is: a component of a reaction, a force of the model, friction. Who names it, draws it or tells its unit
@@ -236,7 +238,7 @@ impl Card {
     }
     /// A coordinate.
     pub fn coordinate(mut self, name: &'static str, dimension: &'static str) -> Self {
-        self.coordinates.push(CoordinateCard { name, dimension, turn: false, line: "", across: false });
+        self.coordinates.push(CoordinateCard { name, dimension, turn: false, line: "", across: false, gap: false });
         self
     }
     /// The line along which the last coordinate moves the second body, `{}` being the joint.
@@ -252,8 +254,19 @@ impl Card {
     }
     /// The coordinate that is the turn of the second body.
     pub fn turn(mut self) -> Self {
-        self.coordinates.push(CoordinateCard { name: "angle", dimension: "rad", turn: true, line: "", across: false });
+        self = self.coordinate("angle", "rad");
+        self.coordinates.last_mut().expect("a coordinate").turn = true;
         self
+    }
+    /// The coordinate that is the gap between what can only push each other, with a field for their restitution.
+    pub fn gap(mut self) -> Self {
+        self = self.coordinate("gap", "m");
+        self.coordinates.last_mut().expect("a coordinate").gap = true;
+        self.takes("restitution", FieldKind::Number, "", "0", "speed of parting over speed of approach, 0 to 1")
+    }
+    /// Whether its bodies push each other by a stop, and have no reaction besides.
+    pub fn is_one_sided(&self) -> bool {
+        self.coordinates.iter().any(|coordinate| coordinate.gap)
     }
     /// The two rows that keep a point on a point.
     pub fn pin(self) -> Self {

@@ -155,6 +155,7 @@ list! {
     slot::Slot,
     cam::CurvedSlot,
     cam::Cam,
+    cam::OneSidedCam,
     link::Link,
     parallel::Parallel,
     rolling::Rolling,

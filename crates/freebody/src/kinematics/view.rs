@@ -243,8 +243,8 @@ impl<S: Scalar> MotionView<'_, S> {
         Jet { d0: self.at.coordinate(joint, k), ..measured }
     }
 
-    /// A coordinate of a joint on a curve r(s): the turn is read off the bodies; of the place r̈ = r′s̈ + r″ṡ² is taken
-    /// along r′.
+    /// A coordinate of a joint on a curve: the turn is read off the bodies; of the place r(s), or r(s, gap), whose coordinate lines
+    /// are at right angles, r̈ = r′s̈ + … is taken along r′, where … is what the rates alone give.
     fn along_curve(&self, index: usize, k: usize) -> Jet<S> {
         let (m, n) = (self.at.m, self.at.n);
         let joint = &m.joints[index];
@@ -254,12 +254,19 @@ impl<S: Scalar> MotionView<'_, S> {
             return (if c.absolute { place.angle + axes.turn.angle } else { place.angle }).scale(c.sense);
         }
         let start = m.place_in_q(index, k).expect("a joint along a curve is in the tree");
-        let (q, u) = (self.at.q[start], self.at.u[start]);
-        let unit = [Jet::new(n.values[c.zero] + q.scale(c.sense), S::one(), S::zero()), Jet::constant(S::zero())];
-        let run = JointView::new(m, n, joint, Jet::constant).pose(&unit[..joint.size], false);
-        let slope = Vec2 { x: run.x.d1, y: run.y.d1 };
-        let rest = Vec2 { x: place.x.d2 - run.x.d2 * u * u, y: place.y.d2 - run.y.d2 * u * u };
-        Jet::new(q, u, (slope.dot(rest) / slope.dot(slope)).scale(c.sense))
+        let mut going = [Jet::constant(S::zero()); 3];
+        for (i, other) in joint.coordinates.iter().enumerate().filter(|(_, other)| other.dimension != "rad") {
+            let (q, u) = (self.at.q[start - k + i], self.at.u[start - k + i]);
+            going[other.card] = Jet::new(n.values[other.zero] + q.scale(other.sense), u.scale(other.sense), S::zero());
+        }
+        let view = JointView::new(m, n, joint, Jet::constant);
+        let run = view.pose(&going[..joint.size], false);
+        let mut alone = going.map(|x| Jet::constant(x.d0));
+        alone[c.card].d1 = S::one();
+        let unit = view.pose(&alone[..joint.size], false);
+        let slope = Vec2 { x: unit.x.d1, y: unit.y.d1 };
+        let rest = Vec2 { x: place.x.d2 - run.x.d2, y: place.y.d2 - run.y.d2 };
+        Jet::new(self.at.q[start], self.at.u[start], (slope.dot(rest) / slope.dot(slope)).scale(c.sense))
     }
 }
 

@@ -71,7 +71,8 @@ impl SymbolicState<'_> {
     /// Three balance equations a body and every joint's own equations, in the places of the bodies.
     pub(super) fn constraints(&self) -> Value {
         let (free, mut coordinates) = self.free();
-        coordinates.extend(self.curve_starts().map(|(_, start)| self.m.coordinate(start).name.clone()));
+        let own = self.curve_starts().flat_map(|(joint, start)| self.places_on_curve(joint).map(move |k| start + k));
+        coordinates.extend(own.map(|i| self.m.coordinate(i).name.clone()));
         let mut unknowns: Vec<Variable> = coordinates.iter().map(|c| Variable::new(c, 2)).collect();
         let open = free.loads.iter().filter(|l| matches!(l.size, Size::Unknown | Size::ByLaw));
         unknowns.extend(open.map(|l| Variable::new(&l.symbol, 0)));
@@ -110,14 +111,23 @@ impl SymbolicState<'_> {
         self.at().joints().filter(on_curve).map(move |(index, _)| (index, start(index)))
     }
 
+    /// The coordinates of a joint along a curve that are no turn.
+    fn places_on_curve(&self, joint: usize) -> impl Iterator<Item = usize> + '_ {
+        let own = self.m.joints[joint].coordinates.iter().enumerate();
+        own.filter(|(_, c)| c.dimension != "rad").map(|(k, _)| k)
+    }
+
     /// What a joint along a curve asks: that its second point is at its coordinate, in both directions of the first body.
     fn rows_along_curve(&self, index: usize, start: usize) -> [Row<Symbol>; 2] {
         let joint = &self.m.joints[index];
         let (_, place) =
             relative(joint, self.m, &MotionView { at: self.at(), bodies: Some(&self.bodies), accelerations: None });
-        let along = &joint.coordinates[0];
-        let [q, u, a] = [self.q[start], self.u[start], self.a[start]].map(|x| x.scale(along.sense));
-        let own = [Jet::new(self.n.values[along.zero] + q, u, a), Jet::constant(Symbol::zero())];
+        let mut own = [Jet::constant(Symbol::zero()); 3];
+        for k in self.places_on_curve(index) {
+            let c = &joint.coordinates[k];
+            let [q, u, a] = [&self.q, &self.u, &self.a].map(|of| of[start + k].scale(c.sense));
+            own[c.card] = Jet::new(self.n.values[c.zero] + q, u, a);
+        }
         let curve = JointView::new(self.m, &self.n, joint, Jet::constant).pose(&own[..joint.size], false);
         [place.x - curve.x, place.y - curve.y].map(|gap| Row {
             source: Source::Joint(index, 0),

@@ -4,7 +4,7 @@ use super::vectors::{linear_in, presented, tree};
 use super::SymbolicState;
 use crate::algebra::{Symbol, Variable};
 use crate::dynamics::{closing_rows, DynamicsError, Row, Source};
-use crate::joints::Joint as _;
+use crate::joints::{Joint as _, RowCard};
 use crate::kinematics::{Kinematics, State};
 use crate::mechanism::DriveKind;
 use crate::plane::{Twist, Vec2};
@@ -84,15 +84,21 @@ impl SymbolicState<'_> {
             [pose.at + arm, twist.at(arm), bodies[body].acceleration_at(arm, twist.w)]
         };
         for row in rows {
-            let Source::Joint(joint, r) = row.source else { continue };
+            let Source::Joint(joint, _) = row.source else { continue };
             let joint = &self.m.joints[joint];
-            if let Some(axis) = joint.kind.card().rows[r].pin {
+            if let Some(axis) = self.card_of(row).and_then(|card| card.pin) {
                 let (first, second) = (place(joint.first.site), place(joint.second.site));
                 let [value, rate, bias] =
                     std::array::from_fn(|i| [(second[i] - first[i]).x, (second[i] - first[i]).y][axis]);
                 (row.value, row.rate, row.bias) = (Some(value), Some(rate), bias);
             }
         }
+    }
+
+    /// What the card of a joint says of one of its rows; a joint along a curve has rows besides.
+    fn card_of(&self, row: &Row<Symbol>) -> Option<RowCard> {
+        let Source::Joint(joint, r) = row.source else { return None };
+        self.m.joints[joint].kind.card().rows.into_iter().nth(r)
     }
 
     fn row(&self, row: &Row<Symbol>) -> Value {
@@ -109,8 +115,7 @@ impl SymbolicState<'_> {
             Source::JointFriction(_) => "friction",
         };
         // Of gears only the change counts: their place holds a constant of the assembly.
-        let phased = matches!(row.source, Source::Joint(j, r) if self.m.joints[j].kind.card().rows[r].is_relative);
-        let value = row.value.filter(|_| !phased);
+        let value = row.value.filter(|_| !self.card_of(row).is_some_and(|card| card.is_relative));
         json!({
             "name": row.source.name(self.m), "kind": kind, "value": value.map(tree), "rate": row.rate.map(tree),
             "acceleration": tree(row.bias), "linear": linear_in(row.bias, unknowns),

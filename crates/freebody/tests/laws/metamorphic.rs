@@ -205,7 +205,7 @@ fn the_world_in_a_mirror_is_as_good() {
         for (i, &(joint, k)) in m.coordinates.iter().enumerate() {
             let joint = &m.joints[joint];
             let name = joint.kind.card().coordinates[joint.coordinates[k].card].name;
-            let other_way = name == "s" && matches!(joint.kind, Kind::CurvedSlot | Kind::Cam);
+            let other_way = name == "s" && joint.curve.is_some();
             if matches!(name, "angle" | "direction" | "y") || other_way {
                 (q[i], u[i]) = (-q[i], -u[i]);
             }

@@ -39,7 +39,8 @@ fn pair(kind: Kind, seed: u64, reversed: bool, free: bool) -> Thrown {
     }
     thrown.join(&mut Rng::new(seed + 2000), "test", kind, ends, on_curve || !free, false);
     if on_curve && free {
-        thrown.model.0.joints.last_mut().expect("just joined").coordinates[1].absolute = true;
+        let own = &mut thrown.model.0.joints.last_mut().expect("just joined").coordinates;
+        own.last_mut().expect("its turn").absolute = true;
     }
     let (p, q) = (thrown.point("a", Default::default()), thrown.point("b", Default::default()));
     let between = points(&[&p, &q]);

@@ -104,15 +104,17 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
     """Where a diagram shows a part: of a link at its own end, of a follower where it touches its curve, of a torque at the joint of its
     two bodies, else where it acts."""
-    if load.kind == "joint":
-        joint = next(j for j in sketch.spec["joints"] if j["name"] == load.name)
+    name = load.name.removesuffix(".contact") if load.kind == "stop" else load.name  # of a one-sided cam
+    joint = next((j for j in sketch.spec["joints"] if j["name"] == name), None)
+    if load.kind in ("joint", "stop") and joint:
         fields = joint["with"]
         if load.card.pulls:
             return next(sketch.place(point) for point in fields["of"] if sketch.at[point][0] == part.body)
         if "follower" in fields:
             centre, size = sketch.place(fields["follower"]["centre"]), np.hypot(*part.force)
-            left = np.array(part.force) / size if part.body == load.of[1] else -np.array(part.force) / size
-            away = -left if fields.get("right") else left
+            on_follower = part.body == sketch.at[fields["follower"]["centre"]][0]
+            push = np.array(part.force) / (size if on_follower else -size)
+            away = -push if load.kind == "joint" and fields.get("right") else push  # a normal force is positive to the left
             return centre - sketch.number(fields["follower"]["radius"]) * away
     if load.kind in ("force", "motion", "lock") and not any(part.force):
         between = {j["name"] for j in sketch.metadata["joints"] if {j["first"], j["second"]} == set(load.of)}
