@@ -63,7 +63,7 @@ def inverse(
     if plot:
         from freebody.views.inverse import save
 
-        made.append(save(found, plot, axes))
+        made.append(save(found, plot, axes, ", ".join([found.name, *(change.replace("=", " = ") for change in changes or [])])))
     if as_json:
         print_json(data(found) | {"files": [str(path) for path in made]})
         return

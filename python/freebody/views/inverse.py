@@ -27,6 +27,8 @@ _ABREAST = 4
 @quiet()
 def motors(found: InverseDynamics, over: str = "t", ax: Axes | None = None) -> Axes:
     """The forces of all motors over the time, or over another expression; the unit of the first, with the others that have it."""
+    from matplotlib.ticker import MaxNLocator
+
     ax, t = axes(ax), np.linspace(*found.run.edges[[0, -1]], _SAMPLES)
     unit = next(iter(found.motors.values())).unit
     shown = [motor for motor in found.motors.values() if motor.unit == unit]
@@ -41,6 +43,8 @@ def motors(found: InverseDynamics, over: str = "t", ax: Axes | None = None) -> A
     ax.axhline(0, color=GROUND, lw=0.6)
     what = "torque" if unit == "N*m" else "force"
     along = with_unit(label(found.run, over), "°" if turned else found.run.unit_of(over))
+    if turned:
+        ax.xaxis.set_major_locator(MaxNLocator(9, steps=[1, 1.5, 3, 4.5, 9, 10]))
     ax.set(xlabel=along, ylabel=with_unit(what, unit), xlim=tuple(sorted((x[0], x[-1]))) if x[0] != x[-1] else None)
     if len(shown) > 1:
         ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0)
@@ -63,14 +67,15 @@ def pin_load(found: InverseDynamics, joint: str, ax: Axes, axes: str = "ground")
     ax.plot(np.arctan2(y, x), np.hypot(x, y), color=colour(place))
     ax.plot(np.arctan2(y[:1], x[:1]), np.hypot(x[:1], y[:1]), "o", color=colour(place), ms=5)
     ax.tick_params(labelsize=8, pad=1)
-    ax.set_rlabel_position(67.5)
+    seldom = int(np.argmin(np.histogram(np.arctan2(y, x) % (2 * np.pi), 8, (0, 2 * np.pi))[0]))
+    ax.set_rlabel_position(45 * seldom + 22.5)  # the curve does not run through these figures
     return ax
 
 
 @quiet()
-def sheet(found: InverseDynamics, joints: Sequence[str] = (), axes: str = "ground") -> Figure:
+def sheet(found: InverseDynamics, joints: Sequence[str] = (), axes: str = "ground", title: str = "") -> Figure:
     """Forces of the motors over the gauge and over time, and the polar load diagrams of ``joints``, all by default, along the ``axes``
-    of a body; a dot is the start."""
+    of a body; a dot is the start. The ``title`` is the name of the model by default."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -87,12 +92,12 @@ def sheet(found: InverseDynamics, joints: Sequence[str] = (), axes: str = "groun
     for i, joint in enumerate(shown):
         row, column = divmod(i, _ABREAST)
         pin_load(found, joint, figure.add_subplot(grid[1 + row, 2 * column : 2 * column + 2], projection="polar"), axes)
-    figure.suptitle(found.name, x=0.01, ha="left", fontsize=12)
+    figure.suptitle(title or found.name, x=0.01, ha="left", fontsize=12)
     return figure
 
 
-def save(found: InverseDynamics, path: Path, axes: str = "ground") -> Path:
+def save(found: InverseDynamics, path: Path, axes: str = "ground", title: str = "") -> Path:
     """Write the sheet as a picture."""
     with replacing(path) as beside:
-        sheet(found, axes=axes).savefig(beside, dpi=150, bbox_inches="tight")
+        sheet(found, axes=axes, title=title).savefig(beside, dpi=150, bbox_inches="tight")
     return path
