@@ -79,6 +79,12 @@ def program(source: CompiledModel, state: State, language: str = "python") -> st
     reactions are not determined; ``MotionError`` for a state without an answer."""
     check(source, source.free_bodies(state))
     found = systems(source, state)
+    pairs = zip(found.coordinates, found.moving, strict=True)
+    if idle := [name for name, equation in pairs if not (equation.coefficients or found.is_square)]:
+        raise CannotGenerate(
+            f"{idle[0]} has no equation of its own: it is a place along a curve, which closes a loop because its joint can be released; "
+            "leave out the events that release the joint"
+        )
     if not found.is_square:
         raise CannotGenerate(
             "loops and motions ask more of the accelerations than their loads can give; release a joint or a motion"
