@@ -17,7 +17,7 @@ MAY_USE = {
     "solve": CORE,
     "impact": CORE | {"model", "solve"},
     "run": CORE | {"model", "solve", "impact"},
-    "find": SOLVED,
+    "find": SOLVED | {"stability"},
     "stability": SOLVED,
     "periodic": SOLVED | {"document", "equations", "find"},
     "inverse": SOLVED,

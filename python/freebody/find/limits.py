@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array
+from freebody.core import Array, MotionError, quote
 from freebody.find.response import Response
 from freebody.model.start import quantity
 from freebody.run.records import Window, integral, over_time, unit_of
 from freebody.solve.figures import Known, figure
 from freebody.solve.rich_tables import PlainText
+from freebody.stability.equilibria import Equilibrium, equilibrium
+from freebody.stability.state_space import SingularConfiguration
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -34,6 +36,8 @@ _SETTLED = 1e-14
 """Part of the size of a quantity that is round-off."""
 _LESS = 0.9
 """What is left of a swing when the time has doubled, at most, where there is a limit."""
+_DIED_OUT, _REACHED = 20.0, 1e-3
+"""Times of the slowest decay for which a motion is followed on to an equilibrium, and what is left of its distance if it comes there."""
 RTOL = 1e-12
 """Of the runs of a limit, unless another is asked for."""
 _LOOKS = 64
@@ -47,8 +51,9 @@ class NoLimit(ValueError):
 @dataclass(frozen=True)
 class Limit(PlainText):
     """What a quantity ``of`` a motion tends to (SI): ``value`` with an estimate of its error, no bound: what the motion does later is
-    not known. ``tail`` says how it gets there; up to ``until`` (s, or
-    the value of what is ``varied``) it was followed, where the quantity was ``last``."""
+    not known; but where the motion ``rests``, within reach of an asymptotically stable equilibrium, the value is that of the
+    equilibrium, known as far as Newton's method tells. ``tail`` says how it gets there; up to ``until`` (s, or the value of what is
+    ``varied``) it was followed, where the quantity was ``last``."""
 
     of: str
     value: Known
@@ -57,18 +62,19 @@ class Limit(PlainText):
     until: float
     last: float
     varied: str = ""
+    rests: bool = False
 
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        unit = f" {self.unit}" if self.unit else ""
-        told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to an estimated {self.value.error:.0e}"
+        unit, how = f" {self.unit}" if self.unit else "", "" if self.rests else "an estimated "
+        told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to {how}{self.value.error:.0e}"
         return f"{told}: {self.tail}; it was {figure(self.last, 8)} at {self.varied}{figure(self.until)}{'' if self.varied else ' s'}."
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, in SI."""
-        stated = {name: getattr(self, name) for name in ("of", "sentence", "tail", "unit", "until", "last")}
-        return stated | {"value": float(self.value), "estimated_error": self.value.error}
+        stated = {name: getattr(self, name) for name in ("of", "sentence", "tail", "unit", "until", "last", "rests")}
+        return stated | {"value": float(self.value), "error" if self.rests else "estimated_error": self.value.error}
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         yield self.sentence
@@ -128,7 +134,37 @@ def limit(mechanism: Builder, of: str, until: Any, changes: Mapping[str, Any]) -
         half = float(read(np.array([end / 2]))[0])
         raise NoLimit(f"no limit of {of} is seen until {end:g} s: it was {half:.8g} at {end / 2:g} s and is {last:.8g} then")
     unit = unit_of(text, run.columns, run.metadata)
+    if not summed and (value := _at_rest(mechanism, run, text, found[0], most, changes)):
+        return Limit(of, value, unit, "it comes to rest in an asymptotically stable equilibrium", end, last, rests=True)
     return Limit(of, found[0], over_time(unit) if summed else unit, found[1], end, last)
+
+
+def _at_rest(mechanism: Builder, run: Run, text: str, seen: Known, most: float, changes: Mapping[str, Any]) -> Known | None:
+    """The value at the asymptotically stable equilibrium to which a motion comes, as it goes on until what is left has died out; None
+    where laws of time go on, and where it is not seen to come there."""
+    try:
+        rest = equilibrium(run.source, run.end)
+    except (MotionError, SingularConfiguration):
+        return None
+    if rest is None or rest.stability != "stable" or (slowest := _slowest(rest)) <= 0:
+        return None
+    names = [f"accel({quote(name)})" for name in run.source.coordinate_names]
+    until = float(run.edges[-1]) + _DIED_OUT / slowest
+    if until > most or run.source.derivatives([*names, text], rest.state)[:, 0].any():
+        return None
+    later = mechanism.simulate(until, **{"rtol": RTOL, **changes})
+    far, near = (float(np.abs(state.q - rest.state.q).max(initial=0.0)) for state in (run.end, later.end))
+    other = equilibrium(run.source, later.end)
+    if later.edges[-1] < until or other is None or near > _REACHED * max(far, seen.size * _SETTLED):
+        return None
+    value, again = (float(run.source.evaluate([text], each.state)[0]) for each in (rest, other))
+    error = _SAFETY * max(abs(value - again), _SETTLED * seen.size)
+    return Known(value, error, max(seen.size, abs(value))) if abs(value - seen) <= _SAFETY * seen.error + error else None
+
+
+def _slowest(rest: Equilibrium) -> float:
+    """The rate at which the slowest of all perturbations dies out, 1/s."""
+    return float(-np.linalg.eigvals(rest.space.a).real.max(initial=-math.inf))
 
 
 def _integrated(run: Run, text: str) -> Any:
@@ -174,6 +210,8 @@ def _tail(name: str, values: Array, to: float, times: Array) -> str:
         power = math.log2(left[0] / left[1])
         return f"what is left falls as t^-{power:.2f}, {left[1]:.1e} at the end"
     rate = math.log(left[0] / left[1]) / (times[-1] - times[-2])
+    if rate <= 0:
+        return f"what is left swings, {left[1]:.1e} at the end"
     return f"what is left falls as exp(-{rate:.3g} t), {left[1]:.1e} at the end"
 
 

@@ -10,12 +10,15 @@ At release all angles are 0, and each hinge carries what the links beyond it nee
 """
 
 from fractions import Fraction
+from math import inf, log10, sqrt
+from time import perf_counter
 
 import mpmath as mp
 import numpy as np
 
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import many_digits, motion
+from freebody.solve.figures import Known
 
 G = 9.81
 SCIPY = "other route: Lagrange's equations, integrated by SciPy"
@@ -116,6 +119,22 @@ def hundred(case):
     yield Answer("energy", value, "J", 0 * times, against, 1e-9, scale=size, says=says)
 
 
+@ask("How does the cost of a step grow with N, to N = 1000?")
+def cost(case):
+    """The shortest of some runs of a few steps."""
+    costs = {}
+    for n in (10, 100, 1000):
+        mechanism = case.mechanism(N=n)
+        core, (state, _) = mechanism.compile(), mechanism.start()
+        for _ in range(5):
+            begin = perf_counter()
+            steps = core.simulate(state, until=0.3 / sqrt(n), rtol=1e-6).stats["accepted"]
+            costs[n] = min(costs.get(n, inf), (perf_counter() - begin) / steps)
+    told = ", ".join(f"{1e6 * cost:.0f} µs with {n} links" for n, cost in costs.items())
+    power, says = log10(costs[1000] / costs[100]), f"A step takes {told}: it grows as N to the power of {{}}, not as N²."
+    yield Answer("power", Known(power, 0.05, power), "", 1.0, "count: one pass to the ground and one back", 0.6, says=says)
+
+
 def two_bars():
     """φ̈ of unequal bars from the downward vertical, for mpmath's numbers."""
     g, m2, l2 = mp.mpf("9.81"), mp.mpf(1) / 2, mp.mpf(3) / 5  # and m1 = l1 = 1
@@ -144,27 +163,14 @@ def unequal(case):
         return np.column_stack([run.evaluate(name, times) for name in ("phi1", "phi2")])
 
     usual, tight = angles(1e-10), angles(1e-13)
+    digits = "other route: Lagrange's equations in 20 digits"
     for i in (0, 1):
-        yield Answer(
-            f"φ{i + 1} at 1 … 10 s", tight[:, i], "rad", exact[:, i], "other route: Lagrange's equations in 20 digits", 1e-6
-        )
+        yield Answer(f"φ{i + 1} at 1 … 10 s", tight[:, i], "rad", exact[:, i], digits, 1e-6)
     own, true = (-np.log10(np.abs(usual - other).max(axis=1) + 1e-17) for other in (tight, exact))
-    yield Answer(
-        "decimals that hold at 1 … 10 s at rtol 1e-10, by a tighter run",
-        own,
-        "",
-        true,
-        "other route: Lagrange's equations in 20 digits",
-        0.05,
-    )
+    yield Answer("decimals that hold at 1 … 10 s at rtol 1e-10, by a tighter run", own, "", true, digits, 0.05)
     run = case.run("two_bars.yaml", rtol=1e-10)
-    error = np.maximum.accumulate(np.abs(usual - exact), axis=0)
-    size = np.maximum.accumulate(np.abs(exact), axis=0)
-    true = -np.log10(error / size)
-    said = f"the motion {run.accuracy.sentence}"
-    for i in (0, 1):
-        claimed = run.digits(f"phi{i + 1}", times)
-        label = f"digits of φ{i + 1} that the program claims at 1 … 10 s at rtol 1e-10"
-        yield Answer(
-            label, claimed, "", np.minimum(true[:, i], claimed + 2), "the digits that there are, or more", 0.25, 4.0, said
-        )
+    error, size = (np.maximum.accumulate(np.abs(each), axis=0) for each in (usual - exact, exact))
+    claimed = np.column_stack([run.digits(name, times) for name in ("phi1", "phi2")])
+    known = np.minimum(-np.log10(error / size), claimed + 2)
+    says, against = f"At rtol 1e-10 the motion {run.accuracy.sentence}.", "the digits that there are, or more"
+    yield Answer("digits of φ1 and φ2 that are claimed", claimed.ravel(), "", known.ravel(), against, 0.25, 4.0, says=says)

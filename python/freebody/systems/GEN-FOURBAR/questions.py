@@ -49,6 +49,17 @@ def turns(case):
     yield from over_a_turn(case, -1, "the other assembly")
 
 
+@ask("Does the closed chain have fewer degrees of freedom than joints?")
+def freedom(case):
+    """S19.22's bars, which nothing drives."""
+    now = case.instant("../S19.22/model.yaml")
+    says, against = (
+        "It has {} degree of freedom and {} joints.",
+        "count: three bodies, two constraints a hinge; freedom 3·3 − 2·4",
+    )
+    yield Answer("freedom and joints", [now.freedom, len(now.reactions)], "", [1, 4], against, 0.0, says=says)
+
+
 @ask("What are the limits of θ with bars 0.4, 0.3, 0.35, AD 0.5?")
 def limits(case):
     """θ turns back where BC and DC are in one line, BD = l2 + l3: the law of cosines in ABD."""
