@@ -116,6 +116,6 @@ def _bare(spec: Mapping[str, Any]) -> dict[str, Any]:
     """A model without what stays finite, and with prescribed motions that stand still."""
     joints = [joint | {"with": {k: v for k, v in joint["with"].items() if k != "friction"}} for joint in spec["joints"]]
     joints = [{k: v for k, v in joint.items() if k != "friction"} for joint in joints]
-    locked = [motion | {"is": 0.0, "level": "velocity"} for motion in spec["motions"]]
+    locked = [motion | {"is": "0", "level": "velocity"} for motion in spec["motions"]]
     impact = [force for force in spec["forces"] if force["name"] == _NAME]
     return {**spec, "gravity": None, "joints": joints, "motions": locked, "forces": impact, "events": []}
