@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from store import MODELS, WITHOUT_ANSWER, every, mechanism
+from store import MODELS, WITHOUT_ANSWER, every, family, mechanism
 from typer.testing import CliRunner
 
 import freebody as fb
@@ -103,7 +103,7 @@ def true_digits(values, exactly):
     return np.floor(np.clip(-np.log10(np.maximum(error, 1e-300) / size), 0, 15))
 
 
-@pytest.mark.parametrize("name", DRAWS)
+@pytest.mark.parametrize("name", family(DRAWS, 4, "exact solutions"))
 def test_no_more_digits_are_claimed_than_are_right(name):
     model = rods(*DRAWS[name])
     for rtol in RTOLS:
@@ -285,6 +285,7 @@ def sensitivities():
     return {name: np.maximum.accumulate(each.astype(float)) for name, each in zip(SENSED, apart, strict=True)}
 
 
+@pytest.mark.xdist_group("exact solutions")
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "radau"])
 @pytest.mark.parametrize("name", SENSED)
 def test_errors_are_as_small_as_is_asked_times_the_sensitivity_of_the_motion(name, method):

@@ -73,6 +73,7 @@ def test_forward_after_inverse_and_inverse_after_forward_are_the_identity(seed):
                 assert np.abs(found.forces - forces).max() <= bound * size
 
 
+@pytest.mark.long
 def test_the_torques_of_a_path_return_the_path():
     """A hand path on a table of torques is followed by forward dynamics, and the works are the gain of energy."""
     arm = fb.Mechanism.loads(ARM)

@@ -28,13 +28,9 @@ def parts(spec):
     yield from (word for word in ("gravity", "tables", "gauges", "curves", "lines") if spec[word])
 
 
-ELSEWHERE = {"forces of type table_friction"}
-"""Visited by tests of its own, ``test_table_friction.py``."""
-
-
 def test_what_is_always_visited_holds_every_kind_of_part():
     found = {name: set(parts(mechanism(name).source().spec)) for name in MODELS}
-    missing = set.union(*found.values()) - set.union(*(found[name] for name in REPRESENTATIVE)) - ELSEWHERE
+    missing = set.union(*found.values()) - set.union(*(found[name] for name in REPRESENTATIVE))
     assert not missing, {part: [name for name in MODELS if part in found[name]] for part in missing}
 
 

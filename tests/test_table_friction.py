@@ -40,6 +40,7 @@ def test_what_turns_in_place_stops_by_the_moment_of_its_legs():
     assert float(done.evaluate("theta", [done.outcome.t])[0]) == pytest.approx(25 / (2 * spin), rel=1e-10)
 
 
+@pytest.mark.long
 def test_sliding_and_turning_end_at_the_same_time_on_a_path_found_by_another_integrator():
     """Written as an own equation of complex places; the slip of every leg is known from v + iω r e^{iθ}."""
 

@@ -14,7 +14,11 @@ from freebody.equations.topics.impact_equations import Impact
 from freebody.equations.topics.impulse_momentum import jumps
 from freebody.equations.topics.linear import linear
 
-SCALES = [(1e-9, 1e-18, 1e-6), (1e-3, 1.0, 1e3), (1e6, 1e20, 1e-3), (1e6, 1.0, 1e6)]
+SCALES = [
+    (1e-9, 1e-18, 1e-6),
+    (1e6, 1e20, 1e-3),
+    *(pytest.param(s, marks=pytest.mark.long) for s in ((1e-3, 1.0, 1e3), (1e6, 1.0, 1e6))),
+]
 CART = """
 bodies: {cart: {shape: particle, mass: 2*M}, bob: {shape: particle, mass: M}}
 joints:

@@ -118,7 +118,9 @@ def test_theorems(name):
         assert there == pytest.approx(back, rel=1e-9, abs=1e-10)
 
 
-@pytest.mark.parametrize("name", ["19.3.17", "S19.18", "EX-BLOCK", "19.3.20"])
+@pytest.mark.parametrize(
+    "name", ["19.3.17", "19.3.20", *(pytest.param(name, marks=pytest.mark.long) for name in ("S19.18", "EX-BLOCK"))]
+)
 def test_symbols_are_the_numbers(name):
     model, state, points, _ = at_rest(name)
     found = Impact.of(strike(model, state, points[-1], direction="40 deg", impulse="3 N*s"))

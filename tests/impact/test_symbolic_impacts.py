@@ -149,6 +149,7 @@ run: {until: 2 ms, impacts: poisson}
     assert "neither the largest in one direction nor what sticking takes" in " ".join(said.split())
 
 
+@pytest.mark.long
 def test_a_document_has_its_drawings_even_where_the_state_alone_jams():
     """A foot that strikes may jam by Coulomb's law if it stayed; the configuration and the impulses of every body are drawn."""
     assert topic(mechanism("GEN-STEP/model"), "impact", of="other").html().count("<svg") == 2

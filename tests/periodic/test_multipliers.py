@@ -51,6 +51,7 @@ def test_the_monodromy_matrix_is_that_of_the_linear_equation(a, omega, c):
     assert max(found.checks.values()) < 1e-10
 
 
+@pytest.mark.long
 def test_the_boundaries_are_at_the_characteristic_values_of_mathieu():
     """θ'' + (A − 2q cos 2τ) θ = 0 with A = −6g/(lΩ²), 2τ = Ωt and |q| = 3a/l: μ = 1 at A = a₀(q), μ = −1 at A = b₁(q)."""
     shaken = broom(a=0.08).periodic(period="2*pi/Omega")

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import pytest
 from seen import changes, model
+from store import every
 
 import freebody as fb
 
@@ -195,7 +195,7 @@ def seen(run: fb.Run, scales: tuple[float, float, float]) -> tuple[list[tuple], 
     return happened, np.array(when) / time, np.hstack([q / units, u / units * time])
 
 
-@pytest.mark.parametrize("name", MODELS)
+@every(MODELS, "name", share=2)
 def test_no_digit_of_a_motion_depends_on_the_units(name):
     """From 1e-9 m to 1e6 m under one gravity, with time as √L; and with other masses and times by themselves."""
     known = seen(run(MODELS[name], (1, 1, 1)), (1, 1, 1))
@@ -207,7 +207,7 @@ def test_no_digit_of_a_motion_depends_on_the_units(name):
         np.testing.assert_allclose(motion, known[2], rtol=0, atol=1e-300, err_msg=str(scales))
 
 
-@pytest.mark.parametrize("name", MODELS)
+@every(MODELS, "name", share=2)
 def test_a_motion_is_the_same_at_every_size_gravity_and_mass(name):
     """As above, where the sizes are no powers of two: within some hundred times the tolerance 1e-9."""
     known = seen(run(MODELS[name], (1, 1, 1)), (1, 1, 1))

@@ -82,7 +82,8 @@ def others(source: CompiledModel, state: State) -> list[State]:
                 free = source.free_bodies(other)
             except MotionError:
                 continue
-            held = np.abs(closing.rows(free) @ other.u) <= CLOSED_RATE * rate * free.row_sizes(coordinates)
+            off = np.abs(closing.rows(free) @ other.u - closing.prescribed(free, q, t))
+            held = off <= CLOSED_RATE * rate * free.row_sizes(coordinates)
             if held.all() and same_mode(free, first) and np.isfinite(_places(free)).all():
                 found.append(other)
     return found
@@ -154,14 +155,27 @@ class Closing:
         return None
 
     def moving(self, q: Array, rates: Array, t: float) -> State:
-        """A place and a time, with the rates nearest to some that keep closed what is closed: what that is depends on the rates.
-        Raises ``MotionError``."""
-        found = replace(self.state, t=t, q=q, u=np.zeros_like(rates))
+        """A place and a time, with the rates nearest to some that keep closed what is closed, and that motions prescribe at that time:
+        what is closed depends on the rates. Raises ``MotionError``."""
+        found = replace(self.state, t=t, q=q)
         for _ in range(PASSES):
-            held = self.rows(self.core.free_bodies(found))
-            rates = rates - np.linalg.pinv(held, rcond=DEPENDENT) @ (held @ rates)
+            free = self.core.free_bodies(found)
+            held = self.rows(free)
+            rates = rates + np.linalg.pinv(held, rcond=DEPENDENT) @ (self.prescribed(free, q, t) - held @ rates)
             found = replace(found, u=rates)
         return found
+
+    def prescribed(self, free: FreeBodies, q: Array, t: float) -> Array:
+        """The rate of every row: 0 of what is closed; of a motion what it is at a time, where the motion has brought the mechanism."""
+        motions = {motion["name"] for motion in self.core.spec.get("motions", ())} & {row.name for row in free.rows}
+        if not motions:
+            return np.zeros(len(free.rows))
+        brought = self.core.assemble(
+            self.state.p, t, guess=dict(zip(self.names, q.tolist(), strict=True)), history=self.state.history
+        )[0]
+        there = self.core.free_bodies(brought)
+        rates = dict(zip([row.name for row in there.rows], self.rows(there) @ brought.u, strict=True))
+        return np.array([rates.get(row.name, 0.0) if row.name in motions else 0.0 for row in free.rows])
 
     def rows(self, free: FreeBodies) -> Array:
         """What is closed, as rows among the rates."""

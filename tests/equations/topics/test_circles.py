@@ -14,9 +14,8 @@ from freebody.symbolic.tree import Add, Fn, Sym, Tree, add, children, mul, numbe
 
 SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")
 EXAMPLES = SYSTEMS.parents[2] / "examples"
-COLLIDING = [SYSTEMS / f"{name}.yaml" for name in ("19.3.22/latch", "19.3.30/model", "19.3.30/hinged")] + [
-    EXAMPLES / "tossed_box.yaml"
-]
+COLLIDING = [SYSTEMS / f"{name}.yaml" for name in ("19.3.22/latch", "19.3.30/model", "19.3.30/hinged")]
+COLLIDING += [pytest.param(EXAMPLES / "tossed_box.yaml", marks=pytest.mark.long)]
 
 
 def trees(part):

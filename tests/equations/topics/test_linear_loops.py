@@ -218,6 +218,7 @@ def test_a_motion_that_stands_still_holds_its_coordinate() -> None:
         topic(fb.Mechanism.loads(HELD.replace("HAND", "v*t")), "linear")
 
 
+@pytest.mark.long
 def test_symbolically_or_with_lengths_in_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """A slider-crank at its dead point is short enough for symbols; a four-bar keeps its mass and g."""
     monkeypatch.setattr(sys.modules["freebody.equations.stability"], "PATIENCE", 0.1)  # which is not looked at here
@@ -298,7 +299,7 @@ initial: {theta: 0, at_rest: true}
     assert "Small perturbations decay if" in said and "k − m g l > 0" in said and "m l² θ̈ + c θ̇" in said
 
 
-@pytest.mark.parametrize("which", ["mass", "damping", "stiffness"])
+@pytest.mark.parametrize("which", ["stiffness", *(pytest.param(name, marks=pytest.mark.long) for name in ("mass", "damping"))])
 def test_wrong_linear_equations_are_refused(which, monkeypatch):
     """What is printed is held against derivatives of the core: a derivation that errs by a part of a thousand in one matrix is found."""
     module = sys.modules["freebody.equations.topics.linear"]

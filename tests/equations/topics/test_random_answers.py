@@ -77,6 +77,7 @@ initial: {theta: 40 deg, guess: {x: 0.37}, rates: {theta: 3}}
 """
 
 
+@pytest.mark.long
 def test_friction_in_the_guide_of_a_slider_crank_stays_in_the_answer():
     mechanism = fb.Mechanism.loads(CRANK)
     agree(mechanism, mechanism.solve(), mechanism.solve_in_letters(patience=PATIENCE))

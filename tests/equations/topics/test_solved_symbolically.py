@@ -161,12 +161,14 @@ def test_reactions_of_a_loop_by_its_accelerations() -> None:
     assert value(answers, "D.Fx", known) == pytest.approx(subject.values[Sym("D.Fx")], rel=1e-9)
 
 
+@pytest.mark.long
 def test_where_nothing_else_is_short_masses_are_numbers_too() -> None:
     """Seven links: what is left symbolically is g, once the motors hold the posture of the start."""
     answers = system("GEN-STEP").solve_in_letters(["ankle"], at_rest=True)
     assert symbols(answers["ankle"]) == {Sym("g")} and "would fill pages" in str(answers) and answers.checked > 1
 
 
+@pytest.mark.long
 def test_what_defines_a_length_stands_for_it() -> None:
     """The height of a wedge's polygon is w tan α/3: answers hold α. One that is set stays a symbol, and so does a mass."""
     answers = system("S19.15").solve_in_letters(["x"])

@@ -165,7 +165,9 @@ def test_balances_about_the_mass_centre(name: str) -> None:
             assert abs(sides[1]) == pytest.approx(abs(true), rel=1e-8, abs=1e-8)
 
 
-@pytest.mark.parametrize("name", ["19.3.10", "19.3.17", "S19.20", "19.3.16"])
+@pytest.mark.parametrize(
+    "name", ["19.3.10", "S19.20", *(pytest.param(name, marks=pytest.mark.long) for name in ("19.3.16", "19.3.17"))]
+)
 def test_elimination(name: str) -> None:
     """The equations that are left hold at the core's states, with the constants that the momenta have there."""
     try:
@@ -204,7 +206,7 @@ def test_polar_form_of_a_particle(name: str) -> None:
 
 
 def test_every_topic_prints_for_the_catalogue_or_says_why_not() -> None:
-    for name in ["19.3.10", "19.3.17", "S19.20"]:
+    for name in ["19.3.10", "S19.20"]:
         mechanism = fb.load(SYSTEMS / name / "model.yaml")
         for each in TOPICS:
             try:
@@ -245,6 +247,7 @@ def test_prescribed_rates_are_put_into_what_a_frame_gives() -> None:
     assert "a = −l w₁² λ_rod − r (w₁ − w₂)² λ_wheel" in said
 
 
+@pytest.mark.long
 def test_what_nobody_reads_is_not_printed() -> None:
     said = " ".join(topic(system("GEN-STEP"), "moment").text().split())
     assert "too long to be read; ask of fewer bodies" in said

@@ -74,11 +74,21 @@ impl Arena {
         }
     }
 
-    /// The power r of the square of `root`, by the sign that the root has at the witness.
+    /// The power r of the square of `root`, by the sign that the root has at the witness; of its absolute value if it moves.
     fn power_of_square(&mut self, root: SumId, r: Ratio) -> SumId {
         let Some(twice) = r.times(Ratio::whole(2)) else { return self.constant(Coefficient::UNDEFINED) };
         let root = if self.value(root) < 0.0 && !r.is_whole() { self.negate(root) } else { root };
+        let moves = self.variables(root).iter().any(|&atom| self.is_rate(atom));
+        if moves && !twice.is_even() {
+            let abs = self.abs_atom(root);
+            return self.product(&[(abs, twice)]);
+        }
         self.power(root, twice)
+    }
+
+    /// Whether it is a rate: its sign changes as a mechanism moves, where that of a place tells the assembly.
+    fn is_rate(&self, atom: AtomId) -> bool {
+        self.variable(atom).is_some_and(|variable| variable.dots > 0)
     }
 
     /// The power of a single term: of each factor that is positive at the witness or has an even
@@ -93,6 +103,9 @@ impl Arena {
         for &(atom, e) in factors {
             let (value, Some(raised)) = (self.atom_value(atom), e.times(r)) else { continue };
             let power = match self.atom(atom) {
+                _ if self.is_rate(atom) && !r.is_whole() && e.is_even() && !raised.is_even() => {
+                    self.power_of_abs(atom, raised)
+                }
                 _ if value > 0.0 || r.is_whole() => self.product(&[(atom, raised)]),
                 _ if e.is_even() && raised.is_whole() && value < 0.0 => {
                     let power = self.product(&[(atom, raised)]);

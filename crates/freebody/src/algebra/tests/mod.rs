@@ -207,6 +207,18 @@ fn a_root_takes_the_sign_of_the_values() {
 }
 
 #[test]
+fn a_root_of_the_square_of_a_rate_is_its_absolute_value() {
+    session(|| {
+        let [rate, other] = [("x", 2.0), ("y", 5.0)].map(|(name, x)| Symbol::variable(Variable::new(name, 1), x));
+        let [speed, together] = [rate, rate - other].map(|s| (s * s).sqrt());
+        assert_ne!(speed, rate);
+        assert_eq!(speed * speed, rate * rate);
+        assert_eq!(together, (other - rate).powi(2).sqrt());
+        assert_eq!(rate.powi(4).sqrt(), rate * rate);
+    });
+}
+
+#[test]
 fn equal_work_gives_the_same_tree() {
     let work = || {
         session(|| {
