@@ -16,13 +16,15 @@ WITHIN = 1e-9
 
 
 class Shifted(Case):
-    """The models of a system, each number among their parameters off by some parts in a thousand, but those that a question states."""
+    """The models of a system, each number among their parameters off by some parts in a thousand, but those that a question states and
+    whole ones without a unit, which count spokes or name a side."""
 
     def mechanism(self, file="model.yaml", **parameters):
         known = list(self._mechanisms.values())
         made = super().mechanism(file, **parameters)
         for i, (name, value) in enumerate([] if made in known else sorted(made.parameters.items())):
-            if name not in parameters and (found := NUMBER.fullmatch(str(value))):
+            found = None if name in parameters else NUMBER.fullmatch(str(value))
+            if found and (found[2] or not float(found[1]).is_integer()):
                 off = float(found[1]) * (1 + 0.003 * (1 + i % 5))
                 made.parameters[name] = f"{off!r}{found[2]}" if found[2] else off
         return made
@@ -49,6 +51,20 @@ def moved(check, other):
 def test_no_check_is_of_the_same_run(identity):
     system = catalogue.find(identity)
     assert not [told for question in system.questions() for told in of_the_same_run(system, question)]
+
+
+@pytest.mark.parametrize(
+    ("identity", "asked"),
+    [("19.3.30", "(c) On a level floor"), ("GEN-METHOD", "4. What are they in numbers"), ("EX-ARM", "What are they at θ1 = 30°")],
+)
+def test_what_is_quick_to_ask_is_asked_of_the_shifted_model(identity, asked):
+    """Also where parameters count bodies or points, and where a question goes to models of other systems."""
+    system = catalogue.find(identity)
+    (question,) = (each for each in system.questions() if each.label.startswith(asked))
+    shifted = question.put_to(Shifted(system.folder))
+    assert shifted.answers and not shifted.failure
+    assert any(not answer.ok for answer in shifted.answers)
+    assert not of_the_same_run(system, question)
 
 
 def test_a_check_of_the_same_run_is_found():

@@ -23,8 +23,11 @@ def rates(torque):
 
 @ask("1. What are the equations for θ̈ and R̈?")
 def symbolically(case):
+    whole = "(m1*l^2/3 + m2*R^2)*accel(theta) + 2*m2*R*rate(R)*rate(theta) - T"
+    against = "closed form: moments about A, no force along the rod"
+    yield from case.balances([whole, "m2*(accel(R) - R*rate(theta)^2)"], against)
     closed = {"theta": "(T - 2*m2*R*rate(R)*rate(theta))/(m1*l^2/3 + m2*R^2)", "R": "R*rate(theta)^2"}
-    yield from case.symbolically(closed, "closed form: moments about A, no force along the rod")
+    yield from case.symbolically(closed, against)
 
 
 @ask("What are the accelerations and the forces at θ = 0, θ̇ = 0, R = 0.1, Ṙ = 0?")

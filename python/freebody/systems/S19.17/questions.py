@@ -30,6 +30,12 @@ def shot(case, torque=1.0, r=0.1, spin=0.0):
     return run, next(event.t for event in run.events if event.name == "leaves")
 
 
+@ask("What is the first-order form, with v = Ṙ, ω = θ̇ beside v̇ = R̈, ω̇ = θ̈?")
+def first_order(case):
+    closed = {"R": "R*rate(theta)^2", "theta": "(T - 2*m2*R*rate(R)*rate(theta))/(m1*l^2/3 + m2*R^2)"}
+    yield from case.symbolically(closed, "closed form: moments about A, no force along the rod")
+
+
 @ask("1. What are R(t), θ(t) and the polar path R(θ) for 0–1 s?")
 def path(case):
     run, _ = shot(case)

@@ -51,6 +51,13 @@ def symbolically(case):
     yield from case.symbolically(closed, "closed form: elimination of s̈ by hand")
 
 
+@ask("What is the coupled pair?")
+def pair(case):
+    along = "(M + m)*accel(s) + m*l*(accel(theta)*cos(theta) - rate(theta)^2*sin(theta)) - (M + m)*g*sin(slope)"
+    across = "m*(accel(s)*cos(theta) + l*accel(theta)) - m*g*sin(slope - theta)"
+    yield from case.balances([along, across], "closed form: momentum along the slope, and of the bob across the rod")
+
+
 @ask("What are s̈, θ̈, the force of the incline and the tension of the rod at θ = 0.6, θ̇ = 0?")
 def instants(case):
     for spin in (0, 3):
