@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.model.errors import ModelProblem
+from freebody.run.digits import SAFETY
 from freebody.run.records import Array
 from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Num, exchange
@@ -33,12 +34,17 @@ _ALIKE = 1e-7  # spread of what is the same in several runs, relative: what the 
 def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
     """At a moment of the model's own run, with its own numbers; figures to their printed digits."""
     case, values, t = _read(checker, declared, moment, statement)
+    run, _ = checker.moment(moment)
     for equation in case.equations:
         with np.errstate(all="ignore"):
             sides = equation_sides(equation, values)
         if not np.isfinite(sides.residual).all():
             return Verdict(Kind.UNDECIDABLE, statement, f"at {moment} (t = {t:.6g} s) it has no value: {_figures(sides)}")
         off, allowed = np.abs(sides.residual), rounding(equation, values)
+        unsure = _unsure(checker, case, equation, run, t)
+        if np.any(unsure > allowed) and np.all(off <= allowed + unsure):
+            reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}, and the run does not know it to so many digits: the motion "
+            return Verdict(Kind.UNDECIDABLE, statement, reason + run.accuracy.sentence)
         if np.any(off > allowed * (1 + _ROUND)):
             seen = Evidence.at(sides, values, 0, float(off.max()), 1)
             corrections, last = _corrected(equation, values)
@@ -53,8 +59,11 @@ def report(checker: Checker, declared: Declared, label: str, figure: str) -> Ver
     if label not in run.report:
         raise ModelProblem(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
     printed = parse(f"0 = {figure}").equations[0]
-    value, said = float(run.report[label].value), float(sampled(printed.right, {})[0])
-    allowed = float(rounding(printed, {}).max())
+    known, said = run.accuracy.report[label].value, float(sampled(printed.right, {})[0])
+    value, allowed, unsure = float(known), float(rounding(printed, {}).max()), getattr(known, "error", 0.0)
+    if allowed < unsure and abs(value - said) <= allowed + unsure:
+        what = f"{label} is {value:.6g} against {said:g}, and the run does not know it to so many digits: the motion "
+        return Verdict(Kind.UNDECIDABLE, label, what + run.accuracy.sentence)
     kind = Kind.TRUE if abs(value - said) <= allowed * (1 + _ROUND) else Kind.WRONG
     return Verdict(kind, label, f"{label} is {value:.6g} against {said:g}" + (", as printed" if kind is Kind.TRUE else ""))
 
@@ -110,7 +119,23 @@ def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> 
     """A statement with the values of its symbols at a moment, and its time."""
     case = checker.case(statement, declared)
     run, t = checker.moment(moment)
-    return case, case.meaning.values(_OnRun(run, t, checker)), t
+    return case, case.meaning.values(_OnRun(run, np.array([t]), checker, run.evaluate)), t
+
+
+def _unsure(checker: Checker, case: Case, equation: Equation, run: Any, t: float) -> Array:
+    """How far what an equation leaves over at a time is known on a run (n,): by how much that of the second run differs."""
+    if t <= run.edges[0]:
+        return np.zeros(1)
+    if t >= run.accuracy.parting:
+        return np.full(1, np.inf)
+
+    def left(of: Any, at: Array) -> Array:
+        read = lambda text, times: of.motion.evaluate([text], times)[:, 0]
+        with np.errstate(all="ignore"):
+            return equation_sides(equation, case.meaning.values(_OnRun(of, at, checker, read))).residual[0]
+
+    times = np.array([t])
+    return SAFETY * np.nan_to_num(np.abs(left(run, times) - left(run.accuracy.other, run.accuracy.there(times))))
 
 
 def _figures(sides: Sides) -> str:
@@ -122,18 +147,19 @@ def _plain(value: Any) -> str:
 
 
 class _OnRun:
-    """A moment of a run as one sample."""
+    """Times (nt,) of a run as samples, at which expressions are read."""
 
-    def __init__(self, run: Any, t: float, checker: Checker) -> None:
-        self.run, self.t, self.checker = run, t, checker
+    def __init__(self, run: Any, times: Array, checker: Checker, read: Callable[[str, Array], Array]) -> None:
+        self.run, self.times, self.checker, self.read = run, times, checker, read
 
     def values(self, texts: Any) -> dict[str, Array]:
-        """Each expression, (1,)."""
+        """Each expression, (nt,)."""
         sampler = self.checker.sampler
         own = {sampler.gravity: sampler.free_parameters.get(sampler.gravity)}
-        return {text: np.ravel(own[text] if text in own else self.run.evaluate(text, self.t))[:1] for text in texts}
+        return {text: np.full(len(self.times), own[text]) if text in own else self.read(text, self.times) for text in texts}
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """As of the model's own numbers."""
-        sampler = self.checker.sampler
-        return Samples(sampler.core, [sampler.own]).masses()
+        sampler, count = self.checker.sampler, len(self.times)
+        of = Samples(sampler.core, [sampler.own]).masses()
+        return {name: (np.repeat(mass, count), np.repeat(inertia, count)) for name, (mass, inertia) in of.items()}

@@ -133,7 +133,7 @@ class Accuracy:
         """The times of what happened in both runs."""
         return {mine: other for pairs in self._pairs.values() for mine, other in pairs if max(mine, other) < math.inf}
 
-    def _there(self, times: Array) -> Array:
+    def there(self, times: Array) -> Array:
         """The times in the other run: of what happens, when it happens there."""
         return np.clip([self._both.get(float(t), float(t)) for t in times], *self.other.edges[[0, -1]])
 
@@ -198,7 +198,7 @@ class Accuracy:
     def at(self, read: Read, times: Array) -> Band:
         """How far it is known at any times of the run."""
         values, band = read(self.run, times), self.band(read)
-        apart = np.nan_to_num(SAFETY * np.abs(values - read(self.other, self._there(times))), nan=np.inf)
+        apart = np.nan_to_num(SAFETY * np.abs(values - read(self.other, self.there(times))), nan=np.inf)
         rows, none = np.searchsorted(band.t, times, side="right"), np.zeros_like(values[:1])
         error = np.fmax(apart, np.vstack([none, band.error])[rows])
         error[times >= self.parting] = np.inf
