@@ -182,6 +182,9 @@ impl Workspace<'_> {
         let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
         self.rows.extend(targets);
         let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
+        if asked.iter().all(|&rate| rate == 0.0) {
+            return Ok(());
+        }
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
         let dense = std::mem::replace(&mut self.many_loops, false);
         let step = self.correction(&asked, &present);

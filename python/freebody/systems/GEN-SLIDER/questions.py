@@ -10,6 +10,7 @@ import numpy as np
 
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.reference import motion
+from freebody.inverse import NotRealizable
 from freebody.systems._linkages import CrankSlider
 
 BY_HAND = CrankSlider(0.1, 0.3, (1.0, 2.0, 1.5))
@@ -75,6 +76,22 @@ def falling(case):
     start = 9.81 * 3 * 0.05 * math.sin(math.pi / 3)
     energy, says = run.evaluate("energy()", times), "The energy stays {}."
     yield Answer("energy", energy, "J", start + 0 * times, "conservation: no work but of the weights", 1e-10, says=says)
+
+
+@ask("Where are the dead points, beyond which the slider cannot be driven?")
+def beyond(case):
+    """Crank and rod in one line, stretched at l + r or folded at l − r."""
+    for file, law, check, of in (
+        ("model.yaml", "0.3 + 0.2*t", 0.4, "stretched"),
+        ("model.yaml", "0.3 - 0.2*t", 0.2, "folded"),
+        ("dead_point.yaml", "0.1 + 0.2*t", 0.2, "stretched, the rod as long as the crank"),
+    ):
+        try:
+            case.mechanism(file).inverse({"x": law}, until=1, initial={"guess": {"theta": 1, "beta": -0.5}})
+        except NotRealizable as error:
+            says, name = "x = {}, by its name: a dead position.", str(error).partition("dead position")[1]
+            against = "closed form: crank and rod in one line"
+            yield Answer(name, error.posture["x"], "m", check, against, 1e-7, says=says, variant=of)
 
 
 @ask("With a rod as long as the crank, what is undetermined at the dead point, and which ways lead on?")
