@@ -6,7 +6,7 @@ Both are read off Lagrange's equations R = 0 of the coordinates that no motion h
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -30,6 +30,8 @@ _MOST = 400
 """Operations in the equations of one mechanism above which no first integral is looked for."""
 _MOST_FREE = 3
 """Coordinates that no motion holds, at most."""
+_PLACES, _ROUND_OFF = 6, 1e-9
+"""At which a force is tried, and the share by which it varies at least if it does."""
 
 
 @dataclass(frozen=True)
@@ -75,6 +77,8 @@ def _free(subject: SymbolicState) -> tuple[list[str], Equations, dict[str, Any]]
     """The coordinates that no motion holds, their equations with the prescribed accelerations put in, and these."""
     if any(row.kind != "motion" for row in subject.rows) or subject.laws:
         return None
+    if not 0 < len(subject.names) - len(subject.rows) <= _MOST_FREE:
+        return None
     stated, held = subject.ask([{"ask": "lagrange"}])[0], dict[str, Any]()
     for row in subject.rows:
         moved = [x for x in row.linear.coefficients if not is_zero(row.linear.coefficients[x])]
@@ -84,7 +88,7 @@ def _free(subject: SymbolicState) -> tuple[list[str], Equations, dict[str, Any]]
         held[moved[0].name] = sympy.solve(to_sympy(row.acceleration), symbol)[0]
     each = {e["coordinate"]: e for e in stated["equations"] if e["coordinate"] not in held}
     sizes = sum(operations(read(e["left"])) for e in each.values())
-    if not 0 < len(each) <= _MOST_FREE or sizes > _MOST or any(not is_zero(read(e["force"])) for e in each.values()):
+    if sizes > _MOST or any(not is_zero(read(e["force"])) for e in each.values()):
         return None
     prescribed = {_symbol(name, 2): acceleration for name, acceleration in held.items()}
     equations = {
@@ -110,12 +114,22 @@ def _evenly_changed(subject: SymbolicState, names: Sequence[str], equations: Equ
     for name in names:
         momentum, equation = equations[name]
         change = sum(momentum.diff(_symbol(c, d)) * _symbol(c, d + 1) for c in subject.names for d in (0, 1))
+        if _varies(change - equation, states):
+            continue
         force = sympy.simplify(change - equation)
         if force != 0 and not force.free_symbols & states and not momentum.has(_symbol("t")):
             words = f"momentum of {unicode_name(name)}, less what its force gives it"
             reason = f"{unicode_name(name)} itself is in no energy but by a force that does not change"
             found.append(FirstIntegral(words, _tree(momentum - force * _symbol("t")), reason, "p", numbers))
     return found
+
+
+def _varies(expression: Any, states: Collection[Any]) -> bool:
+    """Whether an expression has other values at other places, which is known at once, while to simplify it takes seconds."""
+    tree, rng = from_sympy(expression), np.random.default_rng(1)
+    drawn = {x.key: rng.uniform(0.5, 1.5, _PLACES if to_sympy(x) in states else 1) * np.ones(_PLACES) for x in symbols(tree)}
+    values = sampled(tree, drawn)
+    return bool(np.ptp(values) > _ROUND_OFF * np.abs(values).max(initial=1.0))
 
 
 def _relative(subject: SymbolicState, names: Sequence[str], equations: Equations, held: dict[str, Any]) -> list[FirstIntegral]:
