@@ -51,11 +51,10 @@ class Book:
 
     def says_the_same(self, one: str, other: str) -> bool:
         """Whether two equations are one but for a factor that is a number, wherever their symbols have any values."""
-        case = self.checker.case(f"{one}\n{other}")
-        if len(case.equations) != 2:
-            return False
-        places = case.elsewhere(case.values(), bound=False)
-        first, second = (residual(equation, places).sides.residual for equation in case.equations)
+        cases = [self.checker.case(text) for text in (one, other)]
+        values = {**cases[0].values(), **cases[1].values()}
+        places = cases[0].elsewhere(values, bound=False)
+        first, second = (residual(case.equations[0], places).sides.residual for case in cases)
         if first.shape != second.shape:
             return False
         factor = np.sum(first * second) / np.sum(second**2)

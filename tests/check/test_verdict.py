@@ -308,3 +308,44 @@ def test_figures_of_a_true_equation_are_in_si_units() -> None:
     verdict = spring.check("2 x'' = -31 x")
     assert (verdict.kind, verdict.reason) == (Kind.WRONG, "figures are in SI units")
     assert "30" in {edit[2] for mend in verdict.mends for edit in mend.edits}
+
+
+# slips with a sentence of why: what is left out, a moment of inertia about another point, sine for cosine
+REASONS = [
+    ("1/12 m L^2 θ'' = 1/2 m g L sin θ", "about another point"),
+    ("1/3 m L^2 θ'' = 1/2 m g L cos θ", "sine and cosine"),
+    ("1/3 m L^2 θ'' = -1/2 m g L sin θ", "other sense"),
+    ("N_B = m g - m L/2 θ'' sin θ", "centripetal"),
+]
+SLIPPING = """
+freebody: 1
+parameters: {m: 8 kg, L: 3 m, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {floor: {through: O, angle: 0}, wall: {through: O, angle: -90 deg}}}
+bodies: {ladder: {shape: rod, length: L, mass: m}}
+joints:
+  B: {type: slot, point: ladder.start, along: ground.floor, coordinates: [x, {name: phi, zero: up, absolute: true}]}
+  A: {type: slot, point: ladder.end, along: ground.wall}
+initial: {phi: 20 deg, at_rest: true}
+"""
+
+
+@pytest.fixture(scope="module")
+def slipping() -> Checker:
+    return Checker(Mechanism.loads(SLIPPING), {"θ": "phi", "N_A": "A.Fn", "N_B": "B.Fn"})
+
+
+@pytest.mark.parametrize(("text", "why"), REASONS)
+def test_at_most_three_corrections_each_with_its_reason(slipping: Checker, text: str, why: str) -> None:
+    verdict = slipping.check(text)
+    assert verdict.kind in (Kind.WRONG, Kind.TRUE_IF)
+    assert len(verdict.mends) <= 3
+    assert not why or why in verdict.mends[0].why, str(verdict)
+
+
+def test_past_its_budget_it_says_what_it_has() -> None:
+    checker = Checker(Mechanism.loads(SLIPPING), {"θ": "phi", "N_B": "B.Fn"}, seconds=1e-6)
+    verdict = checker.check("N_B = m g")
+    assert verdict.kind is Kind.WRONG
+    assert "no more was looked for" in str(verdict)
+    assert checker.check("1/3 m L^2 θ'' = 1/2 m g L sin θ").ok

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -13,7 +14,7 @@ import numpy as np
 
 from freebody.core import ModelError
 from freebody.model.errors import ModelProblem
-from freebody.symbolic.dimensions import LENGTH, MASS, Known
+from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Fn, Sym, walk
@@ -25,8 +26,6 @@ from .residual import HOLDS, figures, residual, rounding, unreached
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
-
-_INERTIA = MASS.times(LENGTH, 2)
 
 FAR = 1e7
 """How far a parameter goes that goes to infinity (its inverse: to 0)."""
@@ -47,6 +46,7 @@ _INFINITE = ("inf", "infinity", "∞", "oo")
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
 _STATES = 16
+_PART = 0.7  # of the budget, so that there is time for what comes after
 _TINY = 5e-6  # rad, at which what is left of a true linear equation is below HOLDS, and round-off, too
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
@@ -57,8 +57,8 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
 
     They count only where every term still takes part: an assumption explains what was left out, not what is wrong.
     """
-    for families in case.budget.within(_assumptions(case)):
-        if found := tuple(words for words, family in case.budget.within(families) if _holds(case, equation, family)):
+    for families in case.budget.within(_assumptions(case), _PART):
+        if found := tuple(words for words, family in case.budget.within(families, _PART) if _holds(case, equation, family)):
             return found
     words = _to_first_order(case, equation) or _limit(case, equation)
     return (words,) if words else ()
@@ -145,7 +145,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
         ("at rest", replace(given, at_rest=True)),
         *([("without gravity", replace(given, gravity=False))] if sampler.gravities else ()),
         *((f"{name} = 0 (no friction)", with_zero(name)) for name in sampler.frictions),
-        *((f"{name} = 0", with_zero(name)) for name in others if _of(case, name) != LENGTH),
+        *((f"{name} = 0", with_zero(name)) for name in others if not _is_size(case, name)),
     ]
     own = replace(given, numbers=True, zeros=False)
     yield [("these numbers of the model", own)]
@@ -168,22 +168,27 @@ def _of(case: Case, name: str) -> Known:
     return next(its for n, its in case.meaning.vocabulary.parameters.items() if name in case.meaning.texts(n))
 
 
+def _is_size(case: Case, name: str) -> bool:
+    """Whether a parameter is a length of what there is, and not by how much a prescribed motion moves."""
+    return _of(case, name) == LENGTH and not re.search(rf"\b{re.escape(name)}\b", json.dumps(case.sampler.spec["motions"]))
+
+
 def _limits(case: Case) -> Iterator[tuple[str, int]]:
     """Parameters with the power of the factor by which they go to ∞ or to 0, as a person would name it: no size goes to 0, nor to ∞ where
     bodies turn, and no inertia to ∞."""
     given, free = case.hypothesis, case.sampler.free_parameters
-    turns = any(coordinate["dimension"] == "rad" for coordinate in case.sampler.coordinates)
+    turns = not all(body["particle"] for body in case.sampler.metadata["bodies"])
     for name in mattering(case):
         if not given.since and free[name] != 0 and name not in dict(given.held):
             its = _of(case, name)
-            yield from ((name, 1),) if its != _INERTIA and not (its == LENGTH and turns) else ()
-            yield from ((name, -1),) if its != LENGTH else ()
+            yield from ((name, 1),) if its != INERTIA and not (its == LENGTH and turns) else ()
+            yield from ((name, -1),) if not _is_size(case, name) else ()
 
 
 def _limit(case: Case, equation: Equation) -> str:
     """A limit in which the residual vanishes though every term still takes part, in words; nothing where there is none."""
     given = case.hypothesis
-    for name, power in case.budget.within(_limits(case)):
+    for name, power in case.budget.within(_limits(case), _PART):
         families = (replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)
         with suppress(NoMotion, StatementError, ModelError):
             near, far = (case.values(family, count=_STATES) for family in families)

@@ -146,7 +146,9 @@ class StatementSymbols:
         used = (name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in there)
         own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
-        made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)]
+        declared = map(Sym, self.symbols.of_kind("declared"))  # some only name a parameter anew
+        renamed = [n for n in declared if _meant(self._one(n).texts)[0] in self.sampler.free_parameters]
+        made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)] + renamed
         return self._once([*made, *(n for n in own if n in self.used), *own])
 
     def _once(self, found: list[Sym]) -> list[Sym]:

@@ -19,8 +19,9 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import FAR, family, first_order
+from .assumptions import FAR, family, first_order, tiny
 from .case import Case
+from .correction import corrections
 from .families import ALL, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
@@ -130,7 +131,9 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
     for equation in case.equations:
         if not first_order(case, equation, case.hypothesis):
             found = residual(equation, case.values())
-            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", evidence=evidence(found, case.values()))
+            mends = tuple(corrections(near[1], equation)) if case.correcting and (near := tiny(case, equation)) else ()
+            seen = evidence(found, case.values())
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
 

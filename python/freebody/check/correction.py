@@ -21,6 +21,7 @@ from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in, without_ones
 from .residual import HOLDS, Residual, residual, unreached
+from .slips import unlikely, why
 
 if TYPE_CHECKING:
     from .case import Case
@@ -35,8 +36,10 @@ _BEST = 40  # single edits of which pairs are tried
 _PLAIN = ("sign", "function")  # edits of which all pairs are tried
 _MOST_PLAIN = 24
 _BEST_FIGURES = 12
-_SHOWN = 6
-_SEARCHED, _CONFIRMED = 0.5, 0.8  # of the budget, after which no more is searched for, and none confirmed
+MOST = 3  # corrections that are given
+FIRST, SECOND = 0.5, 0.8
+"""Parts of the budget after which a first search ends, and one that comes after it."""
+_CONFIRMING = 0.1  # of it, for what was found by then
 _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
@@ -54,6 +57,8 @@ class Correction:
     size: float
     where: tuple[tuple[int, int], ...] = ()
     given: str = ""
+    why: str = ""
+    """What was wrong, in a sentence."""
 
     @property
     def is_slip(self) -> bool:
@@ -81,19 +86,20 @@ class _Found:
     def size(self) -> float:
         return sum(edit.size for edit in self.edits)
 
-    def correction(self, given: str) -> Correction:
+    def correction(self, given: str, why: str) -> Correction:
         edits = self.edits
         stated = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in edits)
         where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
-        return Correction(stated, spell(without_ones(self.after)), self.size, where, given)
+        return Correction(stated, spell(without_ones(self.after)), self.size, where, given, why)
 
 
 Step = Callable[["_Search"], Iterator[_Found]]
 """A way to look for corrections."""
 
 
-def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
-    """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits make it true."""
+def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator[Correction]:
+    """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits make it true. They are
+    looked for within a ``part`` of the budget."""
     given, families = case.hypothesis, [(case.hypothesis, "")]
     said = " ".join(text for symbol in symbols_in(equation) for text in case.meaning.texts(Sym(symbol.name)))
     unsaid = case.sampler.free_parameters.keys() - set(re.findall(r"\w+", said)) if given.zeros else ()
@@ -102,16 +108,18 @@ def corrections(case: Case, equation: Equation) -> Iterator[Correction]:
         held = replace(given, held=(*given.held, *((name, 0.0) for name in names)))
         families.append((held, ", ".join(f"{name} = 0" for name in names)))
     parts = rows(equation)
-    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE))):
+    if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE, part))):
         yield from whole
         return
     for row in parts:
-        yield from _of_row(case, row, families, (*_SINGLE, _Search.pairs))
+        yield from _of_row(case, row, families, (*_SINGLE, _Search.pairs), part)
 
 
-def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step]) -> Iterator[Correction]:
+def _of_row(
+    case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step], part: float
+) -> Iterator[Correction]:
     """The smallest corrections of an equation, in the widest family in which they are smallest."""
-    searches = [(_Search(case, row, family), given) for family, given in families]
+    searches = [(_Search(case, row, family, part), given) for family, given in families]
     if any(search.right for search, _ in searches):
         return
     tried: list[list[_Found]] = [[] for _ in searches]
@@ -122,14 +130,14 @@ def _of_row(case: Case, row: Equation, families: list[tuple[Family, str]], steps
         some = [(found, given) for found, given in every if found]
         if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
             found, given = min(some, key=lambda pair: pair[0][0].size)
-            yield from (each.correction(given) for each in found)
+            yield from (each.correction(given, searches[0][0].why(each)) for each in found)
             return
 
 
 class _Search:
     """The edits of one equation beside one family of motions."""
 
-    def __init__(self, case: Case, equation: Equation, family: Family) -> None:
+    def __init__(self, case: Case, equation: Equation, family: Family, part: float) -> None:
         self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
         self.values, self.fresh = case.values(family), case.values(family, _FRESH)
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
@@ -137,8 +145,8 @@ class _Search:
         self.said = {n.key for n in symbols_in(equation)}
         self.given = case.meaning.given()
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
-        self.within = partial(case.budget.within, part=_SEARCHED)
-        self.confirming = partial(case.budget.within, part=_CONFIRMED)
+        self.within = partial(case.budget.within, part=part)
+        self.confirming = partial(case.budget.within, part=part + _CONFIRMING)
         self.fits = FittedEdits(self.values, self.vocabulary, self.within)
         self.right = self._worst(equation, self.values) < HOLDS
 
@@ -189,7 +197,7 @@ class _Search:
         kept: dict[tuple[float, ...], list[_Found]] = {}
         least = 0.0
         for size, _, each in self.confirming(ranked):
-            if kept and size > least + EQUAL:
+            if (kept and size > least + EQUAL) or np.isinf(size):
                 break
             mark = self._mark(each.after)
             idle = any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in each.edits)
@@ -201,18 +209,23 @@ class _Search:
             if mark in kept or self._confirmed(each.after):
                 least = size if not kept else least
                 kept.setdefault(mark, []).append(each)
-        return [min(alike, key=self._oddness) for alike in kept.values()][:_SHOWN]
+        return [min(alike, key=self._oddness) for alike in kept.values()][:MOST]
 
     def _oddness(self, found: _Found) -> tuple[bool, float]:
         """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
         sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
-        length = len(spell(without_ones(found.after))) + _WORTH * found.size
+        length = len(spell(without_ones(found.after))) + _WORTH * self._size(found)
         return any(edit.old in alone and edit.old is not None for edit in found.edits), length
 
+    def why(self, found: _Found) -> str:
+        """What was wrong, a sentence for each edit."""
+        return "; ".join(dict.fromkeys(filter(None, (why(edit, self.equation, self.vocabulary) for edit in found.edits))))
+
     def _size(self, found: _Found) -> float:
-        """How large a correction is; larger where it adds what is always 0 here."""
-        return found.size + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
+        """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
+        odd = sum(unlikely(edit, self.equation, self.vocabulary, self.few, self.other) for edit in found.edits)
+        return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""

@@ -42,7 +42,8 @@ _LARGER = {
     "other term": 1.0,
 }
 """By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
-_FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
+FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
+"""Whole numbers that are mistaken for each other."""
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
 _OTHER = {"sin": "cos", "cos": "sin"}
 _UNSIGNED = (LENGTH, MASS, Dimension(2, 1))
@@ -87,8 +88,8 @@ def other_figures(equation: Equation) -> Iterator[Edit]:
     """Figures that are mistaken for each other, and a term doubled or halved: first steps of two."""
     two = Num(2.0, "2")
     for node, addend in _parts(equation):
-        if isinstance(node, Num) and node.value in _FIGURES:
-            others = (Num(value, f"{value:g}", span=node.span) for value in _FIGURES if value != node.value)
+        if isinstance(node, Num) and node.value in FIGURES:
+            others = (Num(value, f"{value:g}", span=node.span) for value in FIGURES if value != node.value)
             yield from (Edit.at(equation, "factor", node, other) for other in others)
         elif addend and not any(isinstance(n, Num) for n in walk(node)):
             yield Edit.at(equation, "factor", node, Mul((two, node), span=node.span))
@@ -217,7 +218,7 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
     pairs = [(n, o.name) for n in often for o in vocabulary.alike(Sym(n)) if n < o.name and o.name in often]
     given = [n for n in dict.fromkeys(found) if n in vocabulary.parameters]
-    pairs += [(a.name, b.name) for a, b in combinations(given, 2) if b not in vocabulary.alike(a)]
+    pairs += [(a.name, b.name) for a, b in combinations(given, 2)]
     for one, two in pairs:
         swapped = dict(zip(_with_rates(one) + _with_rates(two), _with_rates(two) + _with_rates(one), strict=True))
         yield _convention(equation, swapped, f"`{one}` and `{two}` exchanged")

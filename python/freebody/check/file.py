@@ -158,6 +158,7 @@ def as_json(verdict: Verdict) -> dict[str, Any]:
                 "edits": [dict(zip(("kind", "before", "after"), e, strict=True)) for e in m.edits],
                 "equation": m.equation,
                 "given": m.given,
+                "why": m.why,
                 "where": list(m.where),
             }
             for m in verdict.mends

@@ -11,7 +11,7 @@ from itertools import chain, permutations
 
 import numpy as np
 
-from freebody.symbolic.dimensions import NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import INERTIA, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
@@ -24,7 +24,7 @@ from .vocabulary import Vocabulary
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
-_DENOMINATOR = 12
+_DENOMINATOR = 24
 _NUMERATOR = 60
 
 
@@ -71,7 +71,8 @@ class FittedEdits:
         match node:
             case Sym() | Fn() if required.value.ndim == 1:
                 found = (n for n in self._known if n != node and alike(self.values[n.key]))
-                yield from ((Sym(n.name, n.dots, span=span), 0.3) for n in found)
+                turns = dimension(node, self.vocabulary.dimensions) == INERTIA  # one about another point
+                yield from ((Sym(n.name, n.dots, span=span), 0.0 if turns else 0.3) for n in found)
             case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == 1:
                 found = (n for n in self._known if n != base and alike(self.values[n.key] ** 2))
                 yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in found)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from itertools import chain
+from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from freebody.symbolic.errors import StatementError
 
 from .assumptions import assumption, linearised, tiny
 from .case import Case
-from .correction import Correction, corrections
+from .correction import MOST, SECOND, Correction, corrections
 from .families import ALL, NoMotion
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -106,7 +106,8 @@ class Verdict(PlainText):
     def details(self) -> list[str]:
         """What is behind it, a line each."""
         lines = [self.reason] if self.reason else []
-        lines += [f"correction: {correction}" for correction in self.mends]
+        for correction in self.mends:
+            lines += [f"correction: {correction}", *([f"  {correction.why}"] if correction.why else [])]
         if self.true:
             lines.append(self.true)
         if self.evidence and not self.ok:
@@ -189,7 +190,7 @@ def of_wrong_dimensions(case: Case, equations: Iterable[Equation], text: str, re
     if not case.correcting:
         return Verdict(Kind.DIMENSIONS, text, reason)
     try:
-        fixes = {equation: tuple(corrections(case, equation)) for equation in equations}
+        fixes = {equation: tuple(islice(corrections(case, equation), MOST)) for equation in equations}
     except NoMotion:
         return Verdict(Kind.DIMENSIONS, text, reason)
     every = tuple(chain(*fixes.values()))
@@ -206,7 +207,7 @@ def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, 
     other = replace(case, meaning=case.meaning.in_figures())
     if not all(map(other.meaning.fits, equations)):
         return ()
-    return tuple(chain(*(corrections(other, equation) for equation in equations if not holds(other, equation))))
+    return tuple(chain(*(corrections(other, equation, SECOND) for equation in equations if not holds(other, equation))))
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
@@ -235,7 +236,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     seen = evidence(found, case.values())
     if not case.correcting:
         return Verdict(Kind.WRONG, text, evidence=seen)
-    fixes = tuple(corrections(case, equation))
+    fixes = tuple(islice(corrections(case, equation), MOST))
     if small := linearised(case, equation):
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
     slip = any(each.is_slip and len(each.edits) == 1 for each in fixes)
@@ -243,7 +244,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         words, near = small
-        fixes = tuple(replace(each, given=words) for each in corrections(near, equation))
+        fixes = tuple(replace(each, given=words) for each in islice(corrections(near, equation, SECOND), MOST))
     if fixes:
         return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
     what = "wrong" if case.budget.spent else "wrong, and no single or double edit corrects it"

@@ -77,7 +77,7 @@ class Dimension(NamedTuple):
 NUMBER_ONLY = Dimension()
 ANGLE = Dimension(angle=1)
 LENGTH, MASS, TIME = Dimension(1), Dimension(0, 1), Dimension(0, 0, 1)
-FORCE, ENERGY = Dimension(1, 1, -2), Dimension(2, 1, -2)
+FORCE, ENERGY, INERTIA = Dimension(1, 1, -2), Dimension(2, 1, -2), Dimension(2, 1)
 
 _KNOWN = [
     (NUMBER_ONLY, "", "a plain number"),
