@@ -118,6 +118,8 @@ def test_a_figure_of_which_no_digit_holds_is_not_decided() -> None:
     for figure in (run.evaluate("theta", end), run.evaluate("theta", end) + 0.1):
         for claim in (f"at end: theta = {figure:.4g}", f"report: turned = {figure:.4g}"):
             assert checker.check(claim).kind is Kind.UNDECIDABLE
+    for until, kind in (("1 s", Kind.TRUE), ("40 s", Kind.UNDECIDABLE)):  # the mass does not matter
+        assert checker.check(f"same at {until} for m = 1 kg, 3 kg: theta").kind is kind
     energy = run.evaluate("energy()", end)
     assert checker.check(f"at end: E = {energy:.5g} where E = energy()").kind is Kind.TRUE
 

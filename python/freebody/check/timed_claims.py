@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
@@ -72,12 +73,14 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
     """An expression has one value at a moment of the runs with several numbers of a parameter."""
     if name not in [*checker.mechanism.parameters]:
         raise ModelProblem(f"the model has no parameter `{name}`", f"it has {', '.join(checker.mechanism.parameters)}")
-    before, found = checker.mechanism.parameters[name], {}
+    before, found, unsure = checker.mechanism.parameters[name], {}, []
     try:
         for number in (part.strip() for part in numbers.split(",")):
             checker.mechanism.parameters[name] = number
-            case, values, _ = _read(type(checker)(checker.mechanism, checker.declared), declared, moment, f"{expression} = 0")
+            other = type(checker)(checker.mechanism, checker.declared)
+            case, values, t = _read(other, declared, moment, f"{expression} = 0")
             found[number] = sampled(case.equations[0].left, values)[0]
+            unsure.append(partial(_unsure, other, case, case.equations[0], other.moment(moment)[0], t))
     finally:
         checker.mechanism.parameters[name] = before
     every = np.array(list(found.values()))
@@ -85,6 +88,8 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
     if spread < _ALIKE:
         return Verdict(Kind.TRUE, expression, f"{_plain(every[0])} in all {len(every)} runs, to {spread:.0e}")
     stated = ", ".join(f"{_plain(value)} with {name} = {number}" for number, value in found.items())
+    if np.ptp(every, axis=0).max() <= sum(each().max() for each in unsure):
+        return Verdict(Kind.UNDECIDABLE, expression, f"at {moment} it is {stated}, and the runs do not know it to so many digits")
     return Verdict(Kind.WRONG, expression, f"at {moment} it is {stated}")
 
 

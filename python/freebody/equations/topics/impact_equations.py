@@ -258,7 +258,7 @@ class Impact:
     def agrees(self, solution: Mapping[Sym, Tree]) -> bool:
         """Whether rates after the impact are those that happened, and impulses those that the jumps of momenta take."""
         sizes = {x: size for x, size in self.sizes().items() if x in solution and not np.isnan(size)}
-        usual = np.nanmax([abs(load.value) for load in self.subject.impact.impulses.loads], initial=0.0)
+        usual = np.nan_to_num([abs(load.value) for load in self.subject.impact.impulses.loads]).max(initial=0.0)
         after = zip(self.rates_after.items(), self._usual_rates.values(), strict=True) if self.change.after else ()
         pairs = [(x, u, most) for (x, u), most in after] + [(x, size, usual) for x, size in sizes.items()]
         found = {x: float(evaluate(solution[x], self.values, self.subject.tables)) for x, *_ in pairs}
