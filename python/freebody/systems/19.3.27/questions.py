@@ -149,8 +149,7 @@ def damped(case):
                 numbers = (x, of) if held == "Omega" else (of, x)
                 return np.linalg.det(monodromy(*numbers, c, G) + sign * np.eye(2))
 
-            near = (1 - 1e-3) * values[-1], (1 + 1e-3) * values[-1]
-            checks.append(brentq(left, *near, xtol=1e-11))
+            checks.append(brentq(left, low, high, xtol=1e-11))
         yield Answer(name, values, unit, checks, SCIPY, 1e-8, says=says)
 
 
