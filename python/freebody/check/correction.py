@@ -177,7 +177,7 @@ class _Search:
                 both = exchange(first.after, second.old, second.new or Num(0.0, "0"))
                 made = [replace(second, after=both)] if both is not first.after else []
                 yield from (_Found((first, edit)) for edit in self._promising(made))
-        for first in (*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES)):
+        for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
             yield from (_Found((first, edit)) for edit in self._promising(self._fitted(first.after)))
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain, permutations
+from typing import Any
 
 import numpy as np
 
@@ -35,13 +36,13 @@ class FittedEdits:
 
     values: Mapping[str, Array]
     vocabulary: Vocabulary
-    within: Callable[[Iterable[Node]], Iterator[Node]] = iter
+    within: Callable[[Iterable[Any]], Iterator[Any]] = iter
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
         with np.errstate(all="ignore"):
-            for required in required_terms(equation, self.values):
+            for required in self.within(required_terms(equation, self.values)):
                 yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
                 node = required.node  # a number, or a fraction of two
                 parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
@@ -56,7 +57,7 @@ class FittedEdits:
     def other_terms(self, equation: Equation) -> Iterator[Edit]:
         """Terms that should be quite other ones."""
         with np.errstate(all="ignore"):
-            for required in required_terms(equation, self.values):
+            for required in self.within(required_terms(equation, self.values)):
                 for term in self._matching(equation, required.needed) if required.addend else ():
                     yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
@@ -142,7 +143,7 @@ class FittedEdits:
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self._dictionary(equation, NUMBER_ONLY)
-            for pair in _spanning(rows, required.missing):
+            for pair in self.within(_spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
@@ -215,11 +216,11 @@ def _proportional(rows: Array, wanted: Array) -> list[int]:
     return np.flatnonzero(off <= _SAME * np.abs(wanted).max()).tolist()
 
 
-def _spanning(rows: Array, wanted: Array) -> Iterator[tuple[int, int]]:
+def _spanning(rows: Array, wanted: Array, within: Callable[[Iterable[int]], Iterator[int]]) -> Iterator[tuple[int, int]]:
     """Pairs of rows of which ``wanted`` is made, the first among those most like it."""
     sizes = np.linalg.norm(rows, axis=1)
     order = np.argsort(-np.abs(rows @ wanted) / sizes)[:_LIKELY]
-    for i in order.tolist():
+    for i in within(order.tolist()):
         along = rows[i] / sizes[i]
         rest, others = wanted - (wanted @ along) * along, rows - np.outer(rows @ along, along)
         others[np.linalg.norm(others, axis=1) < 1e-6 * sizes] = np.nan
