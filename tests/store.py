@@ -29,7 +29,7 @@ ANSWERED = [name for name in MODELS if name not in WITHOUT_ANSWER]
 REPRESENTATIVE = (
     "19.3.1/string", "19.3.2/with_spin", "19.3.3/polar", "19.3.7/straight", "19.3.11/two", "19.3.11/wall",
     "19.3.13/model", "19.3.19/push", "19.3.20/cable", "19.3.20/pulleys", "19.3.21/broken", "19.3.22/latch", "19.3.23/idle",
-    "19.3.27/model", "19.3.27/table", "19.3.29/model", "EX-ARM/held", "EX-BLOCK/model", "GEN-CAR/driveshaft", "GEN-SUSP/one_sided", "GEN-WALK/model", "S19.15/model",
+    "19.3.27/model", "19.3.27/plate", "19.3.27/table", "19.3.29/model", "EX-ARM/held", "EX-BLOCK/model", "GEN-CAR/driveshaft", "GEN-SUSP/one_sided", "GEN-WALK/model", "S19.15/model",
     "S19.17/free_end", "examples/tossed_box",
 )  # fmt: skip
 """Always visited: together they hold every kind of part that any model has (``test_sample.py``)."""

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.special import sici
 from typer.testing import CliRunner
 
 import freebody as fb
@@ -22,14 +23,18 @@ run: {until: 1 s, every: 0.25 s}
 """
 X = "(s/(1 m))"
 EVERYWHERE = [f"sqrt(-1 - {X})", f"exp(1000 + {X})", f"acos(2 + {X})", f"exp(1000 + {X})/exp(900 + {X})"]
-AT_START = [f"1/{X}", f"ln{X}", f"{X}/{X}", f"sin{X}/{X}", f"-1/{X}", *EVERYWHERE]
+DIVERGING = [f"1/{X}", f"-1/{X}", *EVERYWHERE]
+MEANS = {f"ln{X}": -1.0, f"{X}/{X}": 1.0, f"sin{X}/{X}": sici(1.0)[0]}
+"""Without a value at the start; their means in 1 s by closed forms."""
+AT_START = [*DIVERGING, *MEANS]
 ONLY_WITHIN = [f"rms of exp(500 + {X})", f"integral of exp(709 + {X}/10)/(0.01 s)"]
 POLES = [f"1/({X} - 0.37)", f"1/({X} - 0.61)^2", f"tan(pi*{X}*0.83)", f"tan(pi*{X}*0.8)", f"1/({X} - 0.5)"]
 """Infinite at a moment between all that are kept, at a halving of these, and where a step ends."""
 ASKED = (
     [f"{text} @ start" for text in AT_START]
     + [f"{text} @ {moment}" for text in EVERYWHERE for moment in ("end", "half", "before half", "0.25 s")]
-    + [f"{how} of {text}" for text in AT_START for how in ("max", "minima", "mean")]
+    + [f"{how} of {text}" for text in AT_START for how in ("max", "minima")]
+    + [f"mean of {text}" for text in DIVERGING]
     + ONLY_WITHIN
     + [f"{how} of {text}" for text in POLES for how in ("mean", "integral", "rms")]
 )
@@ -37,7 +42,7 @@ SOUND = {
     "where": ("s @ end", 1.0),
     "logarithm": (f"ln{X} @ half", np.log(0.5)),
     "root": (f"max of sqrt{X}", 1.0),
-}
+} | {f"mean {i}": (f"mean of {text}", value) for i, (text, value) in enumerate(MEANS.items())}
 """What has a value, of which some are without one elsewhere, by closed forms of s = t."""
 
 
