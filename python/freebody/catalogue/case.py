@@ -79,7 +79,7 @@ class Case:
             yield replace(answer, said=sides, says=f"{balance.title}: {{}}")
 
     def eigenvalues_of(self, closed: str, against: str, file: str = "model.yaml", **at: Any) -> Answer:
-        """The characteristic polynomial, in s, of small perturbations from rest, beside a closed form."""
+        """The characteristic polynomial of small perturbations from rest, in s, or λ where s is a symbol of the model, beside a closed form."""
         from freebody.document.blocks import Equation
         from freebody.equations.topics import topic
 

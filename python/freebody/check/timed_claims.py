@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     from .api import Checker, Declared
 
 _ROUND = 1e-9  # of half a digit, so that a figure that lies on the edge is accepted
+_KNOWN = (
+    1e-6  # part of its sides to which a run knows an equation without figures, where agreeing as closely as that says something
+)
 _ALIKE = 1e-7  # spread of what is the same in several runs, relative: what the integrator leaves
 
 
@@ -43,6 +46,8 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
             return Verdict(Kind.UNDECIDABLE, statement, f"at {moment} (t = {t:.6g} s) it has no value: {_figures(sides)}")
         off, allowed = np.abs(sides.residual), rounding(equation, values)
         unsure = _unsure(checker, case, equation, run, t)
+        if not figures(equation) and np.all(unsure <= _KNOWN * np.maximum(np.abs(sides.left), np.abs(sides.right))):
+            allowed = np.maximum(allowed, unsure)
         if np.any(unsure > allowed) and np.all(off <= allowed + unsure):
             reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}, and the run does not know it to so many digits: the motion "
             return Verdict(Kind.UNDECIDABLE, statement, reason + run.accuracy.sentence)

@@ -81,8 +81,10 @@ def compared(run, law, start, times):
 
 @ask("(b) Which gains of a = K_p θ + K_d θ̇ keep the broom up?")
 def keeping(case):
-    """s² + κK_d s + κ(K_p − g) has its roots on the left where both coefficients are positive."""
-    yield case.eigenvalues_of("s^2*(s^2 + 3/(2*l)*Kd*s + 3/(2*l)*(Kp - g))", DETERMINANT, theta=0, a0=0, Kx=0, Kv=0)
+    """λ² + κK_d λ + κ(K_p − g) has its roots on the left where both coefficients are positive."""
+    yield case.eigenvalues_of(
+        "lambda^2*(lambda^2 + 3/(2*l)*Kd*lambda + 3/(2*l)*(Kp - g))", DETERMINANT, theta=0, a0=0, Kx=0, Kv=0
+    )
     for Kp, Kd in ((1.01 * G, 1), (0.99 * G, 1), (20, 0.01), (20, -0.01)):
         (upright,) = case.mechanism(Kp=Kp, Kd=Kd).stability(theta=0, rates={"theta": 0})
         up, of = bool(np.linalg.eigvals(upright.space.a).real.max() < GROWS), f"K_p = {Kp:.5g} m/s², K_d = {Kd:g} m/s"
@@ -130,10 +132,10 @@ def gains(poles):
 POLES = [-1, -2, -2.5, -3]
 
 
-@ask("With the hand's position fed back too: what are the eigenvalues s symbolically?")
+@ask("With the hand's position fed back too: what are the eigenvalues λ symbolically?")
 def eigenvalues_symbolically(case):
     k = "(3/(2*l))"
-    closed = f"s^4 + ({k}*Kd - Kv)*s^3 + ({k}*Kp - {k}*g - Kx)*s^2 + {k}*g*Kv*s + {k}*g*Kx"
+    closed = f"lambda^4 + ({k}*Kd - Kv)*lambda^3 + ({k}*Kp - {k}*g - Kx)*lambda^2 + {k}*g*Kv*lambda + {k}*g*Kx"
     yield case.eigenvalues_of(closed, DETERMINANT, theta=0, a0=0)
 
 
