@@ -18,7 +18,8 @@ NAMES = ("g", "t", "pi", "e", "i", "m", "N", "kg", "rad", "x", "T", "s", "l", "s
 """Units, constants, functions, symbols that are printed for other things, Greek ones, and names that must be quoted."""
 RESERVED = ("t", "pi")
 """Refused as names of coordinates and parameters."""
-RIGID = tuple(kind for kind, card in joints().items() if card.coordinates)
+RIGID = tuple(kind for kind, card in joints().items() if card.coordinates and kind != "wound_string")
+"""Joints that hold at any values of their coordinates; a wound string has a free length above 0."""
 PARTICLE = ("link", "slot", "curved_slot", "one_sided_cam", "free", "polar")
 LOOPS = ("link", "slot", "hinge", "coupling")
 FORCES = ("force", "torque", "spring", "torsion_spring", "damper", "law")

@@ -41,6 +41,7 @@ FIELDS = {
     "free": "of: [ground.A, wheel.P]",
     "polar": "of: [ground.A, wheel.P]",
     "parallel": "of: [ground.A, wheel.P]",
+    "wound_string": f"from: ground.A, drum: {CIRCLE}",
 }
 VALUES = np.array([0.8, 0.5, -1.1])
 

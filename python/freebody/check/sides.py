@@ -18,12 +18,12 @@ _TOUCHING = 1e-9
 
 def changes_side(core: CompiledModel, squares: Sequence[str], start: Array, state: State) -> bool:
     """Whether one of the ``squares`` of distances would be 0 on the straight way from the coordinates ``start``: then its two points
-    would have changed sides, and what is x on the one is −x on the other."""
+    would have changed sides, and what is x on the one is −x on the other; or whether one is below 0 at its end."""
     first, half, last = np.array([core.evaluate(squares, state.at(q)) for q in (start, (start + state.q) / 2, state.q)])
     a, b = 2 * (first - 2 * half + last), 4 * half - 3 * first - last  # along a line d² is a parabola, c + b s + a s²
     with np.errstate(all="ignore"):
         between = (-b > 0) & (-b < 2 * a)
-        return bool(np.any(between & (first - b**2 / (4 * a) < _TOUCHING * np.maximum(first, last))))
+        return bool(np.any((last < 0) | between & (first - b**2 / (4 * a) < _TOUCHING * np.maximum(first, last))))
 
 
 def squares(spec: Mapping[str, Any]) -> Iterator[str]:
@@ -33,8 +33,11 @@ def squares(spec: Mapping[str, Any]) -> Iterator[str]:
     pairs += [joint["with"]["of"] for joint in spec["joints"] if joint["type"] == "polar"]
     yield from (f"distance({quote(a)}, {quote(b)})^2" for a, b in pairs)
     yield from (f"{read}^2" for read in re.findall(r"distance\([^()]*\)", json.dumps(spec, ensure_ascii=False)))
-    for string in spec["strings"]:
-        stations = [_circle(item) for item in (string["ends"][0], *string["over"], string["ends"][1])]
+    chains = [(string["ends"][0], *string["over"], string["ends"][1]) for string in spec["strings"]]
+    wound = [joint["with"] for joint in spec["joints"] if joint["type"] == "wound_string"]
+    chains += [({"tied": ends["from"]}, {"wound": ends["drum"]}) for ends in wound]
+    for chain in chains:
+        stations = map(_circle, chain)
         yield from (f"distance({quote(a)}, {quote(b)})^2 - (({r}) + ({s}))^2" for (a, r), (b, s) in pairwise(stations))
 
 

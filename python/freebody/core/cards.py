@@ -37,7 +37,7 @@ class Field:
 class Coordinate:
     """A coordinate of a joint with its SI unit (empty for a curve parameter); ``turn``: it is the second body's own turn.
     ``line``: that along which, or ``across`` which, it moves this body, ``{}`` being the joint; or empty. ``gap``: a stop, called
-    ``JOINT.contact``, keeps it from falling below 0."""
+    ``JOINT.contact``, keeps it from falling below 0. ``ends``: what is said of the joint where it falls to 0 and a motion ends; or empty."""
 
     name: str
     unit: str
@@ -45,6 +45,7 @@ class Coordinate:
     line: str
     across: bool
     gap: bool
+    ends: str
 
 
 @dataclass(frozen=True)
@@ -181,7 +182,7 @@ def _declared() -> dict[str, Any]:
 
 
 def _card(data: dict[str, Any], readings: dict[str, str | None]) -> Card:
-    words = ("turn", "line", "across", "gap")
+    words = ("turn", "line", "across", "gap", "ends")
     coordinates = (Coordinate(c["name"], c["dimension"] or "", *(c[word] for word in words)) for c in data["coordinates"])
     rows, parts = (tuple(LoadCard(**load) for load in data[word]) for word in ("rows", "parts"))
     fields, outline = tuple(map(_field, data["fields"])), tuple(tuple(map(tuple, stroke)) for stroke in data["outline"])

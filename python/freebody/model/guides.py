@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import Spec, cards
@@ -14,6 +13,10 @@ from .names import spell
 
 if TYPE_CHECKING:
     from .writer import Writer
+
+
+_WOUND_UP = 1e-4
+"""Radii of a drum, below which the inertia against a turn about the end of the string begins to be lost in round-off."""
 
 
 def leaving(joint: str) -> list[str]:
@@ -29,10 +32,10 @@ def lifting(name: str, joint: elements.Element) -> list[tuple[str, str]]:
     return [(f"{name} lifts off {row}" if len(rows) > 1 else f"{name} lifts off", f"{sign}{{}}.F{row}") for row in rows]
 
 
-def release(name: str, when: str, released: Sequence[str]) -> Spec:
-    """An event that takes parts away as soon as an expression is not above 0."""
-    plain = {"direction": -1, "condition": None, "opening": False, "guard": True}
-    return {"name": name, "when": when} | plain | {"then": [{"release": list(released)}]}
+def endings(name: str, joint: elements.Element) -> list[tuple[str, int]]:
+    """The events that end a motion where a coordinate falls to 0, each with which one."""
+    coordinates = cards.joints()[joint.type].coordinates
+    return [(f"{name} {coordinate.ends}", k) for k, coordinate in enumerate(coordinates) if coordinate.ends]
 
 
 def ends_and_side(write: Writer, name: str, joint: elements.Element, written: Spec) -> None:
@@ -49,9 +52,12 @@ def ends_and_side(write: Writer, name: str, joint: elements.Element, written: Sp
         given = elements.given(joint, "restitution")
         restitution = write.fraction((*path, "restitution"), 0 if given is None else given, "a restitution")
         _stop(write, f"{full}.contact", _place(write, name, joint, written, gap), restitution, joint, path)
+    for event, k in endings(name, joint):
+        free, radius = _place(write, name, joint, written, k), written["with"]["drum"]["radius"]
+        _event(write, event, f"{free} - {_WOUND_UP}*({text(radius)})", "stop", path)
     if elements.given(joint, "one_sided"):
         for event, push in lifting(name, joint):
-            _event(write, event, push.format(spell(full)), full, (*path, "one_sided"))
+            _event(write, event, push.format(spell(full)), {"release": [full]}, (*path, "one_sided"))
 
 
 def _ends(write: Writer, path: Path, name: str, joint: elements.Element, written: Spec, ends: str) -> None:
@@ -68,7 +74,7 @@ def _ends(write: Writer, path: Path, name: str, joint: elements.Element, written
     gaps = (at, f"{text(length)} - {beyond}")
     if ends == "free":
         for event, gap in zip(leaving(name), gaps, strict=True):
-            _event(write, event, gap, written["name"], path)
+            _event(write, event, gap, {"release": [written["name"]]}, path)
         return
     given = elements.given(joint, "end_restitution")
     restitution = write.fraction((*path[:-1], "end_restitution"), 0 if given is None else given, "a restitution")
@@ -92,7 +98,9 @@ def _place(write: Writer, name: str, joint: elements.Element, written: Spec, whi
     return f"{text(zero)} {sign} {coordinate}"
 
 
-def _event(write: Writer, name: str, when: str, joint: str, path: Path) -> None:
+def _event(write: Writer, name: str, when: str, then: str | Spec, path: Path) -> None:
+    """What happens as soon as an expression is not above 0."""
     full = write.prefix + name
-    write.spec["events"].append(release(full, when, [joint]))
+    plain = {"direction": -1, "condition": None, "opening": False, "guard": True}
+    write.spec["events"].append({"name": full, "when": when} | plain | {"then": [then]})
     write.items[f"events.{full}"] = (write.scope, path)

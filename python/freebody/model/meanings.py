@@ -162,6 +162,7 @@ class _Declarations:
         if cards.joints()[joint.type].gap is not None:
             self.stops_of(name, "contact")
         events = guides.leaving(name) if ends == "free" else []
+        events += [event for event, _ in guides.endings(name, joint)]
         if elements.given(joint, "one_sided"):
             events += [event for event, _ in guides.lifting(name, joint)]
         for event in events:

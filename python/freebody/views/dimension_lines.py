@@ -10,7 +10,7 @@ import numpy as np
 
 from freebody.core import GROUND, Array
 from freebody.views import shapes
-from freebody.views.glyphs import points_of_curve
+from freebody.views.glyphs import free_part, points_of_curve
 from freebody.views.sketch import Sketch, named_points
 
 _ROUND_OFF = 1e-7  # sizes of symbols, below which a length is what assembly leaves of 0
@@ -186,6 +186,8 @@ def _normal(sketch: Sketch, asked: _Asked) -> Array:
 def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
     """Where a joint is: at the point of its second body."""
     fields = joint["with"]
+    if "drum" in fields:
+        return free_part(sketch, fields)[0, 1]
     if "line" in fields:
         body, point, _ = sketch.line(fields["line"])
         return sketch.moved(body, point[None])[0]
@@ -200,8 +202,11 @@ def _outwards(sketch: Sketch, joint: Mapping[str, Any]) -> tuple[Array, Array]:
     """The first of two points, and the unit direction from it in which their distance ``r`` grows: to the second where that is
     positive, or no coordinate."""
     fields = joint["with"]
-    names = fields["of"] if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
-    first, second = (sketch.place(name) for name in names)
+    if "drum" in fields:
+        first, second = free_part(sketch, fields)[0]
+    else:
+        names = fields["of"] if "of" in fields else (fields["on"]["centre"], fields["circle"]["centre"])
+        first, second = (sketch.place(name) for name in names)
     words = [(each["joint"], each["word"]) for each in sketch.metadata["coordinates"]]
     distance = float(np.hypot(*(second - first))) or 1.0
     below = (joint.get("name"), "r") in words and sketch.q[0, words.index((joint.get("name"), "r"))] < 0
@@ -212,7 +217,7 @@ def _way(sketch: Sketch, asked: _Asked) -> Array:
     """Unit direction in which a length grows: an axis of the first body, from the first point to the second, the normal of a curve,
     or the line's."""
     fields = asked.joint["with"]
-    if asked.word == "r":
+    if asked.word in ("r", "length"):
         return _outwards(sketch, asked.joint)[1]
     if asked.word in _AXES:
         body, along = asked.first, _AXES[asked.word]

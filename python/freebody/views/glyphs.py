@@ -12,7 +12,7 @@ import numpy as np
 from freebody.core import GROUND, Array
 from freebody.core.cards import joints
 from freebody.views import shapes
-from freebody.views.sketch import Sketch, Stroke
+from freebody.views.sketch import Cord, Sketch, Stroke
 
 Fields = Mapping[str, Any]
 
@@ -193,6 +193,22 @@ def _belt(sketch: Sketch, name: str, fields: Fields) -> None:
     sketch.pair(name, "belt", fields["of"], [strand, strand * (1, -1)])
 
 
+def _wound_string(sketch: Sketch, name: str, fields: Fields) -> None:
+    sketch.wheel(fields["drum"], "mark")
+    path = free_part(sketch, fields)
+    sketch.cords.append(Cord(name, path, np.full(len(path), True), sketch.there(name)))
+
+
+def free_part(sketch: Sketch, fields: Fields) -> Array:
+    """The free part (nt, 2, 2) of a wound string in the fixed axes: from where it is tied to where it touches its drum."""
+    drum = fields["drum"]
+    tied, centre = (sketch.seen_from(GROUND, point) @ (1.0, 1.0j) for point in (fields["from"], drum["centre"]))
+    radius = sketch.number(drum["radius"]) * (-1.0 if fields.get("right") else 1.0)
+    length = np.sqrt(np.maximum(np.abs(centre - tied) ** 2 - radius**2, 0.0))
+    touching = tied + length * (centre - tied) / (length + 1j * radius)
+    return np.stack([np.column_stack([place.real, place.imag]) for place in (tied, touching)], axis=1)
+
+
 GLYPHS: dict[str, Callable[[Sketch, str, Fields], None]] = {
     "pin": _hinge,
     "weld": _weld,
@@ -207,5 +223,6 @@ GLYPHS: dict[str, Callable[[Sketch, str, Fields], None]] = {
     "wheels": _rolling_circles,
     "pitch_circles": _gear,
     "belt": _belt,
+    "wound_string": _wound_string,
 }
 """By the names that joints give on their cards; each takes the sketch, the name of the joint and its fields."""

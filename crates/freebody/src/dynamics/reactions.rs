@@ -2,7 +2,7 @@
 
 use super::rows::{joint_tangent, Row, Source};
 use super::{constraint_rows, joint_place, residual, SolvedView, Workspace};
-use crate::kinematics::{relative, StateView};
+use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::{DriveKind, FrictionSource, Mechanism};
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -19,7 +19,7 @@ pub struct JointLoad<S = f64> {
     pub couple: S,
     /// Unit vector along the first body's line, or along its curve at the contact, fixed axes.
     pub tangent: Vec2<S>,
-    /// From the first body's marker to the second's, fixed axes.
+    /// From the first body's marker to the joint's point, fixed axes.
     pub span: Vec2<S>,
 }
 
@@ -64,7 +64,7 @@ impl<S: Scalar> JointLoad<S> {
     fn at_joint_origin(&self, at: StateView<'_, S>, body: usize) -> Wrench<S> {
         Wrench { f: self.force, m: self.couple }.seen_from(self.point - at.k.pose[body].at)
     }
-    /// The pull along the line of the two markers: positive when it draws the second towards the first, N.
+    /// The pull along the line to the joint's point: positive when it draws the second body towards the first, N.
     pub fn tension(&self) -> S {
         -self.force.dot(self.span) / self.span.norm()
     }
@@ -99,7 +99,8 @@ impl<S: Scalar> SolvedView<'_, S> {
         };
         let couple = if joint.couple { load.m } else { S::zero() };
         let tangent = axes.turn.apply(joint_tangent(at, index));
-        JointLoad { point, force: load.f, couple, tangent, span: axes.turn.apply(place.at()) }
+        let span = axes.turn.apply(JointView::new(at.m, at.n, joint, |x| x).contact(&place));
+        JointLoad { point, force: load.f, couple, tangent, span }
     }
 
     /// The reaction of every joint.

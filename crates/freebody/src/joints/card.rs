@@ -106,6 +106,8 @@ pub struct CoordinateCard {
     pub across: bool,
     /// Whether it is a gap, which a stop called `JOINT.contact` keeps from falling below 0.
     pub gap: bool,
+    /// What is said of the joint where this falls to 0 and a motion ends: `is wound up`; or empty.
+    pub ends: &'static str,
 }
 
 /// What a load is: a component of a reaction, a force of the model, friction. Who names it, draws it or tells its unit
@@ -238,7 +240,8 @@ impl Card {
     }
     /// A coordinate.
     pub fn coordinate(mut self, name: &'static str, dimension: &'static str) -> Self {
-        self.coordinates.push(CoordinateCard { name, dimension, turn: false, line: "", across: false, gap: false });
+        let (turn, across, gap) = (false, false, false);
+        self.coordinates.push(CoordinateCard { name, dimension, turn, line: "", across, gap, ends: "" });
         self
     }
     /// The line along which the last coordinate moves the second body, `{}` being the joint.
@@ -263,6 +266,11 @@ impl Card {
         self = self.coordinate("gap", "m");
         self.coordinates.last_mut().expect("a coordinate").gap = true;
         self.takes("restitution", FieldKind::Number, "", "0", "speed of parting over speed of approach, 0 to 1")
+    }
+    /// A motion ends where the last coordinate, a free length, falls to 0, by an event that says so of the joint.
+    pub fn ends(mut self, words: &'static str) -> Self {
+        self.coordinates.last_mut().expect("a coordinate").ends = words;
+        self
     }
     /// Whether its bodies push each other by a stop, and have no reaction besides.
     pub fn is_one_sided(&self) -> bool {

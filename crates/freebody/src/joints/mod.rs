@@ -16,6 +16,7 @@ mod skate;
 mod slider;
 mod slot;
 mod weld;
+mod wound_string;
 
 pub use card::{Card, CoordinateCard, Field, FieldKind, LoadCard, Role, RowCard};
 pub use gear::Gear;
@@ -162,6 +163,7 @@ list! {
     rolling::RollingCircles,
     gear::Gear,
     gear::Belt,
+    wound_string::WoundString,
     skate::Skate,
     free::Free,
     free::Polar,

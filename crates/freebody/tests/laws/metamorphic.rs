@@ -150,7 +150,7 @@ fn mirrored(mut spec: Spec) -> Spec {
         let back = |text: &str| text.replace("sin", "S").replace('s', "(-s)").replace('S', "sin");
         (curve.x, curve.y) = (back(&curve.x), format!("-({})", back(&curve.y)));
     }
-    for Element { fields, .. } in &mut spec.joints {
+    for Element { kind, fields, .. } in &mut spec.joints {
         for (word, field) in fields {
             match (word.as_str(), field) {
                 ("on", Value::Line(Place { angle: Some(Number::Literal(angle)), .. })) => {
@@ -158,6 +158,8 @@ fn mirrored(mut spec: Spec) -> Spec {
                 }
                 (_, Value::Line(Place { angle: Some(angle), .. })) => minus(angle),
                 ("angle" | "flank" | "strand", Value::Number(number)) => minus(number),
+                // A curve is gone along the other way, and keeps its side.
+                ("right", Value::Flag(right)) if kind == "wound_string" => *right = !*right,
                 _ => {}
             }
         }

@@ -64,13 +64,13 @@ pub fn numbers_for(card: &Card, rng: &mut Rng) -> Vec<f64> {
     numbers
 }
 
-/// Coordinates in the order of a card, angles within half a turn, distances from a pole away from 0.
+/// Coordinates in the order of a card, angles within half a turn, distances from a pole and free lengths away from 0.
 pub fn coordinates_for(card: &Card, rng: &mut Rng) -> Vec<f64> {
     card.coordinates
         .iter()
         .map(|c| match (c.dimension, c.name) {
             ("rad", _) => rng.about(3.0),
-            (_, "r") => rng.within(0.5, 1.5),
+            (_, "r" | "length") => rng.within(0.5, 1.5),
             _ => rng.about(1.5),
         })
         .collect()
@@ -192,6 +192,7 @@ impl Thrown {
                 (Role::Number, FieldKind::Numbers) => Value::List(vec![value(number()), value(number())]),
                 (Role::Number, FieldKind::Flag) => Value::Flag(number() == 1.0),
                 (Role::Number, _) => value(number()),
+                (Role::First, FieldKind::Point) => text(self.point(a, first)),
                 (Role::First, FieldKind::Line) => line(&self.point(a, first), alpha),
                 (Role::First, FieldKind::Circle) => circle(&self.point(a, first), number()),
                 (Role::First, FieldKind::Curve) => {
@@ -241,15 +242,14 @@ impl Thrown {
     }
 }
 
-/// Turns the second marker further by `missing`: along the coordinate that turns it most, or by the joint's own number.
+/// Turns the second marker further by `missing`: along the first coordinate that turns it, or by the joint's own number.
 fn turn_by(kind: Kind, numbers: &mut [f64], q: &mut [f64], wave: &Wave, missing: f64) {
     let constants: Vec<Dual<3, f64>> = numbers.iter().map(|&x| Dual::constant(x)).collect();
     let there = kind.pose_gradient(&Numbers { of: &constants, curve: Some(wave) }, q).expect("a joint with a pose");
     let slopes = there.angle.du;
-    let steepest = (0..q.len()).max_by(|&i, &j| slopes[i].abs().total_cmp(&slopes[j].abs()));
-    match steepest {
-        Some(k) if slopes[k] != 0.0 => q[k] += missing / slopes[k],
-        _ => numbers[0] += missing,
+    match (0..q.len()).find(|&k| slopes[k] != 0.0) {
+        Some(k) => q[k] += missing / slopes[k],
+        None => numbers[0] += missing,
     }
 }
 

@@ -16,7 +16,7 @@ from freebody.catalogue import Answer, ask, reference
 M, R, G, FREE = 1.5, 0.35, 9.81, 1.0
 AGAINST = "closed form: mg − T = mv̇, T = mv̇"
 TIMES = [0.2, 0.5, 0.8]
-LINE = "the string on a vertical line"
+LINE, TAUT = "the string on a vertical line", "a string that is always taut"
 MODELS = {"": "model.yaml", LINE: "straight.yaml"}
 
 
@@ -67,10 +67,18 @@ def tension(case):
         yield Answer("ω", spin, "rad/s", check, AGAINST, 1e-12, says=says, variant=variant)
 
 
+@ask("(b) How does it swing off plumb, in the tilt φ of the taut string and its free length l, in letters?")
+def swing(case):
+    closed = {
+        "phi": "(R*rate(phi)^2 - 2*rate(l)*rate(phi) - g*sin(phi))/l",
+        "string.tension": "m*(l*rate(phi)^2 + g*cos(phi))/2",
+    }
+    yield from case.symbolically(closed, "closed form: Lagrange's equations", "taut.yaml")
+
+
 @ask("(b) What if the string is 0.1 rad off plumb at the start?")
 def off_plumb(case):
     tilt = 0.1
-    run = case.run(parameters={"tilt": tilt})
     states = reference.motion(swinging, [FREE, tilt, 0, 0], TIMES)
     against = "other route: Lagrange's equations, integrated by SciPy"
     x0, y0 = R * cos(tilt) + FREE * sin(tilt), R * sin(tilt) - FREE * cos(tilt)
@@ -78,8 +86,13 @@ def off_plumb(case):
     y = [R * sin(p) - n * cos(p) - y0 for n, p, _, _ in states]
     pull = [M * (n * w**2 + G * cos(p)) / 2 for n, p, _, w in states]
     spin = [w - v / R for _, _, v, w in states]
-    says = "It swings, and G with it: at 0.2, 0.5 and 0.8 s x_G = {}."
-    yield Answer("x_G", run.evaluate("x(hoop.centre)", TIMES), "m", x, against, 1e-10, says=says)
-    yield Answer("y_G", run.evaluate("y(hoop.centre)", TIMES), "m", y, against, 1e-10)
-    yield Answer("ω", run.evaluate("omega(hoop)", TIMES), "rad/s", spin, against, 1e-10)
-    yield Answer("T", run.evaluate("string.tension", TIMES), "N", pull, against, 1e-10)
+    for variant, file in {"": "model.yaml", TAUT: "taut.yaml"}.items():
+        run = case.run(file, parameters={"tilt": tilt})
+        says = "It swings, and G with it: at 0.2, 0.5 and 0.8 s x_G = {}."
+        yield Answer("x_G", run.evaluate("x(hoop.centre)", TIMES), "m", x, against, 1e-10, says=says, variant=variant)
+        yield Answer("y_G", run.evaluate("y(hoop.centre)", TIMES), "m", y, against, 1e-10, variant=variant)
+        yield Answer("ω", run.evaluate("omega(hoop)", TIMES), "rad/s", spin, against, 1e-10, variant=variant)
+        yield Answer("T", run.evaluate("string.tension", TIMES), "N", pull, against, 1e-10, variant=variant)
+    says, check = "The free part is then {} long, of which its coordinate tells.", [n for n, _, _, _ in states]
+    yield Answer("l", run.evaluate("l", TIMES), "m", check, against, 1e-10, says=says, variant=TAUT)
+    yield Answer("φ", run.evaluate("phi", TIMES), "rad", [p for _, p, _, _ in states], against, 1e-10, variant=TAUT)

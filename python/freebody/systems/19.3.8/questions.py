@@ -28,6 +28,18 @@ def symbolically(case):
     yield from case.symbolically(closed, "closed form: moments about the point where the cable leaves", at_rest=True)
 
 
+@ask("How does it swing, in the tilt φ of the taut cable and its free length l, in letters?")
+def swing(case):
+    closed = {
+        "l": "2*g*r^2/(R^2 + 2*r^2)",
+        "cable.tension": "M*g*R^2/(R^2 + 2*r^2)",
+        "phi": "0",
+    }
+    yield from case.symbolically(
+        closed, "closed form: moments about the point where the cable leaves", "taut.yaml", at_rest=True, set={"phi": 0}
+    )
+
+
 @ask("What is the acceleration of the mass centre, the tension, the angular acceleration?")
 def at_release(case):
     now = case.instant()

@@ -102,14 +102,15 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
-    """Where a diagram shows a part: of a link at its own end, of a follower where it touches its curve, of a torque at the joint of its
-    two bodies, else where it acts."""
+    """Where a diagram shows a part: of a link or string at its own end, of a follower where it touches its curve, of a torque at the
+    joint of its two bodies, else where it acts."""
     name = load.name.removesuffix(".contact") if load.kind == "stop" else load.name  # of a one-sided cam
     joint = next((j for j in sketch.spec["joints"] if j["name"] == name), None)
     if load.kind in ("joint", "stop") and joint:
         fields = joint["with"]
         if load.card.pulls:
-            return next(sketch.place(point) for point in fields["of"] if sketch.at[point][0] == part.body)
+            ends = fields.get("of") or [fields["from"]]
+            return next((sketch.place(point) for point in ends if sketch.at[point][0] == part.body), np.array(part.point))
         if "follower" in fields:
             centre, size = sketch.place(fields["follower"]["centre"]), np.hypot(*part.force)
             on_follower = part.body == sketch.at[fields["follower"]["centre"]][0]
