@@ -27,7 +27,7 @@ WITHOUT_ANSWER = {"19.3.23/idle"}
 """A body without inertia moves freely: there is no instant, so no loads and no equations."""
 ANSWERED = [name for name in MODELS if name not in WITHOUT_ANSWER]
 REPRESENTATIVE = (
-    "19.3.1/string", "19.3.2/with_spin", "19.3.3/polar", "19.3.7/straight", "19.3.11/two", "19.3.11/wall",
+    "19.3.1/string", "19.3.2/with_spin", "19.3.3/polar", "19.3.7/straight", "19.3.7/taut", "19.3.11/two", "19.3.11/wall",
     "19.3.13/model", "19.3.19/push", "19.3.20/cable", "19.3.20/pulleys", "19.3.21/broken", "19.3.22/latch", "19.3.23/idle",
     "19.3.27/model", "19.3.27/plate", "19.3.27/table", "19.3.29/model", "EX-ARM/held", "EX-BLOCK/model", "GEN-CAR/driveshaft", "GEN-SUSP/one_sided", "GEN-WALK/model", "S19.15/model",
     "S19.17/free_end", "examples/tossed_box",
@@ -36,7 +36,7 @@ REPRESENTATIVE = (
 
 SHARE, LEAST = 16, 3
 """Beside those that are always visited, one of so many members of a family is drawn, and no fewer than that."""
-LONG = {"GEN-ROBOT", "58", "116"}
+LONG = {"GEN-ROBOT", "50", "58", "106", "116"}
 """Systems and seeds of random models that take long wherever they are visited: with ``--all`` only."""
 
 
