@@ -34,7 +34,7 @@ REPRESENTATIVE = (
 )  # fmt: skip
 """Always visited: together they hold every kind of part that any model has (``test_sample.py``)."""
 
-SHARE, LEAST = 16, 3
+SHARE, LEAST = 28, 3
 """Beside those that are always visited, one of so many members of a family is drawn, and no fewer than that."""
 LONG = {"GEN-ROBOT", "50", "58", "106", "116"}
 """Systems and seeds of random models that take long wherever they are visited: with ``--all`` only."""
