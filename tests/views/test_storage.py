@@ -62,9 +62,41 @@ def test_a_missing_library_is_one_line(four_bar, monkeypatch):
         four_bar.to_xarray()
 
 
+@pytest.mark.parametrize("suffix", [".nc", ".csv"])
+def test_a_file_that_was_cut_or_edited_is_refused(suffix, four_bar, tmp_path):
+    whole = four_bar.save(tmp_path / f"run{suffix}").read_bytes()
+    rng, path = np.random.default_rng(5), tmp_path / f"damaged{suffix}"
+    damaged = [whole[:n] for n in rng.integers(0, len(whole), 20)] + [whole[:-40], b"", bytes(1000), b"t,theta\n"]
+    # Figures, the model, names: one byte becomes another, which says nothing in the padding of netCDF and in the last of many figures.
+    for place in rng.integers(0, len(whole) - 40, 40):
+        damaged.append(whole[:place] + bytes([whole[place] ^ 1]) + whole[place + 1 :])
+    if suffix == ".csv":
+        rows = whole.splitlines(keepends=True)
+        damaged += [b"".join(rows[:-1]), b"".join([*rows, rows[-1]]), b"".join([*rows[:5], *rows[6:]]), b"".join(rows[2:])]
+    damaged = [each for each in damaged if each != whole]
+    taken = 0
+    for each in damaged:
+        path.write_bytes(each)
+        try:
+            back = Run.load(path)
+        except ValueError as error:
+            assert str(error).startswith(f"{path} is ")
+        else:
+            taken += 1
+            assert all(np.array_equal(back.blocks[kind], block, equal_nan=True) for kind, block in four_bar.blocks.items())
+    assert taken <= 5
+
+
+def test_a_file_of_another_version_is_refused_by_it(four_bar, tmp_path):
+    path = four_bar.save(tmp_path / "run.csv")
+    path.write_text(path.read_text().replace('{"format": 2,', '{"format": 1,', 1))
+    with pytest.raises(ValueError, match="is in format 1 of saved runs; this freebody reads 2"):
+        Run.load(path)
+
+
 def test_other_files_are_refused(four_bar, tmp_path):
-    (tmp_path / "x.csv").write_text("t,theta\n")
-    with pytest.raises(ValueError, match="no saved run"):
-        Run.load(tmp_path / "x.csv")
+    (tmp_path / "folder.nc").mkdir()
+    with pytest.raises(ValueError, match="no regular file"):
+        Run.load(tmp_path / "folder.nc")
     with pytest.raises(ValueError, match=r"\.nc or \.csv"):
         four_bar.save(tmp_path / "run.xlsx")

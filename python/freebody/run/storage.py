@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import json
 import platform
 from collections.abc import Mapping, Sequence
@@ -23,8 +24,10 @@ if TYPE_CHECKING:
 
     from freebody.run.simulation import Run
 
-FORMAT = 1
+FORMAT = 2
 TITLE = "freebody run"
+Saved = tuple[Array, dict[str, Array], str]
+"""Times (nt,), values (nt, k) of the columns by kind, and the header of a file."""
 _VARIABLES = {
     "coordinate": ("q", ("coordinate",), "coordinates, m or rad"),
     "rate": ("u", ("coordinate",), "rates of the coordinates, m/s or rad/s"),
@@ -44,6 +47,10 @@ _VARIABLES = {
     "pose": ("pose", ("body", "place"), "frame origin x, y (m) and angle (rad) of the bodies"),
 }
 """Of each kind of columns: its variable in a Dataset, the dimensions beside time, and what it is."""
+
+
+class OldFormat(Exception):
+    """A file of another version."""
 
 
 @dataclass(frozen=True)
@@ -78,14 +85,20 @@ class Header:
             FORMAT, versions(), *texts, *asked, *(motion.record[part] for part in parts), list(run.energy.names), run.columns
         )
 
-    def write(self) -> str:
-        """As JSON."""
-        return json.dumps(asdict(self), default=np.ndarray.tolist)
+    def write(self, columns: Sequence[Array]) -> str:
+        """As JSON, with a digest of it and of the ``columns`` that stand beside it."""
+        given = json.loads(json.dumps(asdict(self), default=np.ndarray.tolist))
+        return json.dumps(given | {"digest": _digest(given, columns)})
 
     @classmethod
-    def read(cls, text: str) -> Header:
-        """From JSON."""
-        made = cls(**json.loads(text))
+    def read(cls, text: str, columns: Sequence[Array]) -> Header:
+        """From JSON. Raises ``OldFormat``, and ``ValueError`` where it, or the ``columns`` beside it, are not what was written."""
+        given = json.loads(text)
+        if given["format"] != FORMAT:
+            raise OldFormat(f"is in format {given['format']} of saved runs; this freebody reads {FORMAT}")
+        if given.pop("digest") != _digest(given, columns):
+            raise ValueError("the digest is another")
+        made = cls(**given)
         start, end = (
             {key: np.array(value) if isinstance(value, list) else value for key, value in each.items()}
             for each in (made.start, made.end)
@@ -100,6 +113,13 @@ class Header:
             steps=np.array(made.steps),
             columns=[Column(**column) for column in made.columns],
         )
+
+
+def _digest(header: Mapping[str, Any], columns: Sequence[Array]) -> str:
+    whole = hashlib.sha256(json.dumps(header).encode())
+    for column in columns:
+        whole.update(np.where(np.isnan(column), np.nan, column).tobytes())  # any NaN is the same
+    return whole.hexdigest()
 
 
 class Recorded(Motion):
@@ -194,7 +214,8 @@ def to_xarray(run: Run) -> xarray.Dataset:
     dimensions, values, _ = variables["reaction"]
     variables["determinate"] = (dimensions, ~np.isnan(values), {"long_name": "whether the balances determine the reaction"})
     coordinates = {name: (name, np.array(values)) for name, values in labels.items() if len(values)}
-    data: xarray.Dataset = need("xarray").Dataset(variables, coordinates, {"title": run.name, "freebody": Header.of(run).write()})
+    header = Header.of(run).write([run.t, *run.blocks.values()])
+    data: xarray.Dataset = need("xarray").Dataset(variables, coordinates, {"title": run.name, "freebody": header})
     data["time"].attrs["units"] = "s"
     data["energy"].attrs["units"] = "J"
     return data
@@ -209,9 +230,18 @@ def save(run: Run, path: Path) -> Path:
 
 
 def load(path: Path) -> tuple[CompiledModel, Recorded]:
-    """What a file holds of a run: what was simulated, and the motion."""
+    """What a file holds of a run: what was simulated, and the motion. Raises ``OSError``, and ``ValueError`` for a file that is not as
+    ``save`` wrote it."""
     _, read = FORMATS.of(path)
-    t, blocks, header = read(path)
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path} is no saved run: it is no regular file")
+    try:
+        t, blocks, text = read(path)
+        header = Header.read(text, [t, *blocks.values()])
+    except OldFormat as error:
+        raise ValueError(f"{path} {error}; simulate the model again") from None
+    except (ValueError, LookupError, TypeError):  # what readers meet in files that were cut or edited
+        raise ValueError(f"{path} is no saved run, or not as it was written; save the run again") from None
     source = replace(CompiledModel.of(json.loads(header.spec)), model=json.loads(header.model), report=header.report_items)
     return source, Recorded(t, blocks, header, source.metadata)
 
@@ -228,33 +258,34 @@ def versions() -> dict[str, str]:
 def _write_csv(run: Run, path: Path) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         file.write(f"# {TITLE}: time and columns in SI; indeterminate reactions are nan; the next line is the run as JSON\n")
-        file.write(f"# {Header.of(run).write()}\n")
+        file.write(f"# {Header.of(run).write([run.t, *run.blocks.values()])}\n")
         writer = csv.writer(file)
         writer.writerow(["t", *(column.name for column in run.columns)])
         # repr gives the shortest text that reads back as the same number.
         writer.writerows([repr(float(x)) for x in row] for row in np.column_stack([run.t, *run.blocks.values()]))
 
 
-def _read_csv(path: Path) -> tuple[Array, dict[str, Array], Header]:
+def _read_csv(path: Path) -> Saved:
     with path.open(encoding="utf-8") as file:
         if not file.readline().startswith(f"# {TITLE}"):
-            raise ValueError(f"{path} is no saved run: it does not begin with '# {TITLE}'")
-        header = Header.read(file.readline()[2:])
-        t, *columns = np.loadtxt(file, delimiter=",", skiprows=1, ndmin=2).T
-    blocks = {kind: [y for y, column in zip(columns, header.columns, strict=True) if column.kind == kind] for kind in KINDS}
-    return t, {kind: np.reshape(values, (-1, len(t))).T for kind, values in blocks.items()}, header
+            raise ValueError("another beginning")
+        text = file.readline()[2:]
+        listed, [names] = json.loads(text)["columns"], csv.reader([file.readline()])
+        if names != ["t", *(column["name"] for column in listed)]:
+            raise ValueError("other names")
+        t, *columns = np.loadtxt(file, delimiter=",", ndmin=2).T
+    found = {kind: [y for y, of in zip(columns, listed, strict=True) if of["kind"] == kind] for kind in KINDS}
+    return t, {kind: np.reshape(values, (-1, len(t))).T for kind, values in found.items()}, text
 
 
-def _read_netcdf(path: Path) -> tuple[Array, dict[str, Array], Header]:
+def _read_netcdf(path: Path) -> Saved:
     with need("xarray").open_dataset(path, engine="scipy") as data:
-        if "freebody" not in data.attrs:
-            raise ValueError(f"{path} is no saved run: it has no attribute 'freebody'")
         t = data["time"].values.astype(float)
         found = {
             kind: data[variable].values if variable in data else np.empty((len(t), 0))
             for kind, (variable, *_) in _VARIABLES.items()
         }
-        return t, {kind: values.reshape(len(t), -1) for kind, values in found.items()}, Header.read(data.attrs["freebody"])
+        return t, {kind: values.reshape(len(t), -1) for kind, values in found.items()}, data.attrs["freebody"]
 
 
 FORMATS = Formats(
