@@ -314,3 +314,59 @@ def test_a_run_that_was_interrupted_is_followed_no_further():
     done = rods(*DRAWS["tame 0"]).simulate(1e6, rtol=1e-6, progress=ends)
     assert not done.outcome.ok and done.end.t < 1e6
     assert done.accuracy.other.end.t == done.end.t
+
+
+@pytest.mark.parametrize("method", ["dop853", "tsit5", "radau"])
+def test_a_short_push_that_the_run_steps_over_is_seen_by_the_other(method):
+    """A particle at rest is pushed for a few thousandths of the run: v = ∫F dt/m, or nothing is claimed."""
+    for seed in range(4):
+        at, width = np.random.default_rng(seed).uniform([2, 3e-3], [8, 2e-2]).tolist()
+        m = fb.Mechanism.loads(f"""
+freebody: 1
+gravity: none
+bodies: {{p: {{shape: particle, mass: 1}}}}
+joints: {{s: {{type: slot, along: {{through: ground.O, angle: 0}}, point: p.centre, coordinate: x}}}}
+forces: {{push: {{type: law, along: x, value: "exp(-((t - {at!r})/{width!r})^2)"}}}}
+initial: {{x: 0, at_rest: true}}
+""")
+        [speed] = m.simulate(10, method=method, rtol=1e-6).accuracy.figures(expression("rate(x)"), 10.0)
+        assert abs(speed - width * math.sqrt(math.pi)) <= speed.error
+
+
+@pytest.mark.parametrize("reach", [0.1, 0.16, 0.3])
+def test_what_grows_without_bound_towards_a_dead_position_has_no_digit(reach):
+    """A slider pulled to where crank and rod are in line: nothing that is read at the end depends on how near a run comes."""
+    model = fb.Mechanism.loads(f"""
+freebody: 1
+bodies: {{a: {{shape: rod, length: 0.2, mass: 1}}, b: {{shape: rod, length: {reach}, mass: 1}}, c: {{shape: particle, mass: 1}}}}
+joints:
+  A: {{type: hinge, of: [ground.O, a.start], coordinate: theta}}
+  B: {{type: hinge, of: [a.end, b.start], coordinate: beta}}
+  C: {{type: hinge, of: [b.end, c.centre]}}
+  guide: {{type: slot, along: {{through: ground.O, angle: 0}}, point: c.centre, coordinate: x}}
+motions: {{pull: {{of: x, is: {reach} + 0.12 + 0.1*t}}}}
+initial: {{guess: {{theta: 0.7, beta: -1.4, x: {reach + 0.12}}}}}
+run: {{until: 3 s}}
+report: {{F: max of A.F, E: kinetic() @ end, mean: rms of pull.force, least: min of theta, first: theta @ 0.1 s}}
+""")
+    runs = [model.simulate(rtol=rtol) for rtol in (1e-4, 1e-9, 1e-12)]
+    assert all(run.outcome.name == "dead_position" for run in runs)
+    figures = [run.accuracy.report for run in runs]
+    for some, others in product(figures, figures):
+        for label, known in some.items():
+            assert abs(known.value - others[label].value) <= known.value.error + others[label].value.error
+        assert abs(some["least"].value) <= some["least"].value.error  # it ends at θ = 0
+    for known in figures:
+        assert known["F"].value.digits == known["E"].value.digits == known["mean"].value.digits == 0
+        assert known["first"].value.digits >= 4
+    dead = 0.8
+    assert all(abs(run.accuracy.end - dead) <= run.accuracy.end.error < 1e-2 for run in runs)
+
+
+def test_when_extremes_are_is_not_known_again_once_it_was_not():
+    """Of a double pendulum from 135°, whose two runs have maxima of their own after some time."""
+    model = rods(*FROM_135)
+    model.report("top", "maxima of th0")
+    known = [each.t for each in model.simulate(20, rtol=1e-4).accuracy.report.values()]
+    digits, errors = [t.digits for t in known], [t.error for t in known]
+    assert digits[0] >= 3 and digits[-1] == 0 and errors == sorted(errors)

@@ -60,6 +60,14 @@ def test_a_file_that_cannot_be_written_is_named_before_anything_is_computed(comm
     assert command("run", falling, "--report", str(tmp_path)).output.startswith(f"{tmp_path}: ")
 
 
+def test_a_report_goes_into_no_file_of_another_kind(command, tmp_path, falling):
+    before = Path(falling).read_text()
+    for path in (falling, str(tmp_path / "page.pdf")):
+        done = command("run", falling, "--report", path)
+        assert done.exit_code == 2 and done.output == f"a report is .html, not {Path(path).suffix!r}\n"
+    assert Path(falling).read_text() == before
+
+
 @pytest.mark.parametrize("word", WRITING)
 def test_what_fails_midway_leaves_the_old_file(command, tmp_path, monkeypatch, falling, word):
     def full(self, target):

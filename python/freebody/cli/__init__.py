@@ -52,6 +52,8 @@ def run(
     from freebody.cli import show
 
     page = report or Path(f"{model.stem}.html")
+    if page.suffix.lower() not in ("", ".html", ".htm"):
+        raise UserError(f"a report is .html, not {page.suffix!r}")
     if not no_report:
         check_writable(page)
     runs = [simulated(model, changes, until=until, method=method, rtol=rtol)]

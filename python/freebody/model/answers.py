@@ -51,7 +51,7 @@ def fault(settings: Settings) -> tuple[str, str, str] | None:
     method = cards.methods().get(settings.method)
     if method and method.fixed_step and settings.step is None:
         return "method", f"`{settings.method}` needs a fixed step", f"add `step: 1 ms`, or choose `{Settings.method}`"
-    for name, rows in (("every", "rows"), ("step", "steps")):
+    for name, rows in (("every", "rows"), ("step", "steps"), ("max_step", "steps")):
         if (spacing := getattr(settings, name)) and (settings.until or 0.0) / spacing > MAX_ROWS:
             what = f"`{name}: {spacing:g}` makes {settings.until / spacing:.3g} {rows} until {settings.until:g} s; at most {MAX_ROWS} are kept"
             return name, what, f"choose a larger `{name}`"

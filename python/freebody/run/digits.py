@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, Change, ReportItem, Settings, State, cards
+from freebody.core import Array, Change, OutcomeKind, ReportItem, Settings, State, cards
 from freebody.run.records import Reported, Window, unit_size
 from freebody.solve.figures import MOST, NOISE, Known, digits_of
 
@@ -26,6 +26,9 @@ TIGHTER = 100.0  # the second run's error is small beside that of the first
 TIGHTEST = 1e-14  # the core takes no tolerance below
 SAFETY = 3.0  # what two runs differ by is an estimate of the error, and at a tight tolerance both have one
 ROUND_OFF = 2.0**-52
+LOOKS = 200  # steps of the second run, at least: what a law does in less than a few such steps both may pass over
+UNREACHED = 3.0  # times that are left to a dead position, over which a figure there is seen to change
+DEAD_ENDS = (OutcomeKind.DEAD_POSITION, OutcomeKind.STRING_ZERO_LENGTH)
 JUST_MISSED = 1e-6  # of the duration: what only one run meets so near its end is no parting of ways
 EVENT = "event"
 PRINTED = 6  # digits of the figures in tables
@@ -34,16 +37,17 @@ Read = Callable[["Run", Array], Array]
 """Values (nt, k) of quantities of a run at times (nt,)."""
 
 
-def other_settings(settings: Settings) -> Settings:
-    """Those of the second run: a tighter tolerance; another method where there is none, or where steps are fixed, since the same
-    steps have the same errors."""
+def other_settings(settings: Settings, length: float = math.inf) -> Settings:
+    """Those of the second run of a motion of a ``length`` (s): a tighter tolerance; another method where there is none, or where steps
+    are fixed, since the same steps have the same errors; and no step so long that much could happen unseen."""
     methods = cards.methods()
     adaptive = [name for name, method in methods.items() if not method.fixed_step and name != settings.method]
-    half = replace(settings, max_step=settings.max_step and settings.max_step / 2)
+    longest = min(settings.max_step / 2 if settings.max_step else math.inf, length / LOOKS)
+    finer = replace(settings, max_step=longest if 0 < longest < math.inf else None)
     if methods[settings.method].fixed_step:
-        return replace(half, method=adaptive[0], rtol=1e-12, step=None)
+        return replace(finer, method=adaptive[0], rtol=1e-12, step=None)
     rtol = max(settings.rtol / TIGHTER, TIGHTEST)
-    return replace(half, rtol=rtol, method=settings.method if settings.rtol > 5 * rtol else adaptive[0])
+    return replace(finer, rtol=rtol, method=settings.method if settings.rtol > 5 * rtol else adaptive[0])
 
 
 def other_start(start: State) -> State:
@@ -109,7 +113,7 @@ class Accuracy:
             return start
         changed = [pair for (kind, _), pairs in self._pairs.items() if kind != EVENT for pair in pairs]
         alone = [min(pair) for pair in changed if math.inf in pair]
-        if self.other.outcome.name is not self.run.outcome.name:
+        if not self.same_end:
             alone.append(self.other.outcome.t)
         return min((t for t in alone if t < end - JUST_MISSED * (end - start)), default=math.inf)
 
@@ -137,12 +141,29 @@ class Accuracy:
         """The times in the other run: of what happens, when it happens there."""
         return np.clip([self._both.get(float(t), float(t)) for t in times], *self.other.edges[[0, -1]])
 
+    @property
+    def same_end(self) -> bool:
+        """Whether both ended in the same way, unless the run was interrupted."""
+        return self.run.outcome.name in (self.other.outcome.name, OutcomeKind.INTERRUPTED)
+
     @cached_property
     def end(self) -> Known:
-        """When the run ended."""
+        """When the run ended; nothing is claimed of an end that the other did not come to."""
         mine, other = self.run.outcome.t, self.other.outcome.t
         lost = mine >= self.parting and mine != self.run.settings.until
-        return Known(mine, math.inf if lost else SAFETY * abs(mine - other), abs(mine))
+        apart = SAFETY * abs(mine - other) + (mine - self._unreached if self._unreached else 0.0)
+        return Known(mine, math.inf if lost else apart if self.same_end else math.nan, abs(mine))
+
+    @cached_property
+    def _unreached(self) -> float | None:
+        """Where a run ended because a dead position was near: a time before, since when a figure has changed at least as much as it would
+        have up to there. The square of speeds grows as the time that is left falls."""
+        if self.run.outcome.name not in DEAD_ENDS:
+            return None
+        t = self.run.motion.steps[-2:]
+        before, end = (self.run.motion.sample(t)[1] ** 2).sum(axis=1)
+        left = before * np.ptp(t) / (end - before) if end > before else math.inf
+        return float(max(t[-1] - UNREACHED * left, self.run.edges[0]))
 
     @cached_property
     def changes(self) -> list[Change]:
@@ -202,6 +223,9 @@ class Accuracy:
         rows, none = np.searchsorted(band.t, times, side="right"), np.zeros_like(values[:1])
         error = np.fmax(apart, np.vstack([none, band.error])[rows])
         error[times >= self.parting] = np.inf
+        if self._unreached is not None:
+            last = times == self.run.edges[-1]
+            error[last] = np.fmax(error[last], np.abs(values[last] - read(self.run, np.array([self._unreached]))))
         return Band(times, values, error, np.fmax(np.abs(values), np.vstack([none, band.size])[rows]))
 
     def digits(self, text: str, times: Array) -> Array:
@@ -222,6 +246,8 @@ class Accuracy:
             return Known(t, math.inf, abs(t)), Known(value, math.inf, abs(value))
         i = max(int(np.searchsorted(band.t, t, side="right")) - 1, 0)
         error = max(float(band.error[i, column]), SAFETY * abs(value - its_value))
+        if self._unreached is not None and t > self._unreached:
+            error = max(error, abs(value - float(band.values[np.searchsorted(band.t, self._unreached) - 1, column])))
         either = error < NOISE * abs(value) and abs(t - there) > 2 * np.diff(self.t).max()
         return Known(t, math.nan if either else SAFETY * abs(t - there), abs(t)), Known(value, error, float(band.size[i, column]))
 
@@ -289,6 +315,8 @@ class Accuracy:
             parts.append(f"from {self.none_from:.3g} s on no digit holds")
         if self.parting < math.inf:
             parts.append(f"what happens from {self.parting:.6g} s on depends on the tolerance")
+        if not self.same_end and self.parting == math.inf:
+            parts.append("at another tolerance it does not end so")
         if self.better:
             rtol, until = self.better
             when = "to the end" if until == math.inf else f"until about {until:.2g} s"
@@ -327,27 +355,33 @@ class Accuracy:
             label: item for item in self.run.source.report for label in self.run.report if label.rpartition("[")[0] == item.label
         }
         of |= {item.label: item for item in self.run.source.report if item.label in self.run.report}
-        return {label: self._reported(of[label], label, mine) for label, mine in self.run.report.items()}
+        known: dict[str, Reported] = {}
+        apart: dict[str, float] = {}
+        for label, mine in self.run.report.items():
+            item = of[label]
+            known[label] = found = self._reported(item, label, mine)
+            if isinstance(found.t, Known) and item.how in ("maxima", "minima"):
+                # How far the two disagree about when is the most that they did so far.
+                apart[item.label] = max(apart.get(item.label, 0.0), found.t.error)
+                known[label] = replace(found, t=Known(found.t, apart[item.label], found.t.size))
+        return known
 
     def _reported(self, item: ReportItem, label: str, mine: Reported) -> Reported:
         if mine.value is None:
             return mine
         over, read, unit = Window.within(self.run.edges, item.over), expression(item.value), unit_size(item.unit)
         t, value = mine.t, mine.value * unit
-        if (t if item.how == "at" else over.edges[-1]) >= self.parting:
-            known = Known(value, math.inf, abs(value))
+        other = self.other.report.get(label)
+        its_value = math.inf if other is None or other.value is None else other.value * unit
+        if item.how == "at":
+            [known], t = self.figures(read, t), self.time(t) if t in self._apart else t
+            known = Known(value, max(known.error, SAFETY * abs(value - its_value)), max(known.size, abs(value)))
+        elif its_value == math.inf or over.edges[-1] >= self.parting:
+            known, t = Known(value, math.inf, abs(value)), None if t is None else Known(t, math.inf, abs(t))
+        elif item.how in ("max", "min", "maxima", "minima"):
+            t, known = self.extreme(self.band(read), 0, (t, value), (other.t, its_value))
         else:
-            other = self.other.report.get(label)
-            its_value = math.inf if other is None or other.value is None else other.value * unit
-            if item.how == "at":
-                [known], t = self.figures(read, t), self.time(t)
-                known = Known(value, max(known.error, SAFETY * abs(value - its_value)), max(known.size, abs(value)))
-            elif other is None or other.value is None:
-                known = Known(value, math.inf, abs(value))
-            elif item.how in ("max", "min", "maxima", "minima"):
-                t, known = self.extreme(self.band(read), 0, (t, value), (other.t, its_value))
-            else:
-                known = self._integral(item.how, read, over, value, its_value)
+            known = self._integral(item.how, read, over, value, its_value)
         return replace(mine, value=Known(mine.value, known.error / unit, known.size / unit), t=t)
 
     def _integral(self, how: str, read: Read, over: Window, value: float, its_value: float) -> Known:
@@ -357,6 +391,9 @@ class Accuracy:
         mine, other = (read(run, amid)[:, 0] ** (2 if how == "rms" else 1) for run in (self.run, self.other))
         per = {"integral": 1.0, "mean": over.length, "rms": 2 * abs(value) * over.length}[how]
         apart, size = (float(np.abs(np.cumsum(y * np.diff(t))).max(initial=0.0)) / per for y in (mine - other, mine))
+        if self._unreached is not None and over.edges[-1] == self.run.edges[-1]:
+            last = read(self.run, over.edges[-1:])[0, 0] ** (2 if how == "rms" else 1)
+            apart = max(apart, float(abs(last)) * (over.edges[-1] - self._unreached) / per)
         return Known(value, SAFETY * max(apart, abs(value - its_value)), max(abs(value), size))
 
 

@@ -12,7 +12,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import BEFORE, Change, CompiledModel, Indeterminate, ModelError, Motion, NotFinite, ReportItem, Settings, State
+from freebody.core import (
+    BEFORE,
+    Change,
+    CompiledModel,
+    Indeterminate,
+    ModelError,
+    Motion,
+    NotFinite,
+    OutcomeKind,
+    ReportItem,
+    Settings,
+    State,
+)
 from freebody.run import storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
 from freebody.run.records import (
@@ -273,9 +285,11 @@ class Run:
         Raises ``LookupError`` for a run from a file."""
         if self.recorded:
             raise LookupError("a run from a file does not know which digits hold; run.again() simulates it anew and does")
-        settings = other_settings(self.settings)
-        if not self.outcome.ok and self.end.t > self.start.t:
-            settings = replace(settings, until=self.end.t)
+        length = self.end.t - self.start.t
+        settings = other_settings(self.settings, length)
+        if not self.outcome.ok and length > 0:
+            beyond = 0.0 if self.outcome.name is OutcomeKind.INTERRUPTED else length
+            settings = replace(settings, until=min(self.settings.until, self.end.t + beyond))
         if not (self.previous and self.resume):
             return Accuracy(self, simulate(self.source, other_start(self.start), settings))
         before = self.previous.accuracy
