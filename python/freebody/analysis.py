@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from freebody.equations.balances.smallest import SmallestSet
     from freebody.equations.derivation.derive import Equations
     from freebody.equations.derivation.first_integrals import FirstIntegral
+    from freebody.equations.topics.frame import PointMotion
     from freebody.find import Extremes, Found, Limit
     from freebody.inverse import InverseDynamics
     from freebody.inverse.laws import Law
@@ -53,21 +54,31 @@ class Analysis:
         want: str | None = None,
         at_rest: bool = False,
         fixed: Mapping[str, Any] | None = None,
+        of: str | None = None,
+        frame: Sequence[str] | str | None = None,
         initial: Mapping[str, Any] | None = None,
         t: float = 0.0,
         **changes: Any,
-    ) -> Equations:
+    ) -> Equations | PointMotion:
         """The symbolic equations of motion, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
         state, by default the start; ``changes`` as in ``solve``.
 
         ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
-        coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``."""
+        coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``.
+
+        ``of`` gives position, velocity and acceleration of a point (``rod.B``) instead, through the ``frame`` of a body, or by a chain
+        of bodies, each seen from the one before; by default the chain that leads to it. Every term has its name, and its value."""
         from freebody.equations.derivation.derive import derive
+        from freebody.equations.topics import topic
         from freebody.solve.symbolic_state import SymbolicState
 
         chosen = dict(fixed or {})
         state, notes = self.moment(initial=initial, t=t, **changes, **chosen)
         with self.core_errors():
+            if of or frame:
+                if form != "minimal" or want or at_rest or chosen:
+                    raise ValueError("of and frame are not for form, want, at_rest and fixed; leave these out")
+                return topic(self, "frame", state, point=of, body=frame)
             subject = SymbolicState(self.source(notes), state, at_rest)
             if state.t > t and (moved := chosen.keys() & set(subject.names)):
                 raise ValueError(f"{min(moved)} is fixed at the start, and moves until {state.t:g} s; leave it out")

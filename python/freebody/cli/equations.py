@@ -66,6 +66,16 @@ def equations(
         list[str] | None,
         typer.Option("--limit", metavar="NAME=VALUE", help="With --form solved: the answer as m2=inf, m1=0 …; repeatable."),
     ] = None,
+    of: Annotated[
+        str | None,
+        typer.Option(metavar="POINT", help="Position, velocity and acceleration of a point instead, like rod.B, with --frame."),
+    ] = None,
+    frame: Annotated[
+        str | None,
+        typer.Option(
+            metavar="BODY", help="With --of: the body through whose frame; several, rod,wheel, are a chain; also by itself."
+        ),
+    ] = None,
     output: Annotated[Path | None, typer.Option("-o", "--output", help=f"Where it goes: {_ENDINGS}.")] = None,
     **asked: bool,
 ) -> None:
@@ -81,7 +91,8 @@ def equations(
             more = {"at_rest": at_rest, "set": substituted, "limits": pairs(limits)}
             found: Document = mechanism.solve_in_letters(wanted or None, **more, **when)
         else:
-            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when)
+            through = {"of": of, "frame": frame} if of or frame else {}
+            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, through)
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
@@ -102,18 +113,25 @@ def equations(
 
 
 def derived(
-    mechanism: Mechanism, form: str, want: str | None, at_rest: bool, fixed: dict[str, str], when: dict[str, str]
+    mechanism: Mechanism,
+    form: str,
+    want: str | None,
+    at_rest: bool,
+    fixed: dict[str, str],
+    when: dict[str, str],
+    through: dict[str, str | None],
 ) -> Document:
     """The equations in a form, or the document of a topic."""
     from freebody.equations.derivation.derive import FORMS
     from freebody.equations.topics import TOPICS, described, topic
 
     if form in TOPICS:
-        if want or at_rest:
+        if want or at_rest or through:
             raise UserError(
-                f"--for and --at-rest are not for --form {form}", f"by --set it takes {described(form)[1] or 'no options'}"
+                f"--for, --at-rest, --of and --frame are not for --form {form}",
+                f"by --set it takes {described(form)[1] or 'no options'}",
             )
         return topic(mechanism, form, mechanism.moment(**when)[0], **fixed)
     if form not in FORMS:
         raise UserError(f"there is no form {form!r}", f"there are {', '.join((*FORMS, SOLVED, *TOPICS))}")
-    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed, **when)
+    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed, **through, **when)

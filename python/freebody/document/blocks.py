@@ -138,10 +138,10 @@ def pieces(words: Words) -> list[str | Side]:
     return [words] if isinstance(words, str) else list(words)
 
 
-def listed(sides: Iterable[Side], last: str = ", ") -> list[str | Side]:
-    """Mathematics in a sentence, commas between, or something else before the ``last``."""
+def listed(sides: Iterable[Side], last: str = ", ", others: str = ", ") -> list[str | Side]:
+    """Mathematics in a sentence, commas between, or something else before the ``last`` and the ``others``."""
     every = list(sides)
-    between = [", "] * (len(every) - 2) + [last]
+    between = [others] * (len(every) - 2) + [last]
     return [piece for i, side in enumerate(every) for piece in ([between[i - 1], side] if i else [side])]
 
 

@@ -67,6 +67,11 @@ class Nomenclature(dict[str, SymbolEntry]):
         return self._places.get(name, len(self._places))
 
     @cached_property
+    def functions(self) -> dict[Any, Any]:
+        """Functions, sin(θ₁ − θ₂), as printers have printed them: long equations have few, many times."""
+        return {}
+
+    @cached_property
     def _places(self) -> dict[str, int]:
         return {name: place for place, name in enumerate(self)}
 

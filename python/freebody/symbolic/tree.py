@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from dataclasses import replace as _with
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property, lru_cache
 from typing import Any, TypeAlias, TypeVar
 
 Span = tuple[int, int]
@@ -22,6 +22,11 @@ class Node:
     """A piece of an expression; ``span`` is its place in the text that it was read from, which does not count in comparisons."""
 
     span: Span = field(default=(0, 0), compare=False, kw_only=True, repr=False)
+
+    @cached_property
+    def symbols(self) -> frozenset[Sym]:
+        """All symbols that occur in it; kept, since a part may be shared by many."""
+        return frozenset().union(*(child.symbols for child in children(self)))
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,11 @@ class Sym(Node):
     def key(self) -> str:
         """In one word: ``theta``, ``thetadot``, ``thetaddot``."""
         return self.name + ("d" * (self.dots - 1) + "dot" if self.dots else "")
+
+    @cached_property
+    def symbols(self) -> frozenset[Sym]:
+        """Itself."""
+        return frozenset((self,))
 
 
 @dataclass(frozen=True)
@@ -297,15 +307,7 @@ def operations(tree: Tree) -> int:
 
 def symbols(*trees: Tree) -> set[Sym]:
     """All symbols that occur, rates and accelerations for themselves."""
-    found, seen, waiting = set(), set(), list(trees)
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, Sym):
-            found.add(node)
-        elif id(node) not in seen:  # a part may be shared by many
-            seen.add(id(node))
-            waiting.extend(children(node))
-    return found
+    return set().union(*(tree.symbols for tree in trees))
 
 
 def replace(tree: Tree, new: Mapping[Sym, Tree]) -> Tree:
@@ -332,20 +334,24 @@ def rebuilt(tree: Tree, put: Callable[[Tree], Tree | None]) -> Tree:
 
 def read(data: Mapping[str, Any]) -> Tree:
     """A tree from JSON: ``{"add": [{"sym": "x", "dots": 2}, {"num": "3/2"}]}``."""
-    match data:
-        case {"num": value}:
-            return number(value)
-        case {"sym": name, **rest}:
-            return Sym(name, rest.get("dots", 0))
-        case {"add": terms}:
-            return Add(tuple(map(read, terms)))
-        case {"mul": factors}:
-            return Mul(tuple(map(read, factors)))
-        case {"pow": [base, exponent]}:
-            return Pow(read(base), Fraction(exponent))
-        case {"fn": name, "args": args}:
-            return Fn(name, tuple(map(read, args)))
+    for kind, of in data.items():
+        match kind:
+            case "mul":
+                return Mul(tuple(map(read, of)))
+            case "add":
+                return Add(tuple(map(read, of)))
+            case "num":
+                return _number(of)
+            case "sym":
+                return _symbol(of, data.get("dots", 0))
+            case "pow":
+                return Pow(read(of[0]), Fraction(of[1]))
+            case "fn":
+                return Fn(of, tuple(map(read, data["args"])))
     raise ValueError(f"not an expression: {data!r}; expected one of num, sym, add, mul, pow, fn")
+
+
+_number, _symbol = lru_cache(number), lru_cache(Sym)  # they occur many times
 
 
 def write(tree: Tree) -> dict[str, Any]:

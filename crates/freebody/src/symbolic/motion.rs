@@ -11,6 +11,15 @@ use crate::plane::{Twist, Vec2};
 use crate::scalar::Scalar;
 use serde_json::{json, Value};
 
+/// Position, velocity and acceleration of a place.
+type Moving = [Vec2<Symbol>; 3];
+
+/// Of the place on a body an arm away from its pin.
+fn moving(k: &Kinematics<Symbol>, bodies: &[Twist<Symbol>], body: usize, arm: Vec2<Symbol>) -> Moving {
+    let twist = k.twist[body];
+    [k.pose[body].at + arm, twist.at(arm), bodies[body].acceleration_at(arm, twist.w)]
+}
+
 impl SymbolicState<'_> {
     /// Angle, position, velocity and acceleration of every body and its mass centre.
     pub(super) fn kinematics(&self) -> Value {
@@ -28,27 +37,53 @@ impl SymbolicState<'_> {
         Value::Array(self.m.listed_bodies().into_iter().map(entry).collect())
     }
 
-    /// Velocity and acceleration of a point through a body: what the body carries, what the point does against it, and
-    /// Coriolis's part. They add up to the whole.
-    pub(super) fn frame(&self, point: &str, body: &str) -> Result<Value, DynamicsError> {
-        let (site, frame) = (self.point(point)?, self.body(body)?);
+    /// Position, velocity and acceleration of a point through the frames of bodies, each seen from the one before: those of the
+    /// origin of the first, and for each stretch, from the origin of a frame to that of the next or to the point, what the
+    /// frame carries and turns, what moves against it, and Coriolis's part. They add up to the whole. Without `frames` these are
+    /// the bodies by which that of the point hangs in the tree, with itself. The origin of a frame is the pin of its body.
+    pub(super) fn through(&self, point: &str, frames: &[String]) -> Result<Value, DynamicsError> {
+        let site = self.point(point)?;
         let own = self.m.body_of(site);
-        let turn = self.k.pose[own].turn;
-        let arm = turn.apply(self.n.arms[site]);
-        let place = self.k.pose[own].at + arm;
-        let v = self.k.twist[own].at(arm);
-        let a = self.bodies[own].acceleration_at(arm, self.k.twist[own].w);
-        let (twist, origin, w) = (self.k.twist[frame], self.bodies[frame], self.k.twist[frame].w);
-        let reach = place - self.k.pose[frame].at;
-        let v_transport = twist.at(reach);
-        let v_relative = v - v_transport;
-        let a_transport = origin.acceleration_at(reach, w);
-        let coriolis = v_relative.perp() * w.scale(2.0);
-        Ok(json!({
-            "v": self.vector(v), "v_transport": self.vector(v_transport), "v_relative": self.vector(v_relative),
-            "a": self.vector(a), "a_transport": self.vector(a_transport), "a_coriolis": self.vector(coriolis),
-            "a_relative": self.vector(a - a_transport - coriolis), "omega": tree(w), "alpha": tree(origin.w),
-        }))
+        let named: Result<Vec<usize>, DynamicsError> = frames.iter().map(|name| self.body(name)).collect();
+        let bodies = if frames.is_empty() { self.path(own) } else { named? };
+        let place = |body: usize, arm: Vec2<Symbol>| moving(&self.k, &self.bodies, body, arm);
+        let mut ends: Vec<Moving> = bodies.iter().map(|&body| place(body, Vec2::zero())).collect();
+        ends.push(place(own, self.k.pose[own].turn.apply(self.n.arms[site])));
+        let whole = |at: &Moving| json!({"r": self.vector(at[0]), "v": self.vector(at[1]), "a": self.vector(at[2])});
+        let stretches: Vec<Value> =
+            bodies.iter().zip(ends.windows(2)).map(|(&body, ends)| self.stretch(body, ends)).collect();
+        Ok(json!({"origin": whole(&ends[0]), "stretches": stretches, "point": whole(&ends[bodies.len()])}))
+    }
+
+    /// The bodies of the model by which one hangs in the tree, with itself.
+    fn path(&self, body: usize) -> Vec<usize> {
+        let above = |&i: &usize| self.m.bodies[i].tree_joint.map(|branch| branch.parent);
+        let mut found: Vec<usize> = std::iter::successors(Some(body), above).collect();
+        found.retain(|&i| self.m.bodies[i].listed.is_some());
+        found.reverse();
+        found
+    }
+
+    /// From one of two places to the other, seen from a body: each vector also along the axes of its pin (`own`).
+    fn stretch(&self, body: usize, ends: &[Moving]) -> Value {
+        let [r, v, a] = std::array::from_fn(|i| ends[1][i] - ends[0][i]);
+        let (w, alpha) = (self.k.twist[body].w, self.bodies[body].w);
+        let (turned, tangential, centripetal) = (r.perp() * w, r.perp() * alpha, -r * (w * w));
+        let relative = v - turned;
+        let coriolis = relative.perp() * w.scale(2.0);
+        let vector = |v: Vec2<Symbol>| {
+            let (mut told, own) = (self.vector(v), self.k.pose[body].turn.undo(v));
+            told["own"] = json!([tree(own.x), tree(own.y)]);
+            told
+        };
+        let it = &self.m.bodies[body];
+        json!({
+            "body": it.name, "pin": it.tree_joint.map(|branch| &self.m.joints[branch.joint].name),
+            "angle": tree(self.k.pose[body].turn.angle), "omega": tree(w), "alpha": tree(alpha),
+            "r": vector(r), "turned": vector(turned), "v_relative": vector(relative),
+            "tangential": vector(tangential), "centripetal": vector(centripetal), "coriolis": vector(coriolis),
+            "a_relative": vector(a - tangential - centripetal - coriolis),
+        })
     }
 
     /// The rates of the states that have one of their own.
@@ -77,11 +112,9 @@ impl SymbolicState<'_> {
     /// Tells the rows of joint origins along the fixed axes: from the first point to the second, with its rate and its
     /// acceleration.
     pub(super) fn joint_origins(&self, k: &Kinematics<Symbol>, bodies: &[Twist<Symbol>], rows: &mut [Row<Symbol>]) {
-        let place = |site: usize| -> [Vec2<Symbol>; 3] {
+        let place = |site: usize| {
             let body = self.m.body_of(site);
-            let (pose, twist) = (k.pose[body], k.twist[body]);
-            let arm = pose.turn.apply(self.n.arms[site]);
-            [pose.at + arm, twist.at(arm), bodies[body].acceleration_at(arm, twist.w)]
+            moving(k, bodies, body, k.pose[body].turn.apply(self.n.arms[site]))
         };
         for row in rows {
             let Source::Joint(joint, _) = row.source else { continue };

@@ -89,12 +89,12 @@ pub enum Query {
     Rows,
     /// Three coordinates a body, every joint a constraint.
     Constraints,
-    /// A point seen from a moving body: transport, relative and Coriolis parts.
-    Frame {
+    /// A point through the frames of bodies, each seen from the one before.
+    Through {
         /// The point.
         point: String,
-        /// The body.
-        body: String,
+        /// The bodies; none for those by which that of the point hangs in the tree.
+        frames: Group,
     },
     /// The rates of the states that have one of their own, in the order of the model.
     StateRates,
@@ -171,7 +171,7 @@ impl SymbolicState<'_> {
             }
             Query::Rows => Ok(self.rows()),
             Query::Constraints => Ok(self.constraints()),
-            Query::Frame { point, body } => self.frame(point, body),
+            Query::Through { point, frames } => self.through(point, frames),
             Query::StateRates => Ok(self.state_rates()),
             Query::Energy => Ok(self.energy()),
             Query::Lagrange => Ok(self.lagrange()),

@@ -88,10 +88,17 @@ class Printer(ABC, Generic[Made]):
             case Pow(base, exponent):
                 return self._power(base, exponent)
             case Fn():
-                return self.function(tree, Fraction(1))
+                return self._function(tree, Fraction(1))
             case Num(value) if value >= 0:
                 return self.number(value)
         return self.bracket(self.expression(tree))
+
+    def _function(self, tree: Fn, exponent: Fraction) -> Made:
+        """A function, raised to a whole power, that may have been printed before."""
+        known, key = self.nomenclature.functions, (type(self), tree, exponent)
+        if key not in known:
+            known[key] = self.function(tree, exponent)
+        return known[key]
 
     def arguments(self, tree: Fn) -> Made:
         """What a function is of, without the brackets."""
@@ -107,7 +114,7 @@ class Printer(ABC, Generic[Made]):
         if exponent == Fraction(1, 2):
             return self.root(base)
         if isinstance(base, Fn) and exponent.denominator == 1 and exponent > 0:
-            return self.function(base, exponent)
+            return self._function(base, exponent)
         if isinstance(base, Pow) or (isinstance(base, Num) and isinstance(base.value, Fraction) and base.value.denominator != 1):
             return self.raised(self.bracket(self.expression(base)), exponent)
         return self.raised(self._factor(base), exponent)

@@ -9,12 +9,18 @@ import numpy as np
 
 from freebody.catalogue import Answer, ask
 from freebody.catalogue.answers import formula
-from freebody.document.blocks import Equation, Vector
+from freebody.document.blocks import Equation
 from freebody.equations.topics import topic
 
 L, R, MASS, W1, W2, START = 2.0, 0.5, 0.5, 3.0, 5.0, np.radians(30)
 OA, AP = L * np.array([np.cos(START), np.sin(START)]), R * np.array([np.cos(START), -np.sin(START)])
 P = OA + AP
+
+
+def is_whole(block):
+    """Whether it is the acceleration of P along directions that turn."""
+    is_acceleration = isinstance(block, Equation) and getattr(block.left, "text", "") == "a_P"
+    return is_acceleration and "i" not in dict(map(reversed, block.right.components))
 
 
 def left(v):
@@ -63,14 +69,14 @@ def force(case):
 def account(case):
     """Along OA only −ω1²; along AP the three parts −ω1² − ω2² + 2 ω1 ω2 are −(ω1 − ω2)²."""
     document = topic(case.mechanism(), "frame", point="wheel.P", body="rod")
-    vectors = [each for each in document.blocks if isinstance(each, Equation) and isinstance(each.right, Vector)]
-    parts = {each.left.text: {unit: tree for tree, unit in each.right.components} for each in vectors}
-    for word, check in {"a_relative": "-r*rate(phi)^2", "a_coriolis": "2*r*rate(theta)*rate(phi)"}.items():
-        label, tree = f"{word} along AP", parts[word]["λ_wheel"]
-        yield formula(label, tree, check, "closed form: circle, and 2 ω1 k × v_rel", document.letters)
+    terms = {term.written.text: term.arrow for term in document.terms}
+    for word, check in {"a_rel": "-r*rate(phi)^2", "2 ω × v_rel": "2*r*rate(theta)*rate(phi)"}.items():
+        [along] = (part.along for part in terms[word].parts)
+        yield formula(f"{word} along AP", along, check, "closed form: circle, and 2 ω1 k × v_rel", document.letters)
+    [_, prescribed] = (dict(map(reversed, each.right.components)) for each in document.blocks if is_whole(each))
     both = {"λ_rod": "-l*w1^2", "λ_wheel": "-r*(w1 - w2)^2"}
     for unit, check in both.items():
-        yield formula(f"a along {unit}", parts["a"][unit], check, "closed form: place differentiated twice", document.letters)
+        yield formula(f"a along {unit}", prescribed[unit], check, "closed form: place differentiated twice", document.letters)
     printed = np.array([-17.83, -3.63])
     less = printed - pair(case.instant(), "a{}(wheel.P)")
     says, against = "The printed acceleration of P differs from this by ({}, {}).", "closed form: place differentiated twice"
