@@ -107,3 +107,28 @@ def test_the_command_line_tells_what_locks_hold(tmp_path: Path) -> None:
     for command in (["solve", file], ["run", file, "--no-report"]):
         stated = CliRunner().invoke(app, command).output
         assert "b.y" in stated and "9.81" in stated.replace("-9.81", "")
+
+
+AT_ITS_STOP = """
+freebody: 1
+gravity: none
+parameters: {e: 0.4, a: 0.7 m, v: 1 m/s, angle: 0.6}
+ground: {points: {C: [0, -0.2 m]}, lines: {floor: {through: C, angle: 0}}}
+bodies: {ball: {shape: particle, mass: 2 kg}}
+joints: {free: {type: free, of: [ground.O, ball.centre], coordinates: [x, y]}}
+stops: {end: {of: "distance(ground.O, ball.centre)", least: a, restitution: 0.3}}
+contacts: {bounce: {of: [ball.centre, ground.floor], restitution: e}}
+initial: {x: a*cos(angle), y: a*sin(angle), rates: {x: v*sin(angle), y: -v*cos(angle)}}
+events: {hold: {at: start, then: {lock: "distance(ground.O, ball.centre)"}}}
+run: {until: 4 s, impacts: newton}
+"""
+
+
+@pytest.mark.parametrize("rtol", np.logspace(-5, -13, 9))
+def test_a_stop_at_which_a_lock_holds_takes_no_part_in_an_impact(tmp_path: Path, rtol: float) -> None:
+    """A ball on a circle, its radius locked at the stop of that radius, meets a floor after a (φ + asin(0.2/0.7))/v."""
+    run = model(tmp_path, AT_ITS_STOP).simulate(rtol=rtol)
+    [impact] = run.impacts
+    assert run.outcome.ok and impact.t == pytest.approx(0.7 * (0.6 + np.arcsin(2 / 7)), abs=10 * rtol)
+    assert np.hypot(*(run.at(impact.t)[each] for each in ("rate(x)", "rate(y)"))) == pytest.approx(0.4, abs=1e-9)
+    assert_allclose(np.hypot(run["x"], run["y"]), 0.7, atol=1e-12)

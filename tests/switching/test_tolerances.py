@@ -105,8 +105,8 @@ events: {{e: {{when: "y(b.centre) + c*(0.5 m)", direction: any, then: {then}}}}}
 run: {{until: 4 s}}
 """,
 }
-"""The spring comes to −c at t = π; the pendulum comes back to the height of its start at c = 1."""
-ACTIONS = ("stop", "{lock: w}", "{reset: {w: 1 m/s}}", "{release: B}", "{set: {c: 2}}")
+"""The spring comes to −c at t = π; the pendulum comes back to the height of its start at c = 1, which it leaves at once."""
+ACTIONS = ("stop", "{lock: w}", "{reset: {w: 1 m/s}}", "{release: B}", "{set: {c: 3}}")
 MISSES = [0.0, *(sign * 10.0**-digits for digits in range(3, 10) for sign in (1, -1))]
 GRAZING = {f"{name} {then} {miss}": (name, then, miss) for name in NEAR_MISS for then in ACTIONS for miss in MISSES}
 UNRESOLVED = "is not resolved at this rtol"
@@ -134,7 +134,8 @@ def test_what_an_event_does_that_nearly_misses_its_level_does_not_depend_on_the_
         return run.outcome.name, kinds(run), [event.kind for event in run.events if miss or event.kind != "touch"]
 
     known = resolved(mechanism, abs(miss), seen)
-    assert abs(miss) >= TOLERANCES[0] or not known[0]
+    comes_back = name == "spring" or miss < 0 or not then.startswith(("stop", "{set"))
+    assert abs(miss) >= TOLERANCES[0] or known[0] is not comes_back
 
 
 ORDER = """

@@ -179,18 +179,23 @@ def _eigenvalue(root: Any, count: int, nomenclature: Nomenclature | None) -> Eig
     if any(part.has(sympy.re, sympy.im, sympy.arg, sympy.atan2) for part in (real, imaginary)):
         real, imaginary = _apart(root)
     parts = (
-        _one_root(presented(sympy.radsimp(sympy.simplify(part)), nomenclature, patience=PATIENCE)) for part in (real, imaginary)
+        _one_root(presented(sympy.radsimp(_simplified(part)), nomenclature, patience=PATIENCE)) for part in (real, imaginary)
     )
     return Eigenvalue(*parts, count)
 
 
 def _apart(root: Any) -> tuple[Any, Any]:
     """Real and imaginary part of a root of which SymPy cannot tell them: (0, ± b) if its square is −b², else as it is."""
-    square = sympy.simplify(sympy.expand(-(root**2)))
+    square = _simplified(sympy.expand(-(root**2)))
     if not square.is_positive:
         return root, sympy.S.Zero
     upward = complex(root.subs(dict.fromkeys(root.free_symbols, 1))).imag > 0
     return sympy.S.Zero, sympy.sqrt(square) if upward else -sympy.sqrt(square)
+
+
+def _simplified(expression: Any) -> Any:
+    """By SymPy, but as it is with measured numbers: round-off hides what they have in common, and SymPy looks for it without end."""
+    return expression if is_measured(expression) else sympy.simplify(expression)
 
 
 def _one_root(tree: Tree) -> Tree:

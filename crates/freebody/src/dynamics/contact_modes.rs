@@ -157,6 +157,29 @@ impl Workspace<'_> {
         Ok(contacts)
     }
 
+    /// The same without those that all else keeps as they are, as a stop at which a lock holds: they are left closed, without
+    /// load. What has friction stays, and so does what parts or approaches faster than `rest_speed`.
+    ///
+    /// # Errors
+    /// As [`Workspace::closed_contacts`].
+    pub fn movable_contacts(
+        &mut self,
+        constraints: Vec<usize>,
+        rest_speed: f64,
+    ) -> Result<ClosedContacts, DynamicsError> {
+        let contacts = self.closed_contacts(constraints)?;
+        let k = contacts.len();
+        let moves = |i: usize| self.dense.saddle.moves(&self.along(contacts.row(i)));
+        let stays = |&i: &usize| contacts.rates[i].abs() > rest_speed || moves(i) || contacts.row(k + i).is_some();
+        let (movable, kept): (Vec<usize>, Vec<usize>) = (0..k).partition(stays);
+        if kept.is_empty() {
+            return Ok(contacts);
+        }
+        let named = |list: Vec<usize>| list.iter().map(|&i| contacts.constraints[i]).collect::<Vec<_>>();
+        self.enter(&contacts.opened.with_contacts(&named(kept), ContactMode::ClosedUnloaded));
+        self.closed_contacts(named(movable))
+    }
+
     /// What a unit force along a row does on each joint coordinate.
     pub(super) fn along(&self, row: Option<&Row>) -> Vec<f64> {
         let mut force = vec![0.0; self.m.freedom()];
@@ -255,7 +278,7 @@ impl Workspace<'_> {
 
     fn modes_of_closed_contacts(&mut self, scale: ContactTolerances) -> Result<Mode, DynamicsError> {
         let touching = self.touching(REST * self.length);
-        let contacts = self.closed_contacts(touching)?;
+        let contacts = self.movable_contacts(touching, scale.rest_speed)?;
         let staying = (0..contacts.len())
             .filter(|&i| contacts.rates[i] <= scale.rest_speed)
             .map(|i| contacts.constraints[i])

@@ -140,9 +140,10 @@ impl HybridSystem<'_> {
             self.place_in(&mode, t, y);
             self.workspace.enter(&self.workspace.find_features(self.lookahead()));
             let touching = self.workspace.touching(CLOSED_GAP * self.workspace.length);
-            let contacts = self.workspace.closed_contacts(touching)?;
+            let rest_speed = tolerances.rest_speed;
+            let contacts = self.workspace.movable_contacts(touching, rest_speed)?;
             mode = contacts.opened.clone();
-            let (k, rest_speed) = (contacts.constraints.len(), tolerances.rest_speed);
+            let k = contacts.constraints.len();
             if contacts.rates[..k].iter().any(|&rate| rate < -rest_speed) {
                 let (hit, rest_speed) = self.impact(t, y, &contacts, rest_speed)?;
                 impacting.extend(hit);

@@ -4,8 +4,10 @@ use super::mode_changes::{Impulses, ModeChange};
 use super::scales::NOTHING_LOST;
 use super::HybridSystem;
 use crate::dynamics::DynamicsError;
+use crate::expr::Env;
 use crate::gauges::ModelExpr;
-use crate::mechanism::{EventAction, Part};
+use crate::kinematics::State;
+use crate::mechanism::{Drive, DriveKind, EventAction, Part};
 use crate::mode::{ContactMode, Mode};
 
 impl HybridSystem<'_> {
@@ -54,6 +56,17 @@ impl HybridSystem<'_> {
             self.record(ModeChange { t, kind, of, lost: 0.0, states: None, impulses: None, note: None });
         }
         changed
+    }
+
+    /// Notes where the locks of the present mode keep their gauges: those that held already where they did.
+    pub(super) fn note_locks(&mut self) {
+        let at = self.workspace.at();
+        let locks = at.drives().filter(|(_, drive)| drive.kind == DriveKind::Lock);
+        let kept = |d: usize| self.locks.iter().position(|&lock| lock == d).map(|i| self.locked[i].clone());
+        let place = |(d, drive): (usize, &Drive)| {
+            (d, kept(d).unwrap_or_else(|| (drive.of.clone(), drive.of.eval(&State(at) as &dyn Env<f64, _>))))
+        };
+        (self.locks, self.locked) = locks.map(place).unzip();
     }
 
     /// Gives gauges their new rates, with the least change of momentum; answers whether any was asked for. Motions keep

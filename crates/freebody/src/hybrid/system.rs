@@ -69,6 +69,9 @@ pub struct HybridSystem<'m> {
     /// Parameters that events have set.
     pub(super) set: Vec<(usize, f64)>,
     pub(super) phases: Vec<Phase>,
+    /// The locks of the phase, and the gauges that they keep, each at the value where it was locked.
+    pub(super) locks: Vec<usize>,
+    pub(super) locked: Vec<(ModelExpr, f64)>,
     pub(super) worst_gap: f64,
     /// Whether the step being made begins near, or goes across, a configuration where the loops lose independence.
     near_singular: bool,
@@ -103,6 +106,8 @@ impl<'m> HybridSystem<'m> {
             time: 1.0,
             set: m.overruled(p),
             phases: vec![],
+            locks: vec![],
+            locked: vec![],
             worst_gap: 0.0,
             near_singular: false,
             independence: 0.0,
@@ -173,6 +178,7 @@ impl<'m> HybridSystem<'m> {
         let given = self.phases.last().map_or_else(|| self.workspace.force_potentials(), |phase| phase.given.clone());
         self.phases.push(Phase { from, p, mode, jump: 0.0, impact, given });
         self.independence = 0.0;
+        self.note_locks();
     }
 
     /// All energy at a state, and the potential of each force in it, J.
@@ -283,7 +289,7 @@ impl System for HybridSystem<'_> {
         let n = self.workspace.m.freedom();
         self.workspace.set_states(&y[self.first_state()..]);
         let (q, rest) = y.split_at_mut(n);
-        let moved = self.workspace.project_positions(&self.mode, t, q, &rest[..n])?;
+        let moved = self.workspace.project_positions_with(&self.mode, t, q, &rest[..n], &self.locked)?;
         self.worst_gap = self.worst_gap.max(self.workspace.worst_gap());
         self.independence = self.workspace.independence();
         let turned = self.workspace.project_velocities(&self.mode, t, q, &mut rest[..n])?;

@@ -66,10 +66,11 @@ impl Runner<'_> {
         let arrived = self.step_onto(&segment, first, later.first().map(|mark| mark.t))?;
         self.note_touches(&segment, marks, self.now.t);
         if !arrived {
-            return self.look_around(&[], false);
+            return self.look_around(&[], None);
         }
         self.note_unresolved(&segment, self.now.t);
         self.order_events(&mut hits);
+        let landed = self.switch_values(0.0)?;
         let has_jumped = self.act(&hits)?;
         if has_jumped {
             self.stepper.reset();
@@ -77,29 +78,33 @@ impl Runner<'_> {
             self.restart_steps();
             self.look_ahead();
         }
-        self.look_around(&hits, has_jumped)
+        self.look_around(&hits, has_jumped.then_some(&landed))
     }
 
-    /// Tells the watcher on which side of zero all functions go on.
-    fn look_around(&mut self, hits: &[Mark], has_jumped: bool) -> Result<(), Outcome> {
+    /// Tells the watcher on which side of zero all functions go on, of which `landed` are the values before a jump.
+    fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>) -> Result<(), Outcome> {
         let values = self.switch_values(0.0)?;
-        let (now, ahead) = (self.now.t, self.sign());
+        let (now, ahead, has_jumped) = (self.now.t, self.sign(), landed.is_some());
         self.detector.stop_at(|t| ahead * (now - t) >= 0.0, &values, has_jumped);
         for hit in hits {
-            let side = match self.system.system.switch(hit.index).role {
-                Role::Guard => 1,
-                // An action may have turned the motion.
-                Role::Event if has_jumped => self.heading(hit.index, values[hit.index])?,
+            let side = match (self.system.system.switch(hit.index).role, landed) {
+                (Role::Guard, _) => 1,
+                // An action may have turned the motion, or moved the zero.
+                (Role::Event, Some(landed)) => self.side(hit.index, landed[hit.index], values[hit.index])?,
                 // A discontinuity has changed to the arm beyond.
-                Role::Event | Role::Discontinuity => hit.direction * self.sign() as i8,
+                (Role::Event | Role::Discontinuity, _) => hit.direction * self.sign() as i8,
             };
             self.detector.spend(hit.index, side, self.now.t);
         }
         Ok(())
     }
 
-    /// Sign of the change of switching function `i` from its present `value`; 0 when it rests.
-    fn heading(&mut self, i: usize, value: f64) -> Result<i8, Outcome> {
+    /// On which side of zero switching function `i` goes on, `landed` when it was at a zero and `value` after the jump there;
+    /// 0 when it rests at the zero.
+    fn side(&mut self, i: usize, landed: f64, value: f64) -> Result<i8, Outcome> {
+        if (value - landed).abs() > landed.abs() + self.detector.noise(i) {
+            return Ok(value.signum() as i8);
+        }
         let rise = self.switch_values(GLANCE * self.steps.h)?[i] - value;
         Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
     }

@@ -2,6 +2,9 @@
 
 use super::{largest, Matrix, Rank, Saddle, SaddleError, Solution};
 
+/// Part of a row that is round-off.
+const UNFELT: f64 = 1e-12;
+
 /// The equations of [`Saddle`], group by group. The arithmetic grows with the cube of the largest group.
 #[derive(Clone, Debug, Default)]
 pub struct Islands {
@@ -83,6 +86,13 @@ impl Islands {
     /// n × dof: the accelerations (or velocities) with G z = 0, those of each group as of [`Saddle::motions`].
     pub fn motions(&self) -> Matrix {
         self.side_by_side(self.size[1], |island| (&island.unknowns, island.saddle.motions()))
+    }
+
+    /// Whether some motion with G z = 0 changes a further row (n), beyond round-off.
+    pub fn moves(&self, row: &[f64]) -> bool {
+        let parts = self.islands.iter().map(|island| island.saddle.felt(&gather(row, &island.unknowns)));
+        let [felt, all] = parts.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+        felt > UNFELT * UNFELT * all
     }
 
     /// m × d: the multipliers with Bᵀ λ = 0; the largest entry of each column is 1.

@@ -194,6 +194,13 @@ impl Saddle {
         Matrix::from_fn(self.mass.rows(), self.dof(), |i, j| self.col_scale[i] * x[(r + j, i)])
     }
 
+    /// Squares of the lengths of the part of a further row (n) that motions with G z = 0 feel, and of all of it, scaled.
+    pub fn felt(&self, row: &[f64]) -> [f64; 2] {
+        let (x, scaled) = (self.motion.x(), product(row, &self.col_scale));
+        let felt = (self.rank().rank..row.len()).map(|j| dot(x.row(j), &scaled).powi(2)).sum();
+        [felt, dot(&scaled, &scaled)]
+    }
+
     /// m × d: the multipliers with Bᵀ λ = 0; the largest entry of each column is 1.
     pub fn self_stress(&self) -> Matrix {
         let (y, r) = (self.force().y(), self.force().rank().rank);

@@ -270,6 +270,27 @@ fn kinks_are_passed_exactly() {
     assert!((run.y[0] - 0.5).abs() < 1e-11 && run.y[1].abs() < 1e-11);
 }
 
+/// An action that takes the level away from where the motion is: it comes to the new one later, and not again at once.
+#[test]
+fn a_level_that_is_moved_away_is_not_crossed() {
+    for direction in [0, -1] {
+        let level = std::cell::Cell::new(0.5);
+        let mut system = Plain::new(&[1.0], |_, _, dy| dy[0] = -1.0)
+            .watching(&[direction], |_, y, g| g[0] = y[0] - level.get())
+            .acting(|_, _, _| {
+                level.set(0.2);
+                After::Restart
+            });
+        let run = system.run("dop853", (0.0, &[1.0]), 3.0, &rtol(1e-9));
+        let times: Vec<f64> = run.events.iter().map(|event| event.t).collect();
+        assert!(
+            times.len() == 2 && (times[0] - 0.5).abs() < 1e-12 && (times[1] - 0.8).abs() < 1e-12,
+            "{:?} {times:?}",
+            run.outcome
+        );
+    }
+}
+
 #[test]
 fn events_are_found_going_backward() {
     let mut system = clock().watching(&[1, -1], |t, _, g| g.copy_from_slice(&[t - 0.3, t - 0.3]));

@@ -32,6 +32,10 @@ fn groups_are_solved_as_the_whole() {
         assert_eq!((parts.rank().rank, parts.dof()), (whole.rank().rank, whole.dof()));
         let stress = parts.self_stress();
         assert_eq!((stress.cols(), parts.motions().cols()), (m - whole.rank().rank, whole.dof()));
+        // A sum of rows moves with nothing, any other row with something.
+        let mut sum = vec![0.0; n];
+        g.add_t_mul_vec(&random.vector(m), &mut sum);
+        assert!(!parts.moves(&sum) && parts.moves(&random.vector(n)), "case {case}");
         let left = g.t_mul(&stress);
         assert!(left.data().iter().all(|x| x.abs() < 1e-12), "case {case}: a self-stress that loads");
         let moved = g.mul(&parts.motions());
