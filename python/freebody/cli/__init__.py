@@ -53,7 +53,7 @@ def run(
 
     page = report or Path(f"{model.stem}.html")
     if page.suffix.lower() not in ("", ".html", ".htm"):
-        raise UserError(f"a report is .html, not {page.suffix!r}")
+        raise UserError(f"a report is .html, not {page.suffix!r}", f"write e.g. `--report {page.with_suffix('.html')}`")
     if not no_report:
         check_writable(page)
     runs = [simulated(model, changes, until=until, method=method, rtol=rtol)]
