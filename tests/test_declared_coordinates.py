@@ -52,6 +52,13 @@ def models(kind):
 
 
 @pytest.mark.parametrize("kind", RELEASES)
+def test_equations_are_those_without_the_release(kind):
+    for form in ("minimal", "brute"):
+        plain, released = (fb.Mechanism.loads(text).equations(form).text() for text in models(kind))
+        assert released == plain
+
+
+@pytest.mark.parametrize("kind", RELEASES)
 def test_validate_and_solve_tell_it_with_and_without_the_release(kind, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for text in models(kind):

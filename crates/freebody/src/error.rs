@@ -272,7 +272,7 @@ impl DynamicsError {
             ),
             Self::StringZeroLength(name, at) => (
                 "string_zero_length",
-                format!("the taut string `{name}` is drawn in until two of its points meet and it has no direction: a little to one side it would swing round at once, straight through it would jerk; let it pass beside, or put a stop before"),
+                format!("the taut string `{name}` is drawn in until two of its points meet, or one the circle beside it: a little to one side it would swing round at once, straight through it would jerk; let it pass beside, or put a stop before"),
                 Some(at),
             ),
             Self::Backward => {

@@ -5,6 +5,7 @@ use crate::builder::answers::{of_force, phrases, units, units_of_force, units_of
 use crate::builder::readings::FUNCTIONS;
 use crate::compile::coupling_card;
 use crate::dynamics::{Count, Source};
+use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::{Card, Joint as _, Kind};
 use crate::mechanism::{Drive, DriveKind, FrictionSource, Gap, Group, Level, Mechanism, Part};
 use crate::mode::Mode;
@@ -184,10 +185,16 @@ fn motions(m: &Mechanism, start: &Mode) -> Vec<Value> {
 /// What events lock: the second body on which each lock acts, the first being that which takes the opposite or ground.
 fn locks(m: &Mechanism) -> Vec<Value> {
     let entry = |d: &Drive| {
+        let joint = d.of.variables().find_map(|variable| match variable {
+            ModelVariable::Coordinate(joint, _) if d.of == ModelExpr::variable(variable.clone()) => Some(*joint),
+            _ => None,
+        });
         let bodies = m.bodies_of(&d.of);
-        let body = |i: usize| &m.bodies[bodies.get(i).copied().unwrap_or(0)].name;
+        let body = |i: usize| bodies.get(i).copied().unwrap_or(0);
+        let [first, second] = joint.map_or_else(|| [body(1), body(0)], |joint| m.listed_ends(joint));
+        let [first, second] = [first, second].map(|body| &m.bodies[body].name);
         let readings = units(MOTION, m.gauge_unit(&d.of));
-        json!({"name": d.name, "first": body(1), "second": body(0), "turns": m.turns(&d.of), "readings": readings})
+        json!({"name": d.name, "first": first, "second": second, "turns": m.turns(&d.of), "readings": readings})
     };
     m.drives.iter().filter(|d| d.kind == DriveKind::Lock).map(entry).collect()
 }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -124,6 +124,28 @@ class CompiledModel:
         asked = (fixed or {}, guess or {}, rates or {}, points or {}, branch or {})
         q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked), history)
         return State(p, t, q, u, history), [*notes["adjusted"], *notes["branch"]]
+
+    def as_it_holds(self, state: State) -> tuple[CompiledModel, State]:
+        """The mechanism without its events, and a state before which nothing moved in its coordinates: joints that events release or
+        engage are out of the tree, and without those events their own coordinates describe what they join."""
+        if state.history is not None or not self._switched:
+            return self, state
+        made = self._without_events
+        names = [quote(name) for name in made.coordinate_names]
+        q, u = np.split(self.evaluate([*names, *(f"rate({name})" for name in names)], state), 2)
+        return made, replace(state, q=q, u=u)
+
+    @cached_property
+    def _switched(self) -> set[str]:
+        """The joints that events release or engage."""
+        actions = [action for event in self.spec["events"] for action in event["then"] if isinstance(action, Mapping)]
+        named = {name for action in actions for word in ("release", "engage") for name in action.get(word, ())}
+        return named & {joint["name"] for joint in self.spec["joints"]}
+
+    @cached_property
+    def _without_events(self) -> CompiledModel:
+        spec = {**self.spec, "events": []}
+        return replace(self, mechanism=_core.Mechanism(spec), spec=spec)
 
     def instant(self, state: State, route: str = "minimal") -> Solution:
         """Accelerations and all reactions by ``minimal``, ``newton_euler`` or ``constraints``."""

@@ -28,6 +28,7 @@ SAFETY = 3.0  # what two runs differ by is an estimate of the error, and at a ti
 ROUND_OFF = 2.0**-52
 LOOKS = 200  # steps of the second run, at least: what a law does in less than a few such steps both may pass over
 UNREACHED = 3.0  # times that are left to a dead position, over which a figure there is seen to change
+NEAR_END = 0.1  # of the run: where so much would be left, speeds do not grow without bound
 DEAD_ENDS = (OutcomeKind.DEAD_POSITION, OutcomeKind.STRING_ZERO_LENGTH)
 JUST_MISSED = 1e-6  # of the duration: what only one run meets so near its end is no parting of ways
 EVENT = "event"
@@ -160,10 +161,10 @@ class Accuracy:
         have up to there. The square of speeds grows as the time that is left falls."""
         if self.run.outcome.name not in DEAD_ENDS:
             return None
-        t = self.run.motion.steps[-2:]
+        t, length = self.run.motion.steps[-2:], np.ptp(self.run.edges)
         before, end = (self.run.motion.sample(t)[1] ** 2).sum(axis=1)
         left = before * np.ptp(t) / (end - before) if end > before else math.inf
-        return float(max(t[-1] - UNREACHED * left, self.run.edges[0]))
+        return float(max(t[-1] - UNREACHED * left, self.run.edges[0])) if left < NEAR_END * length else None
 
     @cached_property
     def changes(self) -> list[Change]:

@@ -168,6 +168,11 @@ class SymbolicState:
     numbers: Mapping[str, float] | None = None
     given: FreeBodies | None = field(default=None, repr=False)
 
+    def __post_init__(self) -> None:
+        if self.given is None:
+            for part, value in zip(("source", "state"), self.source.as_it_holds(self.state), strict=True):
+                object.__setattr__(self, part, value)
+
     def with_numbers(self, names: Sequence[str]) -> SymbolicState:
         """The same with some coordinates and parameters as the numbers that they are at the state."""
         parameters = [p["name"] for p in self.source.metadata["parameters"]]

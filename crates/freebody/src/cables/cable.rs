@@ -1,13 +1,13 @@
 //! The way of a string and what is slack of it.
 
 use super::layout::Layout;
-use super::tangent::WrapCircle;
+use super::tangent::{FreeSegment, WrapCircle};
 use super::{Winding, WrapState};
 use crate::kinematics::Poses;
 use crate::mechanism::{Cable, End, Guide, Mechanism};
 use crate::mode::{Border, Feature};
-use crate::plane::Vec2;
-use crate::scalar::Scalar;
+use crate::plane::{vec2, Vec2};
+use crate::scalar::{real, Scalar};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Swing of a string, rad, from the direction nearest to which it is counted, after which it is counted from the next
@@ -74,14 +74,14 @@ impl Cable {
         layout.segments.iter().any(|segment| segment.none > 0.0)
     }
 
-    /// The segments between two points, from the one to the other, fixed axes, m.
-    pub fn free_segments(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> Vec<Vec2> {
+    /// The straight segments from its first end to its second, fixed axes, m, and whether each joins two points.
+    pub fn free_segments(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> Vec<(Vec2, bool)> {
         let layout = Layout::new(self, m, poses, Winding::of(feature.index), feature.phase);
-        let between_points = |pair: &[WrapCircle<f64>]| {
-            let [a, b] = [&pair[0], &pair[1]];
-            (a.radius == 0.0 && b.radius == 0.0).then(|| poses.span(a.site, b.site, m) + b.off - a.off)
+        let vector = |(pair, free): (&[WrapCircle<f64>], &FreeSegment<f64>)| {
+            let (sin, cos) = real::sin_cos(free.angle);
+            (vec2(cos, sin) * (free.length - free.none), pair[0].radius == 0.0 && pair[1].radius == 0.0)
         };
-        layout.circles.windows(2).filter_map(between_points).collect()
+        layout.circles.windows(2).zip(&layout.segments).map(vector).collect()
     }
 
     /// The bodies on which its slack depends, ground left out, each once.

@@ -9,15 +9,29 @@ use crate::plane::Vec2;
 const VANISHED: f64 = 1e-9;
 
 impl HybridSystem<'_> {
-    /// The segments of unilateral constraint `l` between points, if it is a taut string.
+    /// The straight segments of unilateral constraint `l`, if it is a taut string.
     pub(super) fn taut_segments(&self, l: usize) -> Vec<Vec2> {
-        let (constraint, contact) = (&self.workspace.m.unilateral[l], self.workspace.mode().contacts[l]);
-        match &constraint.gap {
-            Gap::Cable(cable) if contact.mode.carries() => {
-                cable.free_segments(self.workspace.m, &self.workspace.at(), contact.feature)
-            }
+        let carries = self.workspace.mode().contacts[l].mode.carries();
+        self.segments(l).into_iter().filter(|_| carries).map(|(segment, _)| segment).collect()
+    }
+
+    /// Those of a string, and whether each joins two points.
+    fn segments(&self, l: usize) -> Vec<(Vec2, bool)> {
+        let feature = self.workspace.mode().contacts[l].feature;
+        match &self.workspace.m.unilateral[l].gap {
+            Gap::Cable(cable) => cable.free_segments(self.workspace.m, &self.workspace.at(), feature),
             _ => vec![],
         }
+    }
+
+    /// Refuses strings that would go taut where two of their points meet.
+    ///
+    /// # Errors
+    /// `string_zero_length`.
+    pub(super) fn check_direction(&self, constraints: &[usize]) -> Result<(), DynamicsError> {
+        let short = VANISHED * self.workspace.length;
+        let lost = |&&l: &&usize| self.segments(l).iter().any(|(segment, points)| *points && segment.norm() < short);
+        constraints.iter().find(lost).map_or(Ok(()), |&l| Err(self.zero_length_error(l)))
     }
 
     /// Remembers how all taut strings run at the state placed.
@@ -29,11 +43,11 @@ impl HybridSystem<'_> {
     /// its end: steps then become shorter, up to where it does.
     ///
     /// # Errors
-    /// `string_drawn_in`.
+    /// `string_zero_length`.
     pub(super) fn check_taut_segments(&self) -> Result<(), DynamicsError> {
         for (l, before) in self.taut_segments.iter().enumerate().filter(|(_, spans)| !spans.is_empty()) {
             let short = VANISHED * self.workspace.length;
-            let lost = |(a, b): (&Vec2, Vec2)| b.norm() < short || a.dot(b) < 0.0;
+            let lost = |(a, b): (&Vec2, Vec2)| b.norm() < short.min(a.norm()) || a.dot(b) < 0.0;
             if before.iter().zip(self.taut_segments(l)).any(lost) {
                 return Err(self.zero_length_error(l));
             }

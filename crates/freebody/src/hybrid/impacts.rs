@@ -64,6 +64,7 @@ impl HybridSystem<'_> {
         rest_speed: f64,
     ) -> Result<(Vec<usize>, f64), DynamicsError> {
         self.refuse_driven_together(contacts)?;
+        self.check_direction(&contacts.constraints)?;
         let restitution: Vec<f64> = contacts.constraints.iter().map(|&l| self.workspace.restitution(l)).collect();
         let names = self.workspace.names_of(&contacts.constraints);
         let rule = self.rule;

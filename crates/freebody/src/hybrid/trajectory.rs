@@ -230,7 +230,10 @@ impl Trajectory {
     pub fn reactions(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<([f64; 3], [bool; 3])>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |workspace, _, _| {
-            workspace.solve()?;
+            if passed(workspace.solve())?.is_none() {
+                rows.push(m.listed_joints().map(|_| ([f64::NAN; 3], [false; 3])).collect());
+                return Ok(());
+            }
             let sure = workspace.determinacy().joints;
             let seen = workspace.solved_view();
             let reaction = |joint: usize| (seen.joint_load(joint), sure[joint]);
@@ -241,14 +244,15 @@ impl Trajectory {
         Ok(rows)
     }
 
-    /// Values of expressions at times.
+    /// Values of expressions at times; NaN at a singular place that the motion passes.
     ///
     /// # Errors
     /// As [`Trajectory::reactions`].
     pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |workspace, t, y| {
-            rows.push(workspace.evaluate(laws, &self.works.spread(m, y, &self.phase(t).given))?);
+            let values = passed(workspace.evaluate(laws, &self.works.spread(m, y, &self.phase(t).given)))?;
+            rows.push(values.unwrap_or_else(|| vec![f64::NAN; laws.len()]));
             Ok(())
         })?;
         Ok(rows)
@@ -307,5 +311,14 @@ impl Trajectory {
             Ok(())
         })?;
         Ok(Ledger { names, rows })
+    }
+}
+
+/// What is found at a time of a motion that went on from there; nothing at a singular place, where round-off makes the rows
+/// contradict each other.
+fn passed<T>(found: Result<T, DynamicsError>) -> Result<Option<T>, DynamicsError> {
+    match found {
+        Err(DynamicsError::Contradiction(..) | DynamicsError::Residual(..)) => Ok(None),
+        found => found.map(Some),
     }
 }
