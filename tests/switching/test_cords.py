@@ -196,6 +196,27 @@ def test_a_bead_drawn_through_its_eyelet_is_a_named_end():
     assert run.evaluate("energy()", run.outcome.t) == pytest.approx(run.evaluate("energy()", 0.0), rel=1e-10)
 
 
+HAULED = """
+parameters: {L: 1 m, w: 1 rad/s}
+gravity: GRAVITY
+ground: {points: {eye: [0, L/10]}}
+bodies: {load: {shape: particle, mass: 1 kg}, hook: {shape: particle, mass: 1 kg}}
+joints: {rail: {type: slot, along: {through: ground.eye, angle: -90 deg}, point: hook.centre, coordinate: s}}
+strings: {cable: {ends: [hook.centre, load.centre], over: [ground.eye]}}
+motions: {pull: {of: s, is: L/2 + L*w*t/10}}
+initial: {load.x: 0, load.y: 0, s: L/2, rates: {load.x: 0, load.y: 0}}
+"""
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e-3, 1.0, 1e6])
+@pytest.mark.parametrize("gravity", ["none", "w^2*L/10"])
+def test_a_load_that_is_hauled_into_its_eyelet_is_a_named_end(gravity, size):
+    """Straight along its string, which carries or only keeps up with it; the end is seen from a thousandth of the mechanism before."""
+    run = model(HAULED.replace("GRAVITY", gravity), L=size).simulate(until=30)
+    assert run.outcome.name == "string_zero_length" and run.outcome.path == "strings.cable"
+    assert 0.95 < run.outcome.t <= 1 + 1e-8
+
+
 @pytest.mark.parametrize("b", [1e-2, 1e-4])
 def test_a_bead_that_passes_beside_swings_round(b):
     """However close it passes, energy and the moment of momentum about the eyelet stay."""

@@ -3,9 +3,11 @@
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import freebody as fb
+from freebody.views.peaks import peak_reactions
 
 FOUR_BAR = """
 freebody: 1
@@ -134,3 +136,22 @@ def test_a_row_of_four_bars_passes_its_flat_position_wherever_a_step_lands(
             until=2.5, rtol=1e-11, max_step=longest, progress=lambda t, steps=steps: next(steps, None) is not None
         )
         assert run.outcome.ok, (longest, run.outcome)
+
+
+def test_reactions_of_a_run_that_touches_a_singular_place_are_indeterminate_there():
+    """A slider driven to the axle of its crank, which is as long as the rod, and back: there the rod may turn by itself."""
+    model = fb.Mechanism.loads("""
+freebody: 1
+bodies: {crank: {shape: rod, length: 0.2, mass: 1}, rod: {shape: rod, length: 0.2, mass: 1}, p: {shape: particle, mass: 1}}
+joints:
+  A: {type: hinge, of: [ground.O, crank.start], coordinate: theta}
+  B: {type: hinge, of: [crank.end, rod.start], coordinate: beta}
+  C: {type: hinge, of: [rod.end, p.centre]}
+  g: {type: slot, along: {through: ground.O, angle: 0}, point: p.centre, coordinate: x}
+motions: {m: {of: x, is: "0.15*(1 + cos(t))"}}
+initial: {guess: {theta: 0.7, beta: -1.4, x: 0.3}}
+""")
+    run = model.simulate(7)
+    forces = run.motion.evaluate(["A.F", "m.force"], math.pi + 10.0 ** -np.arange(3, 13))
+    assert run.outcome.ok and np.isfinite(forces[0]).all() and np.isnan(forces).any()
+    assert all(peak.joint for peak in peak_reactions(run))

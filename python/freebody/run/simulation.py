@@ -52,18 +52,24 @@ if TYPE_CHECKING:
 Progress = Callable[[float], bool]
 
 
+MAX_STEPS = 1_000_000
+AS_LONG, SHORT_RUN = 20, 10_000
+"""Times the steps of a run that the second one may take, and steps that it always may."""
+
+
 def simulate(
     source: CompiledModel,
     start: State,
     settings: Settings,
     t_eval: Times | None = None,
     progress: Progress | None = None,
+    max_steps: int = MAX_STEPS,
 ) -> Run:
     """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
     if settings.every or t_eval is not None:
         check_size(len(columns_of(source, ())), settings, start.t, t_eval)
     options = {key: value for key, value in asdict(settings).items() if key != "every"}
-    trajectory = source.simulate(start, progress=progress, **options)
+    trajectory = source.simulate(start, progress=progress, max_steps=max_steps, **options)
     return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
 
 
@@ -291,7 +297,9 @@ class Run:
             beyond = 0.0 if self.outcome.name is OutcomeKind.INTERRUPTED else length
             settings = replace(settings, until=min(self.settings.until, self.end.t + beyond))
         if not (self.previous and self.resume):
-            return Accuracy(self, simulate(self.source, other_start(self.start), settings))
+            taken = self.stats["accepted"] + self.stats["rejected"]
+            most = min(MAX_STEPS, AS_LONG * taken + SHORT_RUN)
+            return Accuracy(self, simulate(self.source, other_start(self.start), settings, max_steps=most))
         before = self.previous.accuracy
         if before.parting < math.inf:
             return Accuracy(self, self, parted=True)
