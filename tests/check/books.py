@@ -7,21 +7,26 @@ that a tutor would give. Both were written down before the program had seen them
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+import independent
 import numpy as np
 from ruamel.yaml import YAML
 
 from freebody.check import Checker
 from freebody.check.file import WORDS, judged_alone
+from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.residual import residual
 from freebody.check.verdict import Verdict
 from freebody.mechanism import Mechanism
+from freebody.symbolic.evaluate import Array
 
+_CONSTANT = re.compile(r"\s*constant:(.+)|(.+)=\s*const\s*")
 FILES = {path.stem: path for path in sorted((Path(__file__).parent / "books").glob("*.yaml"))}
 
 
@@ -50,17 +55,30 @@ class Book:
         return Checker(Mechanism.loads(json.dumps({"freebody": 1, **self.data["model"]})), self.data.get("letters"))
 
     def says_the_same(self, one: str, other: str) -> bool:
-        """Whether two equations are one but for a factor that is a number, wherever their symbols have any values."""
-        cases = [self.checker.case(text) for text in (one, other)]
+        """Whether two equations, or what two claims call constant, hold at the same places, whatever the values of their symbols, or are
+        one but for a number where these are as joints and laws of forces allow: m R² α is m R a of what rolls."""
+        cases = [self.checker.case(_CONSTANT.sub(r"\1\2 = 0", text)) for text in (one, other)]
         values = {**cases[0].values(), **cases[1].values()}
-        places = cases[0].elsewhere(values, bound=False)
-        first, second = (residual(case.equations[0], places).sides.residual for case in cases)
-        if first.shape != second.shape:
-            return False
-        factor = np.sum(first * second) / np.sum(second**2)
-        return bool(np.allclose(first, factor * second, rtol=1e-7, atol=1e-9 * np.abs(first).max()))
+        one, other = (case.equations[0] for case in cases)
+        places = cases[0].elsewhere(values)
+        at = {n: places[n.key] for n in (*symbols_in(one), *symbols_in(other))}
+        if _proportional(one, other, places) or independent.says_the_same(one, other, at):
+            return True
+        kinematic = any(case.is_kinematic(case.equations[0]) for case in cases)
+        return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})
 
     def verdicts(self, correcting: bool = True) -> Iterator[Said]:
         self.checker.correcting = correcting
         for statement in self.data["statements"]:
             yield Said(self.name, statement, judged_alone(self.checker, statement["says"]))
+
+
+def _proportional(one: Equation, other: Equation, places: Mapping[str, Array]) -> bool:
+    """Whether what is left of two equations is one but for a factor that is a number."""
+    if not places:
+        return False
+    first, second = (residual(equation, places).sides.residual for equation in (one, other))
+    if first.shape != second.shape:
+        return False
+    factor = np.sum(first * second) / np.sum(second**2)
+    return bool(np.allclose(first, factor * second, rtol=1e-7, atol=1e-9 * np.abs(first).max()))

@@ -53,7 +53,7 @@ SAID = {
         (r"ΣF_y = m a_{Gy}: O_y + m g = m a_{Gy}", W),
         ("O_y = m g + m L/2 (α sin θ + ω² cos θ)", T),
         ("at rest: O_y = m g + m (L/2) α sin θ", T),
-        ("O_y = m g + m (L/2) α sin θ", IF),
+        ("O_y = m g + m (L/2) α sin θ", W),
         ("at θ = 0: O_y = m g + m (L/2) ω²", T),
         ("at θ = 0: O_y = m g", W),
         ("O_y = m g + m (L/2) ω² when θ = 0", T),

@@ -227,7 +227,7 @@ run: {until: 1 s}
 
 
 @pytest.mark.parametrize(("statement", "kind"), [
-    ("m y'' + c y' + k y + m g = 0", T), ("m y'' + k y + m g = 0", IF), ("m y'' + 2 c y' + k y + m g = 0", W),
+    ("m y'' + c y' + k y + m g = 0", T), ("m y'' + k y + m g = 0", W), ("m y'' + 2 c y' + k y + m g = 0", W),
 ])  # fmt: skip
 def test_a_start_in_equilibrium_hides_no_damping(statement, kind):
     """There accelerations are round-off, by which no rates are measured."""

@@ -85,13 +85,14 @@ CONDITIONS = [
 
 
 @pytest.mark.parametrize(("text", "condition"), CONDITIONS)
-def test_what_was_left_out_is_an_assumption(cart: Checker, text: str, condition: str) -> None:
+def test_what_was_left_out_is_wrong_and_when_it_would_not_matter_is_said(cart: Checker, text: str, condition: str) -> None:
     verdict = cart.check(text)
     if condition == "these numbers of the model":
         assert verdict.kind in (Kind.TRUE_IF, Kind.DIMENSIONS)  # 1/l is 2 only with the unit of l forgotten
         return
-    assert verdict.kind is Kind.TRUE_IF
+    assert verdict.kind is Kind.WRONG
     assert verdict.assumption == condition
+    assert {edit[0] for edit in verdict.mends[0].edits} == {"missing term"}
 
 
 def test_an_assumption_does_not_excuse_a_wrong_sign(cart: Checker) -> None:

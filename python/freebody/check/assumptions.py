@@ -64,6 +64,13 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     return (words,) if words else ()
 
 
+def leaves_out(words: str, mended: bool) -> bool:
+    """Whether an assumption takes motion, gravity or a part of the model away, so that it excuses nothing: a term was left out. Where
+    one edit has ``mended`` an equation, a limit and the start excuse nothing, either."""
+    taken = words.startswith(("at rest", "without gravity")) or re.fullmatch(r"\S+ = 0( \(no friction\))?", words) is not None
+    return taken or (mended and ("→" in words or words == "at the start"))
+
+
 def linearised(case: Case, equation: Equation) -> str:
     """In words, what is small where an equation in which angles stand outside of sines and cosines is true to first order."""
     return _to_first_order(case, equation) if _has_bare_angles(case, equation) else ""
@@ -170,7 +177,8 @@ def _of(case: Case, name: str) -> Known:
 
 def _is_size(case: Case, name: str) -> bool:
     """Whether a parameter is a length of what there is, and not by how much a prescribed motion moves."""
-    return _of(case, name) == LENGTH and not re.search(rf"\b{re.escape(name)}\b", json.dumps(case.sampler.spec["motions"]))
+    moves = json.dumps(case.sampler.spec["motions"], ensure_ascii=False)
+    return _of(case, name) == LENGTH and not re.search(rf"\b{re.escape(name)}\b", moves)
 
 
 def _limits(case: Case) -> Iterator[tuple[str, int]]:

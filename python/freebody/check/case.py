@@ -6,28 +6,31 @@ import json
 import math
 import re
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
+from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
+from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Sym
+from freebody.symbolic.tree import Fn, Sym, walk
 
 from .budget import Budget
-from .families import ALL, Family, Samples
+from .families import ALL, Family, NoMotion, Samples
 from .language.dimensions import misfit
-from .language.statements import Equation, Program, inlined
+from .language.statements import Equation, Program, inlined, symbols_in
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
 from .symbols import Symbols
 from .user_symbols import Meaning
 from .vocabulary import Vocabulary
 
-_WORD = re.compile(r"[A-Za-z_][\w.\[\]]*")
+_WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _BEYOND = re.compile(
     r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|centre_[xy])\("
@@ -40,6 +43,8 @@ _SUMMED = re.compile(r"\.work\b|\bfriction_work\(")
 """What is summed up from the start of a motion on."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
 _BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
+_ADMISSIBLE = 24  # states at which no balance holds
+_KINEMATIC = 1e-8  # what is left there of an equation that is none
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
 _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
@@ -48,7 +53,7 @@ class StatementSymbols:
     """What the symbols of a program mean in a model. Raises ``StatementError`` at a symbol without a meaning."""
 
     def __init__(self, symbols: Symbols, program: Program, sampler: MotionSampler) -> None:
-        self.symbols, self.sampler, self.figures = symbols, sampler, False
+        self.symbols, self.program, self.sampler, self.figures = symbols, program, sampler, False
         self.required = symbols.require(program)
         self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
 
@@ -137,8 +142,14 @@ class StatementSymbols:
         """The dimension of a symbol, radians aside; a parameter that is a bare number is one."""
         dimension, name = self._one(symbol).dimension, self._one(symbol).texts[0]
         if dimension is None:
-            return NUMBER_ONLY if name in self.sampler.free_parameters else None
+            return NUMBER_ONLY if name in self.sampler.free_parameters or Sym(symbol.name) in self._turning else None
         return dimension._replace(angle=0)
+
+    @cached_property
+    def _turning(self) -> frozenset[Sym]:
+        """The symbols in sines and cosines."""
+        calls = (n for n in walk(self.program) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
+        return frozenset(n for call in calls for n in symbols_in(call))
 
     @cached_property
     def _parameters(self) -> list[Sym]:
@@ -159,8 +170,9 @@ class StatementSymbols:
     @cached_property
     def _mechanics(self) -> str:
         spec = self.sampler.spec
-        used = json.dumps({k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")})
-        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used])
+        given = {k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")}
+        used = json.dumps(given, ensure_ascii=False)
+        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used], ensure_ascii=False)
         for parameter in reversed(spec["parameters"]):
             if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
                 used += " " + parameter["value"]
@@ -223,6 +235,20 @@ class Case:
         if key not in self.known:
             self.known[key] = self.meaning.values(self.samples(family, fresh, count))
         return self.known[key]
+
+    @cached_property
+    def admissible(self) -> Mapping[str, Array]:
+        """The symbols on states at which no balance holds; none where there are no such states."""
+        with suppress(NoMotion, ModelProblem, ModelError, MotionError, StatementError):
+            return self.meaning.values(self.sampler.admissible.samples(ALL, _ADMISSIBLE))
+        return {}
+
+    def is_kinematic(self, equation: Equation) -> bool:
+        """Whether an equation holds whatever the balances say."""
+        try:
+            return bool(self.admissible) and residual(equation, self.admissible).worst < _KINEMATIC
+        except (KeyError, ValueError):
+            return False
 
     def depends_on_stress(self, equation: Equation) -> list[str]:
         """The reactions that are not determined and of which it depends on their values whether the equation holds."""

@@ -21,6 +21,7 @@ from freebody.symbolic.tree import Sym
 from . import timed_claims
 from .assumptions import FAR, family, first_order, tiny
 from .case import Case
+from .constants import constant_corrections
 from .correction import corrections
 from .families import ALL, Samples
 from .language.parser import parse_expression
@@ -141,12 +142,13 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     """The same at all times of each motion; of motions from the start, until something switches."""
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
-    worst, seen, lost = 0.0, None, ""
+    worst, seen, lost, runs = 0.0, None, "", []
     # What a hypothesis makes 0 has no size of its own there, only round-off.
     usual = float(np.median(magnitude(node, case.values(ALL)))) if case.hypothesis.vanishing else 0.0
     for sample in case.samples(count=_RUNS).states:
         along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
         values = case.meaning.values(along)
+        runs.append(values)
         value, size = sampled(node, values), magnitude(node, values)
         spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), usual, 1e-300))
         if np.isnan(spread):
@@ -156,7 +158,8 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
             seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
     if worst < _STEADY:
         return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
-    return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", evidence=seen)
+    mends = constant_corrections(case, node, runs) if case.correcting else ()
+    return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", mends=mends, evidence=seen)
 
 
 def _reading(checker: Checker, declared: Declared, expression: str) -> Case:

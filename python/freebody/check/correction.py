@@ -43,7 +43,10 @@ _CONFIRMING = 0.1  # of it, for what was found by then
 _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
+_KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
+_REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"))
+"""Pairs that take something away and put another in its place: no correction."""
 _LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
 
 
@@ -88,9 +91,13 @@ class _Found:
 
     def correction(self, given: str, why: str) -> Correction:
         edits = self.edits
-        stated = tuple((e.kind, spell(e.old) if e.old else "", e.words or (spell(e.new) if e.new else "")) for e in edits)
         where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
-        return Correction(stated, spell(without_ones(self.after)), self.size, where, given, why)
+        return Correction(tuple(map(stated, edits)), spell(without_ones(self.after)), self.size, where, given, why)
+
+
+def stated(edit: Edit) -> tuple[str, str, str]:
+    """The kind of an edit, what stood there and what should."""
+    return edit.kind, spell(edit.old) if edit.old else "", edit.words or (spell(edit.new) if edit.new else "")
 
 
 Step = Callable[["_Search"], Iterator[_Found]]
@@ -143,7 +150,7 @@ class _Search:
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
         self.fit = case.meaning.fits
         self.said = {n.key for n in symbols_in(equation)}
-        self.given = case.meaning.given()
+        self.given, self.case = case.meaning.given(), case
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self.within = partial(case.budget.within, part=part)
         self.confirming = partial(case.budget.within, part=part + _CONFIRMING)
@@ -178,7 +185,8 @@ class _Search:
                 made = [replace(second, after=both)] if both is not first.after else []
                 yield from (_Found((first, edit)) for edit in self._promising(made))
         for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
-            yield from (_Found((first, edit)) for edit in self._promising(self._fitted(first.after)))
+            found = self._promising(self._fitted(first.after))
+            yield from (_Found((first, edit)) for edit in found if (first.kind, edit.kind) not in _REPLACED)
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
@@ -195,6 +203,7 @@ class _Search:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
         ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
         kept: dict[tuple[float, ...], list[_Found]] = {}
+        alike: dict[tuple[float, ...], tuple[float, ...]] = {}
         least = 0.0
         for size, _, each in self.confirming(ranked):
             if (kept and size > least + EQUAL) or np.isinf(size):
@@ -204,19 +213,39 @@ class _Search:
             # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
             own = self.said & {n.key for n in symbols_in(each.after)}
             vacuous = own and self._worst(each.after, self.few | {key: self.free[key] for key in own}) < HOLDS
-            if mark is None or idle or vacuous or not self.fit(each.after):
+            if mark is None or idle or vacuous or self._changes_the_subject(each) or not self.fit(each.after):
                 continue
+            mark = alike.setdefault(self._beside_balances(each.after) or mark, mark)
             if mark in kept or self._confirmed(each.after):
                 least = size if not kept else least
                 kept.setdefault(mark, []).append(each)
-        return [min(alike, key=self._oddness) for alike in kept.values()][:MOST]
+        return [min(same, key=self._oddness) for same in kept.values()][:MOST]
 
-    def _oddness(self, found: _Found) -> tuple[bool, float]:
-        """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, long, and large."""
+    def _changes_the_subject(self, found: _Found) -> bool:
+        """Whether two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
+        and what was said of forces, masses or weights is gone from it."""
+        own = {n.key for n in symbols_in(found.after)}
+        solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
+        lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own]
+        mechanics = any(its is not None and (its.mass or its.time == -2) for its in lost)
+        return (len(found.edits) > 1 and bool(solved) and not solved & own) or (mechanics and self.case.is_kinematic(found.after))
+
+    def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
+        """What is left of an equation where no balance holds; nothing where that is nothing."""
+        found = self._residual(equation, self.case.admissible) if self.case.admissible else None
+        if found is None or not np.isfinite(found.ratio).all() or found.worst < _KINEMATIC:
+            return ()
+        left = found.sides.residual.ravel()
+        return tuple(np.round(left / left[np.argmax(np.abs(left))], 7).tolist())
+
+    def _oddness(self, found: _Found) -> tuple[bool, int, float]:
+        """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
+        nothing was said, long, and large."""
         sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
         length = len(spell(without_ones(found.after))) + _WORTH * self._size(found)
-        return any(edit.old in alone and edit.old is not None for edit in found.edits), length
+        new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
+        return any(edit.old in alone and edit.old is not None for edit in found.edits), len(new), length
 
     def why(self, found: _Found) -> str:
         """What was wrong, a sentence for each edit."""

@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
-from itertools import chain, permutations
+from itertools import chain, combinations, permutations
 from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import INERTIA, NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import INERTIA, LENGTH, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, walk
 
+from .coefficients import multiplied, powered, recognised
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms
+from .monomials import Monomials
 from .solve_for_term import RequiredTerm, required_terms
 from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
+_NEARLY = 1e-5  # relative spread below which one is meant
 _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
-_DENOMINATOR = 24
-_NUMERATOR = 60
+_MOST_LENGTHS = 5  # of which sums and differences are thought of
 
 
 @dataclass
@@ -38,9 +38,12 @@ class FittedEdits:
     vocabulary: Vocabulary
     within: Callable[[Iterable[Any]], Iterator[Any]] = iter
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
+    _terms: dict[Equation, Monomials] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
+        quotients = [n for n in walk(equation) if isinstance(n, Quotient)]
+        whole = {id(part) for n in (*quotients, equation) for part in children(n) if not isinstance(part, Num)}
         with np.errstate(all="ignore"):
             for required in self.within(required_terms(equation, self.values)):
                 yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
@@ -51,14 +54,17 @@ class FittedEdits:
                     yield Edit.at(equation, "factor", required.node, number)
                 if required.addend:
                     yield from self._factors(equation, required)
-                if isinstance(required.node, Add) or required.node in (equation.left, equation.right):
+                if isinstance(node, Add) or id(node) in whole:
                     yield from self._missing(equation, required)
+                if node in (equation.left, equation.right) and not any(symbols_in(n.bottom) for n in quotients):
+                    yield from self._denominator(equation, required)
 
     def other_terms(self, equation: Equation) -> Iterator[Edit]:
         """Terms that should be quite other ones."""
         with np.errstate(all="ignore"):
             for required in self.within(required_terms(equation, self.values)):
-                for term in self._matching(equation, required.needed) if required.addend else ():
+                whole = any(required.node is part for side in (equation.left, equation.right) for part in (side, _bare(side)))
+                for term in self._matching(equation, required.needed) if required.addend and not whole else ():
                     yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
     def _symbols(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
@@ -124,10 +130,45 @@ class FittedEdits:
 
     def _missing(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A sum that lacks a term."""
-        inner = not any(required.node is side for side in (equation.left, equation.right))
-        for term in self._matching(Equation(required.node, Num(0.0)) if inner else equation, required.missing):
+        scalar = required.missing.ndim == 1
+        ratio = required.missing / required.value if scalar and not isinstance(required.node, Add) else np.full(1, np.nan)
+        if np.ptp(ratio) < _NEARLY * np.abs(ratio).max():
+            return  # another number is a factor
+        for term in (
+            self._monomials(equation).equal_to(required.missing) if scalar else self._matching(equation, required.missing)
+        ):
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, _more(required.node, term)), size)
+
+    def _denominator(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten."""
+        if required.factor is not None and np.isfinite(required.factor).all() and required.factor.all():
+            for term in self._monomials(equation).equal_to(1 / required.factor - 1):
+                if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
+                    new = Quotient(required.node, Add((Num(1.0, "1"), term)))
+                    yield Edit("missing term", None, term, exchange(equation, required.node, new), 0.02 * depth(term))
+
+    def _monomials(self, equation: Equation) -> Monomials:
+        """The terms that an equation may lack."""
+        if equation not in self._terms:
+            known, said = self.vocabulary, symbols_in(equation)
+            sizes = [n for n in (*known.parameters, *known.coordinates) if n not in known.angular]
+            sums = [n for n in walk(equation) if isinstance(n, Add) and {_bare(term) for term in n.terms} <= {*sizes}]
+            lengths = [n for n in known.parameters if known.dimension(n) == LENGTH]
+            pairs = combinations(lengths[:_MOST_LENGTHS], 2)
+            bases = sorted(sizes, key=lambda n: (n in known.coordinates, n not in said))
+            pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
+            own = [n for n in bases if n in said]
+            shapes = known.shapes([n for n in said if n in known.others], self._angles(equation))
+            self._terms[equation] = Monomials(
+                self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *pairs, *bases)), shapes
+            )
+        return self._terms[equation]
+
+    def _angles(self, equation: Equation) -> tuple[Node, ...]:
+        """Sums in sines and cosines."""
+        angles = (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
+        return tuple(dict.fromkeys(n for n in angles if isinstance(n, Add) and len(n.terms) > 2))
 
     def _far_fetched(self, term: Node, equation: Equation) -> bool:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
@@ -142,7 +183,7 @@ class FittedEdits:
             required = next(required_terms(equation, self.values), None)
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
-            nodes, rows = self._dictionary(equation, NUMBER_ONLY)
+            nodes, rows = self.dictionary(equation, NUMBER_ONLY)
             for pair in self.within(_spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
@@ -161,22 +202,23 @@ class FittedEdits:
                 if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
                     yield from (Mul((term, vector)) for term in self._matching(equation, along, its or NUMBER_ONLY))
         elif np.isfinite(wanted).all() and wanted.any():
-            nodes, rows = self._dictionary(equation, less)
-            for i in _proportional(rows, wanted):
+            nodes, rows = self.dictionary(equation, less)
+            for i in proportional(rows, wanted):
                 if (term := multiplied(nodes[i], float(np.sum(wanted * rows[i]) / np.sum(rows[i] ** 2)))) is not None:
                     yield term
 
-    def _dictionary(self, equation: Equation, less: Dimension) -> tuple[list[Node], Array]:
-        """Terms that an equation may hold, of its dimension over ``less``, and their values."""
+    def dictionary(self, equation: Equation, less: Dimension = NUMBER_ONLY, highest: int = 2) -> tuple[list[Node], Array]:
+        """Terms that an equation may hold, of its dimension over ``less`` and with derivatives up to the ``highest``, and their values."""
         found = (dimension(term, self.vocabulary.dimensions) for term in terms(equation, expand=True))
         known = [each for each in found if each is not None]
         wanted: Known = max(known, key=known.count).times(less, -1) if known else None  # one of them may be wrong
         moving = tuple(n for n in symbols_in(equation) if n in self.vocabulary.others)
-        angles = (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
-        long = tuple(dict.fromkeys(n for n in angles if isinstance(n, Add) and len(n.terms) > 2))
-        key = (wanted, moving, long)
+        long = self._angles(equation)
+        key = (wanted, moving, long, highest)
         if key not in self._made:
-            nodes = list(self.within(chain(self.vocabulary.moments(wanted), self.vocabulary.terms(wanted, moving, long))))
+            nodes = list(
+                self.within(chain(self.vocabulary.moments(wanted), self.vocabulary.terms(wanted, moving, long, highest)))
+            )
             rows = self._rows(nodes)
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
@@ -198,6 +240,10 @@ class FittedEdits:
         return rows
 
 
+def _bare(node: Node) -> Node:
+    return node.of if isinstance(node, Negative) else node
+
+
 def _constant(values: Array) -> float | None:
     if values.ndim != 1 or not np.isfinite(values).all():
         return None
@@ -209,11 +255,11 @@ def _varies(values: Array) -> bool:
     return bool(values.ndim == 1 and np.all(values != 0) and np.ptp(np.log(np.abs(values))) > 1e-3)
 
 
-def _proportional(rows: Array, wanted: Array) -> list[int]:
+def proportional(rows: Array, wanted: Array, same: float = _SAME) -> list[int]:
     """Rows that are ``wanted`` but for a factor."""
     dots, sizes = rows @ wanted, np.sum(rows**2, axis=1)
     off = np.abs(rows * (dots / sizes)[:, None] - wanted).max(axis=1)
-    return np.flatnonzero(off <= _SAME * np.abs(wanted).max()).tolist()
+    return np.flatnonzero(off <= same * np.abs(wanted).max()).tolist()
 
 
 def _spanning(rows: Array, wanted: Array, within: Callable[[Iterable[int]], Iterator[int]]) -> Iterator[tuple[int, int]]:
@@ -224,60 +270,7 @@ def _spanning(rows: Array, wanted: Array, within: Callable[[Iterable[int]], Iter
         along = rows[i] / sizes[i]
         rest, others = wanted - (wanted @ along) * along, rows - np.outer(rows @ along, along)
         others[np.linalg.norm(others, axis=1) < 1e-6 * sizes] = np.nan
-        yield from ((i, j) for j in _proportional(others, rest) if i < j or j not in order)
-
-
-# -- as a person writes it
-
-
-def recognised(value: float) -> Node | None:
-    """A number as a person writes it: p/q with q ≤ 12, or such a part of π; None where it is neither."""
-    for unit in (1.0, math.pi):
-        part = Fraction(abs(value) / unit).limit_denominator(_DENOMINATOR)
-        if not part or part.numerator > _NUMERATOR or abs(float(part) * unit / abs(value) - 1) >= _SAME:
-            continue
-        above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
-        pi = Num(math.pi, "pi")
-        top: Node = above if unit == 1.0 else pi if part.numerator == 1 else Mul((above, pi))
-        found = top if part.denominator == 1 else Quotient(top, below)
-        return Negative(found) if value < 0 else found
-    return None
-
-
-def multiplied(node: Node, value: float) -> Node | None:
-    """A term times a number; None where that is no number that a person writes."""
-    if isinstance(node, Negative):
-        return multiplied(node.of, -value)
-    match node:
-        case Mul((Num(own), *rest)) if recognised(own * value) is not None:
-            return multiplied(_product(rest), own * value)
-    number = recognised(abs(value))
-    if number is None:
-        return None
-    if isinstance(number, Quotient) and number.top == Num(1.0):
-        found: Node = Quotient(node, number.bottom, span=node.span)
-    else:
-        found = (
-            node if number == Num(1.0) else Mul((number, *(node.factors if isinstance(node, Mul) else (node,))), span=node.span)
-        )
-    return Negative(found) if value < 0 else found
-
-
-def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None:
-    """A term times a number and powers of symbols; factors that it has itself are taken off first."""
-    own, below = list(node.factors) if isinstance(node, Mul) else [node], []
-    for symbol, power in powers.items():
-        own += [symbol] * power
-        for _ in range(-power):
-            if symbol in own:
-                own.remove(symbol)
-            else:
-                below.append(symbol)
-    return multiplied(Quotient(_product(own), _product(below)) if below else _product(own), number)
-
-
-def _product(factors: Sequence[Node]) -> Node:
-    return Mul(tuple(factors)) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
+        yield from ((i, j) for j in proportional(others, rest) if i < j or j not in order)
 
 
 def _more(node: Node, *terms: Node) -> Node:

@@ -19,6 +19,7 @@ from freebody.run.moments import START, Unreached, state_of
 from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE, Dimension
 
+from .admissible import UnderOtherLoads
 from .families import ALL, Family, NoMotion, Samples
 from .sides import changes_side, squares
 
@@ -56,8 +57,8 @@ class MotionSampler:
 
     ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t`` and changes, as in ``Mechanism.solve``."""
 
-    def __init__(self, mechanism: Builder, seed: int = 0, **asked: Any) -> None:
-        lowered = mechanism.lowered()
+    def __init__(self, mechanism: Builder | UnderOtherLoads, seed: int = 0, **asked: Any) -> None:
+        lowered, self._asked = mechanism.lowered(), dict(asked)
         self.mechanism, self.start, initial = mechanism, lowered.start, asked.pop("initial", None)
         if initial is not None:
             self.start = Start(coordinates=self.start.coordinates, parameters=self.start.parameters)
@@ -96,6 +97,11 @@ class MotionSampler:
         self.spec["gravity"] = [0.0, f"-{name}"]
         self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
         return name
+
+    @cached_property
+    def admissible(self) -> MotionSampler:
+        """The motions of the same model under other loads: what is true of them, too, is no balance."""
+        return MotionSampler(UnderOtherLoads(self), self.seed, **self._asked)
 
     def samples(self, family: Family = ALL, count: int = SAMPLES, fresh: int = 0) -> Samples:
         """True states of a family; ``fresh`` other than 0 gives others than before. Raises ``NoMotion``."""

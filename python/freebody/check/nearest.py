@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 _MOST = 150  # balances that are looked at, those of few bodies first
 _LONG = 1500  # signs, beyond which nobody reads an equation
-_WORD = re.compile(r"'[^']+'\.\w+|[A-Za-z_][\w.\[\]]*")
+_WORD = re.compile(r"'[^']+'\.\w+|[^\W\d][\w.\[\]]*")
 _LEVELS = ("value", "rate", "acceleration")
 _KINDS = {"number": "constant"}
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, MASS
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, walk
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, walk
 
 from .edits import FIGURES, Edit
 from .language.dimensions import dimension
@@ -42,14 +42,23 @@ def unlikely(
             same = one.shape == other.shape and np.allclose(one, other, rtol=_SAME, atol=0)
             turns = vocabulary.dimension(old) == INERTIA  # its moment about another point may have a letter of its own
             mixed = old in vocabulary.parameters and new not in vocabulary.parameters and not turns
-            return math.inf if same else _ODD * mixed
+            unsaid = new in vocabulary.others and new not in symbols_in(equation)
+            return math.inf if same else _ODD * mixed + _NEW * unsaid
         case "missing term" | "other term", _, new:
             found = {n.name for n in symbols_in(new)} - {n.name for n in symbols_in(equation)}
-            strange = [n for n in (*vocabulary.coordinates, *vocabulary.others) if n.name in found]
+            forces = [n for n in vocabulary.parameters if vocabulary.dimension(n) in (FORCE, ENERGY)]
+            strange = [n for n in (*vocabulary.coordinates, *vocabulary.others, *forces) if n.name in found]
             strange += [n for n in strange if vocabulary.dimension(n) in (FORCE, ENERGY)]
+            if edit.kind == "missing term" and isinstance(_bare(new), Quotient) and symbols_in(_bare(new).bottom):
+                strange += [_bare(new)] * (not any(isinstance(n, Quotient) for n in walk(equation)))
+            strange += [n for n in walk(new) if isinstance(n, Add) and n not in {*walk(equation)}] * 2
             again = edit.kind == "missing term" and any(_is_multiple(new, term, elsewhere) for term in terms(equation))
             return _NEW * len(strange) + _ODD * again
     return 0.0
+
+
+def _bare(node: Node) -> Node:
+    return node.of if isinstance(node, Negative) else node
 
 
 def _is_multiple(one: Node, other: Node, values: Mapping[str, Array]) -> bool:

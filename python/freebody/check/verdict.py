@@ -13,7 +13,7 @@ import numpy as np
 from freebody.solve.rich_tables import PlainText
 from freebody.symbolic.errors import StatementError
 
-from .assumptions import assumption, linearised, tiny
+from .assumptions import assumption, leaves_out, linearised, tiny
 from .case import Case
 from .correction import MOST, SECOND, Correction, corrections
 from .families import ALL, NoMotion
@@ -232,23 +232,27 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
 
 
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
-    """A slip where one edit corrects it; else an assumption that excuses what was left out; else wrong."""
+    """Under an assumption that a person would make; else wrong, with its corrections, also where what was left out would be 0 at
+    rest or without a part of the model."""
     seen = evidence(found, case.values())
     if not case.correcting:
         return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(islice(corrections(case, equation), MOST))
     if small := linearised(case, equation):
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
-    slip = any(each.is_slip and len(each.edits) == 1 for each in fixes)
-    if not slip and (assumed := assumption(case, equation)):
-        return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0], fixes, seen)
+    single = [each for each in fixes if len(each.edits) == 1]
+    assumed = () if any(each.is_slip for each in single) else assumption(case, equation)
+    words = "; or: ".join(assumed)
+    if assumed and not leaves_out(assumed[0], bool(single)):
+        return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
-        words, near = small
-        fixes = tuple(replace(each, given=words) for each in islice(corrections(near, equation, SECOND), MOST))
+        given, near = small
+        fixes = tuple(replace(each, given=given) for each in islice(corrections(near, equation, SECOND), MOST))
+    reason, first = (f"it would hold only if: {words}", assumed[0]) if assumed else ("", "")
     if fixes:
-        return Verdict(Kind.WRONG, text, mends=fixes, evidence=seen)
-    what = "wrong" if case.budget.spent else "wrong, and no single or double edit corrects it"
-    return Verdict(Kind.WRONG, text, what, evidence=seen, true=nearest(case, equation))
+        return Verdict(Kind.WRONG, text, reason, first, fixes, seen)
+    what = reason or ("wrong" if case.budget.spent else "wrong, and no single or double edit corrects it")
+    return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=nearest(case, equation))
 
 
 def _sufficiency(case: Case) -> str:

@@ -71,13 +71,26 @@ class Vocabulary:
 
     # -- terms
 
-    def terms(self, wanted: Known, moving: Sequence[Sym] = (), angles: Sequence[Node] = ()) -> Iterator[Node]:
-        """Terms of a dimension (of any where it is None) as equations of motion have them, also with sines of ``angles``."""
+    def terms(self, wanted: Known, moving: Sequence[Sym] = (), angles: Sequence[Node] = (), highest: int = 2) -> Iterator[Node]:
+        """Terms of a dimension (of any where it is None) as equations of motion have them, also with sines of ``angles``, and with
+        derivatives up to the ``highest``."""
         shapes = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
-        for monomial in islice(self._monomials(wanted, list(self._dynamic(moving))), _MOST):
+        accelerated = {Sym(q.name, 2) for q in self.coordinates if highest < 2}
+        dynamic = [each for each in self._dynamic(moving) if not accelerated & {*each[0]}]
+        for monomial in islice(self._monomials(wanted, dynamic), _MOST):
             for shape in shapes:
                 factors = (*monomial, *shape)
                 yield Mul(factors) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
+
+    def shapes(self, moving: Sequence[Sym] = (), angles: Sequence[Node] = ()) -> Iterator[tuple[Node, ...]]:
+        """What changes with the motion, times sines and cosines; plain ones first."""
+        functions = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
+        dynamic = dict.fromkeys(each for each, _ in self._dynamic(moving))
+        yield from ((*moves, *function) for function in functions for moves in dynamic)
+
+    def _is_rate(self, symbol: Sym) -> bool:
+        its = self.dimension(symbol)
+        return its is not None and its.mass == 0 and its.time == -1
 
     def moments(self, wanted: Known) -> Iterator[Node]:
         """k · (r × F) of known vectors that are of a dimension."""
@@ -97,6 +110,11 @@ class Vocabulary:
             yield (_square(a),) if a == b else (a, b), _joined([self.dimension(a), self.dimension(b)])
         for symbol in dict.fromkeys((*self.others, *moving)):
             yield (symbol,), self.dimension(symbol)
+            if self._is_rate(symbol):
+                yield (_square(symbol),), _joined([self.dimension(symbol)] * 2)
+        rates = [Sym(q.name, 1) for q in self.coordinates]
+        for a, b in ((a, b) for a, b in combinations(rates, 2) if self.dimension(a) == self.dimension(b)):
+            yield from (((_square(Add((a, c))),), _joined([self.dimension(a)] * 2)) for c in (b, Negative(b)))
         for q in self.coordinates:
             yield (Sym(q.name, 1),), self.dimension(Sym(q.name, 1))
 

@@ -1,0 +1,66 @@
+"""Numbers and products as a person writes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+
+from freebody.symbolic.tree import Mul, Negative, Node, Num, Quotient, Sym
+
+_SAME = 1e-8  # relative: below it a number is the one recognised
+_DENOMINATOR = 24
+_NUMERATOR = 60
+
+
+def recognised(value: float) -> Node | None:
+    """A number as a person writes it: p/q with q ≤ 12, or such a part of π; None where it is neither."""
+    for unit in (1.0, math.pi):
+        part = Fraction(abs(value) / unit).limit_denominator(_DENOMINATOR)
+        if not part or part.numerator > _NUMERATOR or abs(float(part) * unit / abs(value) - 1) >= _SAME:
+            continue
+        above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
+        pi = Num(math.pi, "pi")
+        top: Node = above if unit == 1.0 else pi if part.numerator == 1 else Mul((above, pi))
+        found = top if part.denominator == 1 else Quotient(top, below)
+        return Negative(found) if value < 0 else found
+    return None
+
+
+def multiplied(node: Node, value: float) -> Node | None:
+    """A term times a number; None where that is no number that a person writes."""
+    if isinstance(node, Negative):
+        return multiplied(node.of, -value)
+    match node:
+        case Mul((Num(own), *rest)) if recognised(own * value) is not None:
+            return multiplied(product(rest), own * value)
+        case Mul((Quotient(Num(above), Num(below)), *rest)) if recognised(above / below * value) is not None:
+            return multiplied(product(rest), above / below * value)
+    number = recognised(abs(value))
+    if number is None:
+        return None
+    if isinstance(number, Quotient) and number.top == Num(1.0):
+        found: Node = Quotient(node, number.bottom, span=node.span)
+    else:
+        found = (
+            node if number == Num(1.0) else Mul((number, *(node.factors if isinstance(node, Mul) else (node,))), span=node.span)
+        )
+    return Negative(found) if value < 0 else found
+
+
+def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None:
+    """A term times a number and powers of symbols; factors that it has itself are taken off first."""
+    own, below = list(node.factors) if isinstance(node, Mul) else [node], []
+    for symbol, power in powers.items():
+        own += [symbol] * power
+        for _ in range(-power):
+            if symbol in own:
+                own.remove(symbol)
+            else:
+                below.append(symbol)
+    return multiplied(Quotient(product(own), product(below)) if below else product(own), number)
+
+
+def product(factors: Sequence[Node]) -> Node:
+    """A product, of one factor or none, too."""
+    return Mul(tuple(factors)) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")

@@ -1,0 +1,97 @@
+"""Terms by their values: the product of a number, powers of symbols, and one of many shapes that is equal to what is wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
+
+import numpy as np
+
+from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.tree import Node, Num, Pow, Quotient
+
+from .coefficients import multiplied, product
+
+_MOST_SHAPES = 4000
+_SAME = 1e-7  # of a logarithm: below it two values are one
+_WHOLE = 1e-5  # off a whole number, below which a power is one
+_HIGHEST = 3
+_MOST_POWERS = 6
+_DEPENDENT = 1e-9  # of a column: what is left of it beside others, below which it says nothing new
+
+
+class Monomials:
+    """What can be made of ``bases``, those that count first in front, and ``shapes``, products of what changes with the motion and
+    of sines and cosines, at ``values``."""
+
+    def __init__(self, values: Mapping[str, Array], bases: Iterable[Node], shapes: Iterable[tuple[Node, ...]]) -> None:
+        self.values, count = values, len(next(iter(values.values())))
+        self.bases: list[Node] = []
+        columns, basis = [np.ones(count)], np.ones((count, 1)) / np.sqrt(count)
+        for node in bases:
+            with np.errstate(all="ignore"):
+                column = np.log(np.abs(sampled(node, values)))
+            if column.ndim != 1 or not np.isfinite(column).all() or len(columns) > count // 2:
+                continue
+            rest = column - basis @ (basis.T @ column)
+            if np.linalg.norm(rest) > _DEPENDENT * np.linalg.norm(column):
+                self.bases.append(node)
+                columns.append(column)
+                basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
+        self._columns = np.column_stack(columns)
+        self._shapes = [shape for _, shape in zip(range(_MOST_SHAPES), shapes, strict=False)]
+
+    def equal_to(self, wanted: Array) -> Iterator[Node]:
+        """Terms whose values are the ``wanted`` ones."""
+        if wanted.ndim != 1 or not np.isfinite(wanted).all() or not wanted.all():
+            return
+        solve, left, logs = self._solved
+        log = np.log(np.abs(wanted))
+        off = np.abs((left @ log)[:, None] - left @ logs).max(axis=0)
+        for place in np.flatnonzero(off < _SAME).tolist():
+            powers = (solve @ (log - logs[:, place]))[1:]
+            whole = np.round(powers).astype(int)
+            few = np.abs(whole).max(initial=0) <= _HIGHEST and np.abs(whole).sum() <= _MOST_POWERS
+            if few and np.abs(powers - whole).max(initial=0.0) < _WHOLE and (found := self._term(whole.tolist(), place, wanted)):
+                yield found
+
+    @cached_property
+    def _solved(self) -> tuple[Array, Array, Array]:
+        """What gives the powers of a logarithm, what is left of it, and the logarithms of the shapes."""
+        rows = np.array([self._value(shape) for shape in self._shapes])
+        good = np.isfinite(rows).all(axis=1) & rows.all(axis=1)
+        self._shapes = [shape for shape, ok in zip(self._shapes, good, strict=True) if ok]
+        solve = np.linalg.pinv(self._columns)
+        return solve, np.eye(len(self._columns)) - self._columns @ solve, np.log(np.abs(rows[good])).T
+
+    def _value(self, factors: tuple[Node, ...]) -> Array:
+        found = np.ones(len(self._columns))
+        for factor in factors:
+            found = found * self._known(factor)
+        return found
+
+    def _known(self, factor: Node) -> Array:
+        if factor not in self._factors:
+            found = sampled(factor, self.values)
+            self._factors[factor] = found if found.ndim == 1 else np.full(len(found), np.nan)
+        return self._factors[factor]
+
+    @cached_property
+    def _factors(self) -> dict[Node, Array]:
+        return {}
+
+    def _term(self, powers: list[int], place: int, wanted: Array) -> Node | None:
+        """The term of such powers; None where its number is none that a person writes."""
+        above = [
+            node if n == 1 else Pow(node, Num(float(n), str(n))) for node, n in zip(self.bases, powers, strict=True) if n > 0
+        ]
+        below = [
+            node if n == -1 else Pow(node, Num(float(-n), str(-n))) for node, n in zip(self.bases, powers, strict=True) if n < 0
+        ]
+        shape = self._shapes[place]
+        top = product([*above, *shape])
+        found = Quotient(top, product(below)) if below else top
+        ratio = wanted / sampled(found, self.values)
+        if np.ptp(ratio) > _SAME * np.abs(ratio).max():
+            return None  # of changing sign
+        return multiplied(found, float(np.median(ratio)))
