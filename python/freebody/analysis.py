@@ -32,14 +32,16 @@ class Analysis:
         initial: Mapping[str, Any] | None = None,
         t: float = 0.0,
         known_motion: bool = False,
+        about: Sequence[str] = (),
         **changes: Any,
     ) -> SmallestSet:
         """The fewest balance equations that give one unknown at an instant: the acceleration of a coordinate (``theta``), a
         component of a reaction (``A.Fx``), the force or torque of a motion (its name), or that of a force of the model (its
-        name). Accelerations are taken as known for the last, or where ``known_motion``; ``changes`` as in ``solve``."""
+        name). Accelerations are taken as known for the last, or where ``known_motion``. ``about`` are the points and directions to be
+        taken, ``["B", "B", "x"]``, one for each equation; ``changes`` as in ``solve``."""
         from freebody.equations.balances.smallest import smallest_set
 
-        return smallest_set(wanted, *self._near(initial, t, changes), known_motion)
+        return smallest_set(wanted, *self._near(initial, t, changes), known_motion, about)
 
     def minimal_form(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> MinimalForm:
         """As many balance equations as degrees of freedom, without reactions where such exist; ``changes`` as in ``solve``."""
@@ -52,6 +54,7 @@ class Analysis:
         form: str = "minimal",
         *,
         want: str | None = None,
+        about: Sequence[str] = (),
         at_rest: bool = False,
         fixed: Mapping[str, Any] | None = None,
         of: str | None = None,
@@ -63,7 +66,7 @@ class Analysis:
         """The symbolic equations of motion, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
         state, by default the start; ``changes`` as in ``solve``.
 
-        ``want`` gives the fewest equations for one unknown instead, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
+        ``want`` gives the fewest equations for one unknown instead, or those ``about`` some points, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
         coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``.
 
         ``of`` gives position, velocity and acceleration of a point (``rod.B``) instead, through the ``frame`` of a body, or by a chain
@@ -82,7 +85,7 @@ class Analysis:
             subject = SymbolicState(self.source(notes), state, at_rest)
             if state.t > t and (moved := chosen.keys() & set(subject.names)):
                 raise ValueError(f"{min(moved)} is fixed at the start, and moves until {state.t:g} s; leave it out")
-            return derive(subject.with_numbers(list(chosen)), form, want)
+            return derive(subject.with_numbers(list(chosen)), form, want, about)
 
     def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
         """Accelerations (``theta``) and reactions (``pivot.Fx``) symbolically near the start: the fewest balance equations, solved,

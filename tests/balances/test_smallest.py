@@ -1,78 +1,26 @@
 """The smallest set: never beaten by brute force, equal to the full solve, and what a textbook would choose."""
 
-from itertools import combinations
 from pathlib import Path
 
 import numpy as np
 import planar
 import pytest
+from by_brute_force import DRAWN as MODELS
+from by_brute_force import MOST, TARGETS, asked, fewest, states
+from store import every
 
 import freebody as fb
 from freebody.core import FreeBodies, Indeterminate
 from freebody.equations.balances.smallest import smallest_set, virtual_power
 from freebody.equations.balances.system import problem
 
-MODELS = {
-    "block on a slope": planar.block_on_slope,
-    "block with a rod": planar.car_on_slope,
-    "ladder": planar.ladder,
-    "double pendulum": lambda rng: planar.chain(rng, 2),
-    "chain of three": lambda rng: planar.chain(rng, 3),
-    "chain of five": lambda rng: planar.chain(rng, 5),
-    "driven chain of three": lambda rng: planar.driven_chain(rng, 3),
-    "driven chain of five": lambda rng: planar.driven_chain(rng, 5),
-    "four-bar": planar.four_bar,
-    "free four-bar": lambda rng: planar.four_bar(rng, driven=False),
-    "slider-crank": planar.slider_crank,
-    "free slider-crank": lambda rng: planar.slider_crank(rng, driven=False),
-    "branched": planar.branched,
-    "free branched": lambda rng: planar.branched(rng, driven=False),
-    "six-bar": planar.watt,
-}
+CONSTRUCTED = {"ladder ladder.angle", "19.3.9/model pivot.Fx", "19.3.10/model pivot.Fy", "S19.16/model pivot.Fx"}
+"""Targets for which a point or a direction has no name but how it is constructed."""
 SYSTEMS = Path(__file__).parents[2] / "systems"
 
 
-def states(make, seed=0, number=4):
-    return [FreeBodies.read(make(np.random.default_rng([seed, k])).data()) for k in range(number)]
-
-
-def connected(problem):
-    """All connected sets of bodies, by trying every set."""
-    touched = [{b for b, column in enumerate(columns) if np.abs(column).max() > 0} for columns in problem.systems[0].columns]
-    pairs = [bodies for unknown, bodies in zip(problem.unknowns, touched, strict=True) if unknown.load is not None]
-    for k in range(1, len(problem.bodies) + 1):
-        for group in combinations(range(len(problem.bodies)), k):
-            reached = {group[0]}
-            for _ in group:
-                reached |= {b for pair in pairs if pair & reached for b in pair if b in group}
-            if len(reached) == k:
-                yield group
-
-
-def null_space(rows):
-    _, sizes, turn = np.linalg.svd(rows)
-    return turn[(sizes > 1e-9).sum() :]
-
-
-def brute(problem, wanted, most):
-    """The least number of unknowns, ``wanted`` among them and no more than ``most``, that are held by as many equations of
-    rigid virtual motions of connected sets, whatever the motions; None if there are no so few."""
-    columns = problem.systems[1].columns
-    columns = columns / np.linalg.norm(columns, axis=(1, 2), keepdims=True)
-    sums = np.array([columns[:, list(group)].sum(axis=1) for group in connected(problem)])
-    others = [i for i in range(len(problem.unknowns)) if i != wanted]
-    for k in range(1, most + 1):
-        for more in combinations(others, k - 1):
-            kept = [wanted, *more]
-            rest = [i for i in others if i not in more]
-            rows = [motion @ group[kept].T for group in sums for motion in null_space(group[rest].reshape(-1, 3))]
-            if rows and np.linalg.matrix_rank(np.array(rows), tol=1e-7) == k:
-                return k
-    return None
-
-
 @pytest.mark.parametrize("name", MODELS)
-def test_brute_force_over_all_motions_of_all_sets_never_beats_the_search(name):
+def test_brute_force_over_sets_points_and_directions_never_beats_the_search(name):
     given = states(MODELS[name])
     free = problem(given)
     chosen = range(len(free.unknowns)) if len(free.bodies) < 4 else range(0, len(free.unknowns), 4)
@@ -80,7 +28,45 @@ def test_brute_force_over_all_motions_of_all_sets_never_beats_the_search(name):
         unknown = free.unknowns[i]
         found = smallest_set(unknown.name, given)
         number = len(found.equations)
-        assert brute(problem(given, unknown.coordinate), i, number - 1 if number else 3) is None, unknown.name
+        assert fewest(problem(given, unknown.coordinate), i, number - 1 if number else MOST) is None, unknown.name
+
+
+@every(TARGETS, "target")
+def test_no_set_of_sixty_targets_is_beaten(target):
+    """Nor is one larger than the fewest equations that there are."""
+    given, points, wanted = asked(target)
+    found = smallest_set(wanted, given, points)
+    assert found.check < 1e-9
+    own = problem(given, wanted)
+    assert fewest(own, own.place(wanted), len(found.equations), points) == len(found.equations)
+
+
+@pytest.mark.long
+def test_points_and_directions_have_names_where_a_person_has_them():
+    """A point is constructed, where two lines of action meet, only where that saves an equation."""
+    sets = [smallest_set(wanted, given, points) for given, points, wanted in map(asked, TARGETS)]
+    named = [not any(equation.constructed for equation in each.equations) for each in sets]
+    assert np.mean(named) >= 0.9
+
+
+@every([target for target in TARGETS if target not in CONSTRUCTED], "target")
+def test_the_points_of_a_set_asked_for_by_their_names_give_it_again(target):
+    given, points, wanted = asked(target)
+    found = smallest_set(wanted, given, points)
+    names = [equation.about if equation.kind == "AMB" else f"along {equation.about}" for equation in found.equations]
+    again = smallest_set(wanted, given, points, about=names)
+    assert len(again.equations) == len(found.equations) and again.check < 1e-9
+    assert again.value == pytest.approx(found.value, rel=1e-9, abs=1e-9)
+
+
+def test_an_instructor_may_choose_the_points():
+    given, points, wanted = asked("GEN-FOURBAR/model drive")
+    bodies = {equation.about: equation.bodies for equation in smallest_set(wanted, given, points, about="BDA").equations}
+    assert bodies == {"B": ("bc",), "D": ("dc",), "A": ("ab", "bc")}
+    with pytest.raises(ValueError, match=r"no bodies have balances about A, A, A that give drive\.force"):
+        smallest_set(wanted, given, points, about="AAA")
+    with pytest.raises(ValueError, match=r"'Q' is no point or direction; there are A, B,.* along x"):
+        smallest_set(wanted, given, points, about=["Q"])
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -52,6 +52,9 @@ def equations(
             "--for", metavar="WANTED", help="The fewest equations for this: theta, A.Fx …; with --form solved repeatable."
         ),
     ] = None,
+    about: Annotated[
+        str | None, typer.Option(metavar="POINTS", help="With --for: the points and directions to take, one an equation: B,B,x.")
+    ] = None,
     at_rest: Annotated[bool, typer.Option("--at-rest", help="All rates are 0.")] = False,
     at: Annotated[str | None, typer.Option(metavar="TIME", help="As at a time of the motion.")] = None,
     before: Before = None,
@@ -85,14 +88,17 @@ def equations(
     wanted = [name.strip() for each in want or () for name in each.split(",")]
     if form != SOLVED and len(wanted) > 1:
         raise UserError("several unknowns are wanted", "ask for one, or take --form solved")
+    if about and (form == SOLVED or not wanted):
+        raise UserError("--about is for --for", "give what is wanted: --for T --about B,B,x")
     mechanism, substituted, when = opened(model), pairs(fixed), moment([at] if at else None, before, after)
     try:
         if form == SOLVED:
             more = {"at_rest": at_rest, "set": substituted, "limits": pairs(limits)}
             found: Document = mechanism.solve_in_letters(wanted or None, **more, **when)
         else:
-            through = {"of": of, "frame": frame} if of or frame else {}
-            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, through)
+            more: dict[str, Any] = {"of": of, "frame": frame} if of or frame else {}
+            more |= {"about": [name.strip() for name in about.split(",")]} if about else {}
+            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, more)
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
@@ -119,14 +125,14 @@ def derived(
     at_rest: bool,
     fixed: dict[str, str],
     when: dict[str, str],
-    through: dict[str, str | None],
+    more: dict[str, Any],
 ) -> Document:
     """The equations in a form, or the document of a topic."""
     from freebody.equations.derivation.derive import FORMS
     from freebody.equations.topics import TOPICS, described, topic
 
     if form in TOPICS:
-        if want or at_rest or through:
+        if want or at_rest or more:
             raise UserError(
                 f"--for, --at-rest, --of and --frame are not for --form {form}",
                 f"by --set it takes {described(form)[1] or 'no options'}",
@@ -134,4 +140,4 @@ def derived(
         return topic(mechanism, form, mechanism.moment(**when)[0], **fixed)
     if form not in FORMS:
         raise UserError(f"there is no form {form!r}", f"there are {', '.join((*FORMS, SOLVED, *TOPICS))}")
-    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed, **through, **when)
+    return mechanism.equations(form, want=want, at_rest=at_rest, fixed=fixed, **more, **when)

@@ -66,17 +66,15 @@ class Search:
         raise refusal
 
     def _tries(self, wanted: Sym) -> Iterator[list[Stated]]:
-        """The smallest set; that of points and directions that have symbols; all balances of the coordinates, and more."""
-        for symbolically in (False, True):
-            least = smallest_set(wanted.name, self.states, self.subject.points, symbolically=symbolically)
-            if least.equations and (stated := from_search(self.subject, list(least.equations))):
-                yield stated
+        """The smallest set; all balances of the coordinates, and more."""
+        if least := smallest_set(wanted.name, self.states, self.subject.points).equations:
+            yield from_search(self.subject, least)
         stated = of_coordinates(self.subject)
         if wanted.dots or any(wanted in s.balance.linear.coefficients for s in stated):
             yield stated
         else:
-            more = smallest_set(wanted.name, self.states, self.subject.points, known_motion=True, symbolically=True).equations
-            yield stated + (from_search(self.subject, list(more)) or [])
+            more = smallest_set(wanted.name, self.states, self.subject.points, known_motion=True).equations
+            yield stated + from_search(self.subject, more)
 
     def _closed(self, stated: Sequence[Stated], wanted: Sym, known: Mapping[Sym, Tree], titles: Collection[str]) -> SufficientSet:
         """With the rows that it takes, and without what it does not take."""

@@ -39,36 +39,24 @@ class Candidate:
     right: float
 
     def order(self, accelerations: int) -> tuple[int, ...]:
-        """Where it stands among its like: no point of inertia to construct (``accelerations`` as bits), fewer bodies, no point
-        to construct at all, fewer accelerations, plainer."""
-        pair = self.twist.pair or ()
-        inertial = any(accelerations >> i & 1 for i in pair)
-        return inertial, len(self.group), bool(pair), (self.support & accelerations).bit_count(), self.twist.rank
+        """Where it stands among its like: no point to construct, fewer bodies, fewer accelerations (as bits), plainer."""
+        return bool(self.twist.pair), len(self.group), (self.support & accelerations).bit_count(), self.twist.rank
 
 
 Supports = Mapping[int, Sequence[Candidate]]
 
 
-def candidates(
-    problem: Problem, points: NamedPoints, counted: int, symbolically: bool = False
-) -> tuple[dict[int, list[Candidate]], bool]:
+def candidates(problem: Problem, points: NamedPoints, counted: int) -> tuple[dict[int, list[Candidate]], bool]:
     """All equations with at most ``WORTH`` of the unknowns ``counted`` (bits) by what is unknown in them; of those with the same
-    unknowns the plainest that are independent; and whether every connected set of bodies was tried. ``symbolically``: only
-    those that the core can give symbolically."""
+    unknowns the plainest that are independent; and whether every connected set of bodies was tried."""
     sets, exact = groups(problem)
     named = named_motions(problem, points)
     accelerations = bits(i for i, unknown in enumerate(problem.unknowns) if unknown.coordinate)
-    found = [candidate for group in sets for candidate in _of_group(problem, group, named, counted)]
-    found = [candidate for candidate in found if not symbolically or is_symbolic(problem, candidate.twist)]
+    found = [candidate for group in sets for candidate in of_group(problem, group, named, counted)]
     by_support: dict[int, list[Candidate]] = {}
     for candidate in sorted(found, key=lambda candidate: candidate.order(accelerations)):
         by_support.setdefault(candidate.support, []).append(candidate)
     return {support: plainest(alike, accelerations) for support, alike in by_support.items()}, exact
-
-
-def is_symbolic(problem: Problem, twist: VirtualMotion) -> bool:
-    """Whether the core can tell a point or direction symbolically: not one of inertia."""
-    return twist.question is not None if twist.pair is None else None not in [problem.unknowns[i].load for i in twist.pair]
 
 
 def bits(places: Iterable[int]) -> int:
@@ -84,14 +72,16 @@ def plainest(equations: Sequence[Candidate], accelerations: int) -> list[Candida
     return [ordered[i] for i in independent(rows / np.where(sizes > 0, sizes, 1.0))]
 
 
-def _of_group(problem: Problem, group: Group, named: Sequence[VirtualMotion], counted: int) -> list[Candidate]:
+def of_group(problem: Problem, group: Group, named: Sequence[VirtualMotion], counted: int) -> list[Candidate]:
+    """The equations of a set of bodies along ``named`` motions and those that its loads give."""
     members = list(group)
     columns = np.array([system.columns[:, members].sum(axis=1) for system in problem.systems])
     sizes = np.max([np.linalg.norm(system.columns, axis=2).max(axis=1) for system in problem.systems], axis=0)
     columns = np.where(np.linalg.norm(columns, axis=2, keepdims=True) > ABSENT * sizes[:, None], columns, 0.0)
     boundary = np.flatnonzero(np.abs(columns).max(axis=(0, 2)) > 0)
     shifts = clear_shifts(problem, columns, boundary)
-    tried = [*named, *pair_motions(columns, boundary), mass_centre(problem, group), *shifts]
+    loads = [i for i in boundary if problem.load(problem.unknowns[i])]
+    tried = [*named, *pair_motions(columns, loads), mass_centre(problem, group), *shifts]
     motions = np.array([each.motion for each in tried])
     work = np.einsum("csk,suk->csu", motions, columns)
     reach = np.linalg.norm(motions, axis=2)[:, :, None] * sizes
@@ -124,11 +114,11 @@ def best(by_support: Supports, sets: Iterator[int] | Sequence[int], size: int, a
     enough = (found for found in solved if len(found[0]) == size)
 
     def cost(found: tuple[list[Candidate], int]) -> tuple[float, ...]:
-        """Points of inertia, bodies, constructed points, condition number, accelerations, plainness."""
+        """Constructed points, bodies, condition number, accelerations, plainness."""
         orders = np.array([equation.order(accelerations) for equation in found[0]]).sum(axis=0)
         rows = np.array([equation.row for equation in found[0]])
         condition = np.linalg.cond(rows[:, np.abs(rows).max(axis=0) > 0])
-        return *map(float, orders[:3]), float(np.round(2 * np.log10(condition))), *map(float, orders[3:])
+        return *map(float, orders[:2]), float(np.round(2 * np.log10(condition))), *map(float, orders[2:])
 
     return min(enough, key=cost, default=([], 0))
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from freebody.core import Pair
-from freebody.equations.balances.candidates import Candidate, is_symbolic
+from freebody.equations.balances.candidates import Candidate
 from freebody.equations.balances.reasons import Dropped, Place, dropped, place_words
 from freebody.equations.balances.system import Problem
 from freebody.solve.figures import figure
@@ -31,7 +31,7 @@ class BalanceEquation:
     if it has no name in the model. Σ ``coefficients[x]`` x = ``right``, in N·m or N, where the loads stand as they act and
     the inertia that unknown accelerations call for is on their side, with a minus sign. ``dropped``: what is unknown and
     touches the bodies, but is not in the equation, each with the reason. ``question`` asks the core for the equation in
-    symbols (``CompiledModel.symbolic_answers``); None where the point has no symbols, being one of inertia.
+    symbols (``CompiledModel.symbolic_answers``).
     """
 
     kind: str
@@ -42,7 +42,7 @@ class BalanceEquation:
     coefficients: Mapping[str, float]
     right: float
     dropped: tuple[Dropped, ...]
-    question: Mapping[str, Any] | None
+    question: Mapping[str, Any]
 
     @property
     def unknowns(self) -> tuple[str, ...]:
@@ -87,11 +87,11 @@ def equation(problem: Problem, candidate: Candidate) -> BalanceEquation:
     bodies = tuple(problem.bodies[i] for i in candidate.group)
     stays = (i for i in range(len(problem.unknowns)) if candidate.support >> i & 1)
     coefficients = {problem.unknowns[i].name: float(candidate.coefficients[i] * factor) for i in stays}
-    question, loads = candidate.twist.question, [problem.unknowns[i].load for i in candidate.twist.pair or ()]
-    if loads and is_symbolic(problem, candidate.twist):
+    question, loads = candidate.twist.question or {}, [problem.unknowns[i].load for i in candidate.twist.pair or ()]
+    if loads:
         forces = [i for i in loads if np.hypot(*problem.free.loads[i].on[-1].force) > 0]
         question = {"about": {"meeting": loads}} if turns else {"along": {"clear": forces[0]}}
-    question = question and {"ask": "equation", "bodies": list(bodies), **question}
+    question = {"ask": "equation", "bodies": list(bodies), **question}
     gone, right = dropped(problem, candidate, place), float(candidate.right * factor)
     return BalanceEquation(place.kind, bodies, names, place.at, constructed, coefficients, right, gone, question)
 

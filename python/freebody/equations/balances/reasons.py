@@ -54,16 +54,10 @@ def place_words(problem: Problem, candidate: Candidate, turns: bool) -> tuple[st
     """The name of the point or direction of a candidate, and whether it had to be constructed."""
     if candidate.twist.pair is None:
         return candidate.twist.name, False
-    names = [problem.unknowns[i].name for i in candidate.twist.pair]
-    loads = [name for i, name in zip(candidate.twist.pair, names, strict=True) if problem.load(problem.unknowns[i])]
-    inertial = [name for name in names if name not in loads]
+    first, second = (problem.unknowns[i].name for i in candidate.twist.pair)
     if not turns:
-        return f"the direction in which neither {names[0]} nor {names[1]} has a part", True
-    if len(loads) == 2:
-        return f"the point where the lines of {loads[0]} and {loads[1]} meet", True
-    if loads:
-        return f"the point on the line of {loads[0]} about which {inertial[0]} makes no moment", True
-    return f"the point about which neither {names[0]} nor {names[1]} makes a moment", True
+        return f"the direction in which neither {first} nor {second} has a part", True
+    return f"the point where the lines of {first} and {second} meet", True
 
 
 def dropped(problem: Problem, candidate: Candidate, place: Place) -> tuple[Dropped, ...]:

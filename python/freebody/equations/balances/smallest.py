@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.core import FreeBodies, Indeterminate
+from freebody.equations.balances.asked_for import asked_for
 from freebody.equations.balances.candidates import bits, candidates, smallest
 from freebody.equations.balances.equation import BalanceEquation, disagreement, equation, solved
 from freebody.equations.balances.system import Problem, problem, released
@@ -89,23 +90,27 @@ def smallest_set(
     states: Sequence[FreeBodies],
     points: NamedPoints | None = None,
     known_motion: bool = False,
-    symbolically: bool = False,
+    about: Sequence[str] = (),
 ) -> SmallestSet:
     """The smallest set for ``wanted``: a coordinate (its acceleration), a component of a reaction (``A.Fx``), a motion (its
     force or torque); or a force of the model by its name, the one that makes the accelerations what they are
     (``known_motion`` then).
 
     ``states``: the instant, and others of the same mechanism near by, to tell what vanishes always from what vanishes there;
-    ``points``: further named points; ``symbolically``: only equations that have symbols. Raises ``KeyError`` for what is not unknown, ``Indeterminate``.
+    ``points``: further named points; ``about``: the points and directions that are to be taken, ``("B", "B", "A")``, one for each
+    equation. Raises ``KeyError`` for what is not unknown, ``Indeterminate``, ``ValueError`` where those do not give it.
     """
     if any(load.name == wanted and load.kind == "force" and not load.unknown for load in states[0].loads):
         states, known_motion = [released(state, wanted) for state in states], True
     given = problem(states, wanted.removeprefix("accel(").removesuffix(")"), known_motion)
     place = given.place(wanted)
     name = given.unknowns[place].name
-    by_support, exact = candidates(given, points or {}, counted=bits(range(len(given.unknowns))), symbolically=symbolically)
-    accelerations = bits(i for i, unknown in enumerate(given.unknowns) if unknown.coordinate)
-    found = smallest(by_support, 1 << place, accelerations)
+    if about:
+        found, exact = asked_for(given, points or {}, place, about), True
+    else:
+        by_support, exact = candidates(given, points or {}, counted=bits(range(len(given.unknowns))))
+        accelerations = bits(i for i, unknown in enumerate(given.unknowns) if unknown.coordinate)
+        found = smallest(by_support, 1 << place, accelerations)
     equations = tuple(equation(given, candidate) for candidate in found)
     virtual = None if found else virtual_power(given, place)
     values = {virtual.unknown: virtual.right} if virtual else solved(equations)

@@ -1,8 +1,9 @@
 """Rigid virtual motions of a group: a turn about a point is a moment balance about it, a shift a force balance along it.
 
 An unknown drops out of the balance if its load does no work in the motion. The motions worth trying are finite in number:
-turns about points that have a name, shifts along directions that have one, and for every two unknowns the motion in which
-neither does work, the turn about the point where their lines of action meet.
+turns about points that have a name, shifts along directions that have one, and for every two loads the motion in which
+neither does work, the turn about the point where their lines of action meet. A point about which an acceleration makes no
+moment, as the centre of percussion, is none that a person takes.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ NamedPoints = Mapping[str, tuple[str, float, float]]
 
 @dataclass(frozen=True)
 class VirtualMotion:
-    """A rigid motion by what makes it: a named point or direction, or two unknowns, by their places, that do no work in it.
+    """A rigid motion by what makes it: a named point or direction, or two unknown loads, by their places, that do no work in it.
 
     ``motion`` (ns, 3) is it at every state: velocity x, y of the origin of the problem, and turn × length. ``rank`` is 0 for the
     plainest; ``question`` is how the core is asked for the balance symbolically (``about`` or ``along``)."""
@@ -42,7 +43,7 @@ class VirtualMotion:
 def named_motions(problem: Problem, points: NamedPoints) -> list[VirtualMotion]:
     """Turns about joints, mass centres and named points; shifts along x, y and along or across what a joint holds."""
     found: list[VirtualMotion] = []
-    for turn in _named_turns(problem, points):
+    for turn in named_turns(problem, points):
         if not any(np.abs(other.motion - turn.motion).max() < SAME_PLACE for other in found):
             found.append(turn)
     for name, e in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
@@ -83,10 +84,10 @@ def known_shifts(problem: Problem) -> list[VirtualMotion]:
 
 
 def pair_motions(columns: Array, boundary: Sequence[int]) -> list[VirtualMotion]:
-    """For every two unknowns of a boundary the motion in which neither does work. ``columns`` (ns, nu, 3)."""
+    """For every two loads of a boundary, by their places among the unknowns, the motion in which neither does work. ``columns`` (ns, nu, 3)."""
     sizes = np.linalg.norm(columns, axis=2, keepdims=True)
     units = columns / np.where(sizes > 0, sizes, 1.0)
-    first, second = (np.asarray(boundary)[part] for part in np.triu_indices(len(boundary), 1))
+    first, second = (np.array(boundary, int)[part] for part in np.triu_indices(len(boundary), 1))
     motions = np.cross(units[:, first], units[:, second]).swapaxes(0, 1)
     size = np.linalg.norm(motions, axis=2, keepdims=True)
     meet = size.min(axis=(1, 2)) > ONE_LINE
@@ -110,7 +111,7 @@ def _across(directions: Array) -> Array:
     return np.column_stack([-directions[:, 1], directions[:, 0]])
 
 
-def _named_turns(problem: Problem, points: NamedPoints) -> list[VirtualMotion]:
+def named_turns(problem: Problem, points: NamedPoints) -> list[VirtualMotion]:
     """The turns about joints, mass centres and named points."""
     joints: dict[str, int] = {}
     for i, load in sorted(enumerate(problem.free.loads), key=lambda each: not each[1].axis):  # pins first

@@ -70,13 +70,14 @@ class Equations(Document):
         return matrix(self.mass_matrix), matrix([[x] for x in self.unknowns]), matrix([[b] for b in self.right_hand_side])
 
 
-def derive(subject: SymbolicState, form: str = "minimal", want: str | None = None) -> Equations:
-    """The equations of a subject in a form, or the fewest that give what is wanted (``want``).
+def derive(subject: SymbolicState, form: str = "minimal", want: str | None = None, about: Sequence[str] = ()) -> Equations:
+    """The equations of a subject in a form, or the fewest that give what is wanted (``want``), or those ``about`` some points.
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
     nomenclature, title = subject.nomenclature, _TITLES.get(form)
     if want is not None:
-        form, title, content = "wanted", f"the fewest for {want}", wanted(subject, want)
+        title = f"{want} about {', '.join(about)}" if about else f"the fewest for {want}"
+        form, content = "wanted", wanted(subject, want, about)
     elif form == "constraints":
         content, nomenclature = constrained(subject)
     elif form in FORMS:

@@ -53,11 +53,9 @@ def minimal(subject: SymbolicState) -> Form:
     return replace(form, blocks=tuple(made))
 
 
-def from_search(subject: SymbolicState, equations: Sequence[BalanceEquation]) -> list[Stated] | None:
-    """Equations that a search found, symbolically; None if one of them has no question."""
+def from_search(subject: SymbolicState, equations: Sequence[BalanceEquation]) -> list[Stated]:
+    """Equations that a search found, symbolically."""
     asked = [_questions(subject, equation) for equation in equations]
-    if [] in asked:
-        return None
     found = iter(subject.balances([question for questions in asked for question in questions]))
     stated = [[_stated(subject, next(found), e) for _ in questions] for questions, e in zip(asked, equations, strict=True)]
     return [min(each, key=lambda s: operations(s.balance.left) + operations(s.balance.right)) for each in stated]
@@ -66,13 +64,13 @@ def from_search(subject: SymbolicState, equations: Sequence[BalanceEquation]) ->
 def _questions(subject: SymbolicState, equation: BalanceEquation) -> list[Mapping[str, Any]]:
     """The question for an equation, and others for the same: where a loop is closed a point of either body is the place of its load."""
     question, loads = equation.question, subject.free.loads
-    place = question and question.get("about")
+    place = question.get("about")
     if (
         not isinstance(place, Mapping)
         or "load" not in place
         or all(row.name != loads[place["load"]].name for row in subject.rows)
     ):
-        return [question] if question else []
+        return [question]
     within = [(name, point) for name, point in subject.points.items() if point[0] in equation.bodies]
     states = [(free, free.loads[place["load"]].on[-1].point) for free in subject.neighbours]
     there = [name for name, point in within if all(is_at(free, point, at) for free, at in states)]

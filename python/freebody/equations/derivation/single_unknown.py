@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, listed
-from freebody.equations.balances.smallest import COUNT, SmallestSet, smallest_set
+from freebody.equations.balances.smallest import COUNT, VirtualPower, smallest_set
 from freebody.equations.derivation import loop_closure
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
@@ -15,18 +15,19 @@ from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.tree import Sym
 
 
-def wanted(subject: SymbolicState, name: str) -> Form:
-    """The smallest set for a coordinate's acceleration, a component of a reaction, or a motion's force or torque.
+def wanted(subject: SymbolicState, name: str, about: Sequence[str] = ()) -> Form:
+    """The smallest set for a coordinate's acceleration, a component of a reaction, or a motion's force or torque; or that ``about``
+    some points and directions.
 
     Raises ``KeyError`` for what is not unknown, ``Indeterminate``."""
-    found = smallest_set(name, subject.neighbours, subject.points)
+    found = smallest_set(name, subject.neighbours, subject.points, about=about)
     rows = [([_symbol(each)], figure(value)) for each, value in found.values.items()]
     agrees = f"They agree with the solution of the complete system to a relative {found.check:.0e}."
     exact = "" if found.exact else " Not every set of bodies was tried: there are too many."
     numbers = [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(agrees + exact)]
-    stated = from_search(subject, found.equations) if found.equations else None
-    if stated is None:
-        return replace(Form.of(subject.nomenclature, []), blocks=(*_numeric(found), *numbers))
+    if found.virtual:
+        return replace(Form.of(subject.nomenclature, []), blocks=(*_virtual(found.virtual), *numbers))
+    stated = from_search(subject, found.equations)
     printed = [s.printed for s in stated]
     free = [x.name for x in map(_symbol, found.values) if x.dots]
     moving = {x.name for equation in printed for x in equation.linear.coefficients if x.dots}
@@ -35,8 +36,8 @@ def wanted(subject: SymbolicState, name: str) -> Form:
     number, names = len(found.equations), listed(map(_symbol, found.values), " and ")
     said = ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
     if number > 1:
-        smaller = " and no other unknown; no smaller set determines "
-        said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, smaller, _symbol(found.wanted), "."]
+        smaller = [] if about else ["; no smaller set determines ", _symbol(found.wanted)]
+        said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, " and no other unknown", *smaller, "."]
     made: list[Block] = [Heading("Balance equations"), Paragraph(said)]
     for s in stated:
         made += s.blocks(subject)
@@ -59,17 +60,13 @@ def _symbol(name: str) -> Sym:
     return Sym(name[6:-1], 2) if name.startswith("accel(") else Sym(name)
 
 
-def _numeric(found: SmallestSet) -> list[Block]:
-    """A set that has no symbols, as numbers."""
-    if not found.virtual:
-        lines = [line.strip() for line in str(found).splitlines() if line.strip()]
-        said = "The points of this set have no symbols; in numbers it is:"
-        return [Heading("Balance equations"), Paragraph(said), Bullets(lines)]
-    symbol = _symbol(found.wanted)
+def _virtual(found: VirtualPower) -> list[Block]:
+    """The one equation of virtual power, in numbers."""
+    symbol = _symbol(found.unknown)
     name = f"the acceleration of {symbol.name}" if symbol.dots else symbol.name
     said = f"{name} takes more than four balance equations. One of virtual power gives it: move the bodies so that "
     moves = [
         f"{body}: its mass centre moves with ({figure(x)}, {figure(y)}), it turns with {figure(turn)}"
-        for body, (x, y, turn) in found.virtual.motion.items()
+        for body, (x, y, turn) in found.motion.items()
     ]
-    return [Heading("Virtual power"), Paragraph(f"{said}of all unknowns only {found.virtual.unknown} does work."), Bullets(moves)]
+    return [Heading("Virtual power"), Paragraph(f"{said}of all unknowns only {found.unknown} does work."), Bullets(moves)]

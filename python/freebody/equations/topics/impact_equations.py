@@ -177,10 +177,9 @@ class Impact:
     def conserved(self) -> list[tuple[str, Balance]]:
         """Balances without any impulse, with their titles, as many as stay after what holds; empty where there are none."""
         found = minimal_form([self.subject.free], self.subject.points).equations
-        asked = [equation.question for equation in found]
-        if not asked or None in asked:
+        if not found:
             return []
-        balances = self.subject.balances([question for question in asked if question])
+        balances = self.subject.balances([equation.question for equation in found])
         values = self.values | dict.fromkeys(self.impulses, 1.0)  # in numbers: symbols may not see what touches
         grow = [self.subject.impact.grows(load) for load in self.subject.free.loads]
         parts = [c.tree for balance in balances for c in balance.contributions if not c.internal and grow[c.load]]
