@@ -1,13 +1,17 @@
 """Writes the tables of docs/*.md that come from the cards of the core and from the lists of topics, output formats
-and languages: `.venv/bin/python docs/tables.py`.
+and languages, and those of derivations: `.venv/bin/python docs/tables.py`.
 
 A table stands between `<!-- joints -->` and `<!-- /joints -->`; the word says which.
 """
 
+import json
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from ruamel.yaml import YAML
+
+from freebody import Mechanism
 from freebody.codegen.languages import LANGUAGES
 from freebody.core import cards
 from freebody.document.rendering import FORMATS
@@ -84,6 +88,27 @@ def methods() -> str:
     return _table(("method", "order", "step", "only", "source"), rows)
 
 
+def pages() -> str:
+    """Of every derivation of ``derivations.yaml`` the balances of a book and of freebody, and how long the page is."""
+    rows = []
+    for each in YAML(typ="safe").load((DOCS / "derivations.yaml").read_text(encoding="utf-8")):
+        mechanism = described_in(DOCS.parent / each["model"])
+        found = mechanism.equations()
+        own = [part.title for part in found.parts if part.title.startswith(("AMB", "LMB"))]
+        takes = "the same" if set(own) == set(each["takes"]) else f"{'; '.join(own)}: {each['why']}"
+        lines = sum(1 for line in found.text(width=100).splitlines() if line)
+        rows.append((mechanism.source().name, each["book"], "; ".join(each["takes"]) or "–", takes, str(lines)))
+    return _table(("problem", "book", "it takes", "freebody takes", "lines"), rows)
+
+
+def described_in(path: Path) -> Mechanism:
+    """The mechanism of a model's file, or of one with statements about it."""
+    given = YAML(typ="safe").load(path.read_text(encoding="utf-8"))
+    if "model" not in given:
+        return Mechanism.load(path)
+    return Mechanism.loads(json.dumps({"freebody": 1, "name": path.stem.replace("_", " "), **given["model"]}))
+
+
 def _word(card: cards.Card) -> str:
     return f"`{card.type}`: {card.doc[0].lower()}{card.doc[1:].rstrip('.')}"
 
@@ -107,7 +132,7 @@ def _table(heads: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> str:
     return "".join([made[0], "|---" * len(heads) + "|\n", *made[1:]])
 
 
-_MADE = (joints, forces, functions, readings, methods, topics, formats, languages)
+_MADE = (joints, forces, functions, readings, methods, topics, formats, languages, pages)
 TABLES: dict[str, Callable[[], str]] = {made.__name__: made for made in _MADE}
 
 

@@ -76,9 +76,9 @@ def subject(model: str) -> SymbolicState:
 
 
 @cache
-def derived(model: str, form: str):
-    """Its equations in a form."""
-    return derive(subject(model), form)
+def derived(model: str, form: str, long: bool = False):
+    """Its equations in a form, as a page or at length."""
+    return derive(subject(model), form, long=long)
 
 
 @cache

@@ -59,15 +59,17 @@ class Analysis:
         fixed: Mapping[str, Any] | None = None,
         of: str | None = None,
         frame: Sequence[str] | str | None = None,
+        long: bool = False,
         initial: Mapping[str, Any] | None = None,
         t: float = 0.0,
         **changes: Any,
     ) -> Equations | PointMotion:
-        """The symbolic equations of motion, derived: ``form`` is ``minimal``, ``brute`` or ``constraints``. Contacts are as at a
-        state, by default the start; ``changes`` as in ``solve``.
+        """The symbolic equations of motion, derived: ``form`` is ``minimal``, ``brute``, ``constraints`` or ``first-order``. Contacts
+        are as at a state, by default the start; ``changes`` as in ``solve``.
 
-        ``want`` gives the fewest equations for one unknown instead, or those ``about`` some points, as in ``smallest``. With ``at_rest`` all rates are 0; ``fixed``
-        coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``.
+        ``want`` gives the fewest equations for one unknown instead, or those ``about`` some points, as in ``smallest``. With
+        ``at_rest`` all rates are 0; ``fixed`` coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``. What is
+        printed is a page, or, ``long``, also positions and velocities, every load by itself, matrices, and what is conserved.
 
         ``of`` gives position, velocity and acceleration of a point (``rod.B``) instead, through the ``frame`` of a body, or by a chain
         of bodies, each seen from the one before; by default the chain that leads to it. Every term has its name, and its value."""
@@ -85,7 +87,7 @@ class Analysis:
             subject = SymbolicState(self.source(notes), state, at_rest)
             if state.t > t and (moved := chosen.keys() & set(subject.names)):
                 raise ValueError(f"{min(moved)} is fixed at the start, and moves until {state.t:g} s; leave it out")
-            return derive(subject.with_numbers(list(chosen)), form, want, about)
+            return derive(subject.with_numbers(list(chosen)), form, want, about, long)
 
     def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
         """Accelerations (``theta``) and reactions (``pivot.Fx``) symbolically near the start: the fewest balance equations, solved,

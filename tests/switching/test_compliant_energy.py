@@ -42,12 +42,12 @@ def test_a_spring_keeps_the_energy_and_a_damper_beside_it_takes_some(part: str):
 def test_equations_and_conservation_know_the_energy_of_what_is_pressed(part: str):
     """The equations of Lagrange are held against the balances by the derivation itself."""
     pressed = ball(part, "-0.05")
-    said = str(pressed.equations())
+    said = str(pressed.equations(long=True))
     assert "conserved: all forces have potentials" in said and "½" in said and "k" in said.split("E_p")[1].split("\n")[0]
     assert pressed.check("constant: energy()").kind == "true"
     assert "The same as the balance equations" in topic(pressed, "lagrange").text()
     damped = ball(part, "-0.05", damped=True)
-    assert "not conserved: floor does work that has no potential" in str(damped.equations())
+    assert "not conserved: floor does work that has no potential" in str(damped.equations(long=True))
     assert "The same as the balance equations" in topic(damped, "lagrange").text()
 
 

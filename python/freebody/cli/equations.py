@@ -42,7 +42,7 @@ def equations(
         str,
         typer.Option(
             metavar="FORM",
-            help="minimal: free of reactions; brute: three balances a body; constraints; solved symbolically; or a topic, see --forms.",
+            help="minimal: free of reactions; brute: three balances a body; constraints; first-order; solved; or a topic, see --forms.",
         ),
     ] = "minimal",
     forms: Annotated[bool, typer.Option("--forms", help="List all forms and topics.", is_eager=True, callback=listed)] = False,
@@ -55,6 +55,9 @@ def equations(
     about: Annotated[
         str | None, typer.Option(metavar="POINTS", help="With --for: the points and directions to take, one an equation: B,B,x.")
     ] = None,
+    long: Annotated[
+        bool, typer.Option("--long", help="All that there is to say: every load by itself, matrices, what is conserved.")
+    ] = False,
     at_rest: Annotated[bool, typer.Option("--at-rest", help="All rates are 0.")] = False,
     at: Annotated[str | None, typer.Option(metavar="TIME", help="As at a time of the motion.")] = None,
     before: Before = None,
@@ -96,9 +99,10 @@ def equations(
             more = {"at_rest": at_rest, "set": substituted, "limits": pairs(limits)}
             found: Document = mechanism.solve_in_letters(wanted or None, **more, **when)
         else:
-            more: dict[str, Any] = {"of": of, "frame": frame} if of or frame else {}
-            more |= {"about": [name.strip() for name in about.split(",")]} if about else {}
-            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, more)
+            asked_for: dict[str, Any] = {"of": of, "frame": frame} if of or frame else {}
+            asked_for |= {"about": [name.strip() for name in about.split(",")]} if about else {}
+            asked_for |= {"long": True} if long else {}
+            found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, asked_for)
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
@@ -132,7 +136,7 @@ def derived(
     from freebody.equations.topics import TOPICS, described, topic
 
     if form in TOPICS:
-        if want or at_rest or more:
+        if want or at_rest or more.keys() - {"long"}:
             raise UserError(
                 f"--for, --at-rest, --of and --frame are not for --form {form}",
                 f"by --set it takes {described(form)[1] or 'no options'}",

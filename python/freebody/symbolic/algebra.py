@@ -12,7 +12,26 @@ from typing import Any
 import numpy as np
 
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.tree import ONE, PI, Add, Fn, Mul, Num, Pow, Sym, Tree, add, is_zero, mul, number, power, rebuilt, symbols
+from freebody.symbolic.tree import (
+    ONE,
+    PI,
+    Add,
+    Fn,
+    Mul,
+    Num,
+    Pow,
+    Sym,
+    Tree,
+    add,
+    is_negative,
+    is_zero,
+    mul,
+    negative,
+    number,
+    power,
+    rebuilt,
+    symbols,
+)
 
 Powers = dict[Tree, Fraction]
 Term = tuple[Fraction | float, Powers]
@@ -32,6 +51,49 @@ def factored(tree: Tree) -> Tree:
     rest = [(_whole(c / size), {f: e - common.get(f, 0) for f, e in p.items() if e != common.get(f, 0)}) for c, p in terms]
     inner = _square(rest) or add(*map(_joined, rest))
     return mul(number(size), *(power(f, e) for f, e in common.items()), inner)
+
+
+def spread(tree: Tree) -> Tree:
+    """A sum of products without brackets, like terms together."""
+    terms: dict[frozenset[tuple[Tree, Fraction]], Fraction | float] = {}
+    for term in _products(tree):
+        size, powers = _split(term)
+        same = frozenset(powers.items())
+        terms[same] = terms.get(same, Fraction(0)) + size
+    return add(*(_joined((size, dict(powers))) for powers, size in terms.items() if size))
+
+
+def _products(tree: Tree) -> list[Tree]:
+    if isinstance(tree, Add):
+        return [product for term in tree.terms for product in _products(term)]
+    if isinstance(tree, Mul):
+        return [mul(*factors) for factors in itertools.product(*map(_products, tree.factors))]
+    return [tree]
+
+
+def less(tree: Tree, part: Tree) -> Tree:
+    """tree − part, where a term like the part becomes smaller, with the brackets that the tree has; else multiplied out."""
+    if isinstance(tree, Add):
+        place = next((i for i, term in enumerate(tree.terms) if _split(term)[1] == _split(part)[1]), None)
+        if place is not None:
+            own = spread(add(tree.terms[place], negative(part)))
+            return add(*(own if i == place else term for i, term in enumerate(tree.terms)))
+    elif isinstance(tree, Mul) and any(isinstance(f, Add) for f in tree.factors):
+        inner = next(f for f in tree.factors if isinstance(f, Add))
+        others = [f for f in tree.factors if f is not inner]
+        below = less(inner, quotient(part, mul(*others)))
+        return mul(*others, below)
+    return spread(add(tree, negative(part)))
+
+
+def opposite(tree: Tree) -> Tree:
+    """−tree, without a minus sign in front where a difference takes it: of P (r − R) it is P (R − r)."""
+    made = negative(tree)
+    factors = made.factors if isinstance(made, Mul) and is_negative(made) else ()
+    difference = next((f for f in factors if isinstance(f, Add) and any(map(is_negative, f.terms))), None)
+    if difference is None:
+        return made
+    return negative(mul(*(negative(f) if f is difference else f for f in factors)))
 
 
 def common_number(trees: Sequence[Tree]) -> Tree:

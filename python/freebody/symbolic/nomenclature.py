@@ -58,8 +58,9 @@ class Nomenclature(dict[str, SymbolEntry]):
         return [x.name for x in self.values() if x.kind == "coordinate" or (x.kind == "parameter" and not is_heavy(x.unit))]
 
     def rank(self, symbol: Sym) -> tuple[int, int]:
-        """Where a symbol stands among the parameters of a product: pure numbers, masses and forces, then g, then lengths."""
-        weight = _weight(self[symbol.name].unit) if symbol.name in self else _OTHER
+        """Where a symbol stands among the parameters of a product: pure numbers, masses and loads, then g, then lengths."""
+        entry = self.get(symbol.name)
+        weight = _OTHER if entry is None else _HEAVY if entry.kind == "unknown" else _weight(entry.unit)
         return weight, self.place(symbol.name)
 
     def place(self, name: str) -> int:

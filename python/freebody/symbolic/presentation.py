@@ -62,7 +62,7 @@ def presented(
 
 
 def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
-    """A sum that is linear in some symbols, with one factor for each of them; as it is if it is not linear."""
+    """A sum that is linear in some symbols, with one factor for each of them and one for the rest; as it is if it is not linear."""
     terms = tree.terms if isinstance(tree, Add) else ()
     factors = [factor for term in terms for factor in (term.factors if isinstance(term, Mul) else (term,))]
     if not terms or any(symbols(factor) & {*unknowns} for factor in factors if not isinstance(factor, Sym)):
@@ -72,7 +72,7 @@ def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     except ValueError:
         return tree
     held = ((found.coefficients[x], x) for x in unknowns if x in found.coefficients)
-    return add(*(mul(factored(factor), x) for factor, x in held), found.rest)
+    return add(*(mul(factored(factor), x) for factor, x in held), factored(found.rest))
 
 
 def _by_loads(expression: Any, nomenclature: Nomenclature, patience: float) -> Tree:

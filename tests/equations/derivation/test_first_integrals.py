@@ -44,7 +44,7 @@ def test_none_where_the_motion_is_uneven_or_damped_or_time_is_in_gravity(changed
 
 def test_they_stand_in_the_derivation():
     fallen = fb.Mechanism.load("python/freebody/systems/19.3.20/free_fall.yaml")
-    text = " ".join(fallen.equations().text().split())
+    text = " ".join(fallen.equations(long=True).text().split())
     assert "momentum of y, less what its force gives it is conserved" in text
     assert "The energy of the motion relative to y is conserved: neither time nor y is in the equations of θ." in text
 

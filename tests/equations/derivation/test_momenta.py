@@ -133,5 +133,5 @@ def test_a_central_force_keeps_the_moment_of_momentum_about_its_centre_until_the
 
 
 def test_every_reason_is_said_in_the_symbols_of_the_equations():
-    said = fb.Mechanism.loads(SLOPE).equations().text()
+    said = fb.Mechanism.loads(SLOPE).equations(long=True).text()
     assert "rail.Fn" not in said and "N_rail" in said

@@ -105,7 +105,7 @@ def test_degrees_of_freedom_are_the_accelerations_that_what_is_closed_leaves(mod
 
 
 def test_a_ladder_that_stands_has_no_freedom_and_its_foot_none_for_the_positions(written):
-    text = " ".join(written(LADDER)[0].equations().text().split())
+    text = " ".join(written(LADDER)[0].equations(long=True).text().split())
     assert "While foot holds and does not slide and top holds, the mechanism has no degrees of freedom." in text
     assert "These are 3 equations among the coordinates. Of these sticking has none for the positions." in text
 
@@ -142,7 +142,7 @@ def test_what_slides_has_a_balance_for_its_normal_force(written):
 
 
 def test_a_bearing_that_rubs_has_a_couple_and_loses_energy(written):
-    text = written(BEARING)[0].equations().text()
+    text = written(BEARING)[0].equations(long=True).text()
     assert "M_pin = −μ r" in text and "Their sum is not conserved: pin has friction." in text
 
 
@@ -164,7 +164,7 @@ def test_reasons_agree_in_number():
 def test_a_bearing_that_rubs_has_a_balance_for_every_force_of_its_law(written):
     """As many equations and laws as unknowns, and all hold."""
     mechanism, at = written(BEARING)
-    found = mechanism.equations()
+    found = mechanism.equations(long=True)
     assert len(found.parts) + len(at.laws) == len(found.unknowns) == 4
     values = numbers(at)
     for tree in [*found.equations, *(minus(left, right) for left, right in at.laws)]:

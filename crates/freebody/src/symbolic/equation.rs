@@ -266,7 +266,11 @@ fn on_line(part: Part<Symbol>) -> VirtualMotion {
 
 /// A turn about the place where two lines meet: neither load has power in it.
 fn meeting(a: Wrench<Symbol>, b: Wrench<Symbol>) -> VirtualMotion {
-    VirtualMotion::Moment { about: a.f * b.m - b.f * a.m, scale: a.f.cross(b.f) }
+    let (about, scale) = (a.f * b.m - b.f * a.m, a.f.cross(b.f));
+    if scale == -Symbol::one() {
+        return VirtualMotion::about(-about); // at right angles, as of a floor and a wall
+    }
+    VirtualMotion::Moment { about, scale }
 }
 
 fn unknown<'n>(what: &str, name: &str, known: impl Iterator<Item = &'n String>) -> DynamicsError {

@@ -44,7 +44,8 @@ _SAME = {
     **{"∗": "*", "⨯": "×", "∧": "×", "÷": "/", "⁄": "/", "≤": "<=", "≥": ">=", "√": "sqrt", "|": "|", "≔": "="},
     **dict.fromkeys("≈≃≅", "="),
 }
-_FRACTIONS = {"½": "(1/2)", "¼": "(1/4)", "¾": "(3/4)", "⅓": "(1/3)", "⅔": "(2/3)", "⅛": "(1/8)"}
+_FRACTION = re.compile("[½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞]|[⁰¹²³⁴-⁹]+⁄[₀-₉]+")
+"""A number in small figures."""
 _COMMANDS = {
     **{"cdot": "·", "times": "×", "wedge": "×", "ast": "*"},
     **dict.fromkeys(("approx", "simeq", "cong", "equiv"), "="),
@@ -115,6 +116,10 @@ class _Reader:
             # A number at once behind a letter is the index of the letter; the tokens decide.
             self.at = number.end()
             return [Glyph(Kind.DIGIT, number[0], (start, self.at))]
+        if fraction := _FRACTION.match(self.text, start):
+            self.at = fraction.end()
+            plainly = unicodedata.normalize("NFKC", fraction[0]).replace("⁄", "/")
+            return [Glyph(Kind.SIGN, f"({plainly})", (start, self.at))]
         self.at += 1
         while self.at < len(self.text) and unicodedata.combining(self.text[self.at]):
             self.at += 1
@@ -204,8 +209,6 @@ def _plain_glyph(char: str, span: Span) -> Glyph:
         return Glyph(Kind.LINE, "\n", span)
     if char.isspace() or char in "~$":
         return Glyph(Kind.SPACE, " ", span)
-    if char in _FRACTIONS:
-        return Glyph(Kind.SIGN, _FRACTIONS[char], span)
     if form.startswith("<super>"):
         return Glyph(Kind.RAISED, _SAME.get(raised := chr(int(form.split()[1], 16)), raised), span)
     if form.startswith("<sub>"):

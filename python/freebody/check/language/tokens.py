@@ -148,7 +148,7 @@ class _Reader:
             self.at += 1
             kind = text = "^" if pair == "**" else pair
         elif text.startswith("(") and len(text) > 1:  # a sign like ½, as a quotient in brackets
-            for piece in text:
+            for piece in re.findall(r"\d+|\D", text):
                 self.put("number" if piece.isdecimal() else piece, piece, start)
             return
         self.put(kind, text, start)

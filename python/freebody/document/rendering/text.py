@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from freebody.document.blocks import Block, Equation, Figure, Matrices, Side, Vector, Words, Written, is_tree
+from freebody.document.blocks import Block, Equation, Figure, Heading, Matrices, Side, Vector, Words, Written, is_tree, pieces
 from freebody.document.rendering.format import Format
 from freebody.document.rendering.markup import Markup
 from freebody.document.rendering.matrices import has_matrices
@@ -16,6 +16,8 @@ from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import equation_text, folded, printer, text
 
 _INDENT = "    "
+_BRIEF = 20
+"""Letters of what an equation is called up to which it stands close under another."""
 _TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
 
@@ -135,9 +137,17 @@ class Text(Markup):
 
 
 def _space(above: Block, below: Block) -> str:
-    """Equations without words between them stand together."""
-    equations = isinstance(above, Equation) and isinstance(below, Equation) and not above.note and not below.name
-    return "\n" if equations and not has_matrices(above) and not has_matrices(below) else "\n\n"
+    """Equations with no more than a word between them stand together, and what stands under a small heading."""
+    if isinstance(above, Heading) and above.level > 2:
+        return "\n"
+    if (
+        not (isinstance(above, Equation) and isinstance(below, Equation))
+        or above.note
+        or has_matrices(above)
+        or has_matrices(below)
+    ):
+        return "\n\n"
+    return "\n" if sum(map(len, filter(lambda piece: isinstance(piece, str), pieces(below.name)))) <= _BRIEF else "\n\n"
 
 
 def _padded(lines: list[str], height: int) -> list[str]:

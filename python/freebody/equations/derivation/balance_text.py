@@ -16,6 +16,7 @@ from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
+from freebody.symbolic.algebra import opposite
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Add, Sym, Tree, is_negative, is_zero, negative, symbols
@@ -58,7 +59,7 @@ class Stated:
         every = left.terms if isinstance(left, Add) else (left,)
         terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
         turned = self.own < 0 or (self.own == 0 and all(map(is_negative, terms)))
-        return (negative(left), negative(right), True) if turned else (left, right, False)
+        return (opposite(left), opposite(right), True) if turned else (left, right, False)
 
     @property
     def sides(self) -> tuple[Tree, Tree]:
@@ -66,10 +67,15 @@ class Stated:
         return self._collected[:2]
 
     @property
+    def turned(self) -> bool:
+        """Whether the sides have all signs changed."""
+        return self._collected[2]
+
+    @property
     def printed(self) -> Printed:
         """The equation with its title, and as linear in what is unknown."""
         linear = self.balance.linear
-        return Printed(self.title, *self.sides, linear.with_trees(negative) if self._collected[2] else linear)
+        return Printed(self.title, *self.sides, linear.with_trees(negative) if self.turned else linear)
 
     def blocks(self, subject: SymbolicState) -> list[Block]:
         """The equation with all that a reader needs to believe it."""
@@ -90,7 +96,7 @@ class Stated:
         inertia: list[Words] = [[f"inertia of {body}: ", presented(tree, unknowns=unknowns)] for body, tree in moved]
         made += [Paragraph(f"Applied {what}:"), Bullets(acting)] if acting else [Paragraph("No other load enters this equation.")]
         made += [Paragraph(f"Rate of change of {rate}:"), Bullets(inertia)] if inertia else []
-        turned = ", with all signs changed," * self._collected[2]
+        turned = ", with all signs changed," * self.turned
         return [*made, Equation(*self.sides, f"So {sign}{turned} is", self.label)]
 
 
@@ -140,7 +146,7 @@ def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:
     free, near = subject.free, _SAME * subject.free.extent
     for load in free.loads:
         if load.kind == "joint" and load.axis and any(np.hypot(*np.subtract(part.point, at)) < near for part in load.on):
-            return pin(load.name)
+            return load.name
     for name in bodies:
         if np.hypot(*np.subtract(free.bodies[name].G, at)) < near:
             return f"the mass centre of {name}"
@@ -153,8 +159,3 @@ def named_place(subject: SymbolicState, at: Pair, bodies: Sequence[str]) -> str:
 def is_at(free: FreeBodies, point: tuple[str, float, float], at: Pair) -> bool:
     """Whether a point (body, x, y in its frame) is at a place."""
     return point[0] in free.bodies and float(np.hypot(*np.subtract(placed(free, *point), at))) < _SAME * free.extent
-
-
-def pin(name: str) -> str:
-    """A hinge as a point; not ``the pin pin``."""
-    return name if "pin" in name.lower() else f"the pin {name}"

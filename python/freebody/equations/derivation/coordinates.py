@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.core.cards import Card, Coordinate
 from freebody.core.cards import joints as cards_of
-from freebody.equations.derivation.balance_text import Stated, named_place, numbers, pin
+from freebody.equations.derivation.balance_text import Stated, named_place, numbers
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, is_zero
@@ -47,7 +47,7 @@ def _question(subject: SymbolicState, coordinate: str, joint: Mapping[str, Any],
 def _place(subject: SymbolicState, balance: Balance, joint: str, card: Card, moves: Coordinate) -> tuple[str, str]:
     """The point or direction in words, and the word before it."""
     if balance.turns:
-        named = pin(joint) if card.hinged else named_place(subject, numbers(subject, balance), balance.bodies)
+        named = joint if card.hinged else named_place(subject, numbers(subject, balance), balance.bodies)
         touches = any(row.tangent for row in card.rows)
         return named or ("the point of contact" if touches else f"the point of {joint}"), "about"
     if moves.across:

@@ -6,23 +6,29 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Words, equations, listed
+from freebody.document.blocks import Block, Heading, MatrixEquation, Paragraph, equations
 from freebody.document.document import Document
-from freebody.equations.derivation import conserved, preamble
+from freebody.equations.derivation import conserved, page, preamble
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
-from freebody.equations.derivation.form import Form, Printed
+from freebody.equations.derivation.first_order import first_order
+from freebody.equations.derivation.form import Form, Printed, System
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.equations.derivation.single_unknown import wanted
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.algebra import equal, quotient
+from freebody.symbolic.algebra import equal
 from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, symbols
 
-_TITLES = {"minimal": "minimal form", "brute": "brute force", "constraints": "with constraints"}
+_TITLES = {
+    "minimal": "minimal form", "brute": "brute force", "constraints": "with constraints", "first-order": "first-order form",
+}  # fmt: skip
 FORMS = tuple(_TITLES)
 _ELSEWHERE = "it is among the equations as data and in the generated code"
+_LONGER = "the long derivation has it (`--long`)"
+_OF_A_PAGE = 250
+"""Symbols, numbers and operations of an expression beyond which it does not stand on a page."""
 _LOPSIDED = "It is not symmetric, as its rows are these balances, not Lagrange's equations."
 
 
@@ -70,68 +76,68 @@ class Equations(Document):
         return matrix(self.mass_matrix), matrix([[x] for x in self.unknowns]), matrix([[b] for b in self.right_hand_side])
 
 
-def derive(subject: SymbolicState, form: str = "minimal", want: str | None = None, about: Sequence[str] = ()) -> Equations:
-    """The equations of a subject in a form, or the fewest that give what is wanted (``want``), or those ``about`` some points.
+def derive(
+    subject: SymbolicState, form: str = "minimal", want: str | None = None, about: Sequence[str] = (), long: bool = False
+) -> Equations:
+    """The equations of a subject in a form, or the fewest that give what is wanted (``want``), or those ``about`` some points: a page,
+    or, ``long``, all that a reader may ask for.
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
     nomenclature, title = subject.nomenclature, _TITLES.get(form)
     if want is not None:
         title = f"{want} about {', '.join(about)}" if about else f"the fewest for {want}"
-        form, content = "wanted", wanted(subject, want, about)
+        form, content = "wanted", wanted(subject, want, about, long)
     elif form == "constraints":
         content, nomenclature = constrained(subject)
     elif form in FORMS:
-        content = (minimal if form == "minimal" else brute)(subject)
+        content = (brute if form == "brute" else minimal)(subject, long)
     else:
         raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
     own = form != "constraints"  # else the places of the bodies are the coordinates
     body: list[Block] = [*content.blocks]
-    if form in FORMS:
-        body = [*preamble.kinematics(subject)] * own + body
+    if form == "first-order":
+        body = first_order(content.system, subject)
+    elif form in FORMS:
+        body = [*preamble.kinematics(subject)] * (own and long) + body
         body += equations(subject.laws, "The law of friction, as the joint slides now")
-        body += [*_matrix_form(form, content, subject), *conserved.section(subject, symbolically=own)]
-    first = [Heading(subject.titled(f"equations, {title}"), 1), *(preamble.configuration(subject) if own else [])]
-    blocks = (*first, *preamble.nomenclature(nomenclature, used(body)), *body)
-    return Equations(
-        tuple(lettered(readable(block, _ELSEWHERE), nomenclature) for block in blocks), nomenclature, form=form, content=content
-    )
+        body += _matrix_form(form, content, subject) if long else _uneven(content.system, subject)
+        body += [*first_order(content.system, subject, below=True), *conserved.section(subject, symbolically=own)] if long else []
+    blocks: list[Block] = [Heading(subject.titled(f"equations, {title}"), 1)]
+    if long:
+        blocks += [*(preamble.configuration(subject) if own else []), *preamble.nomenclature(nomenclature, used(body))]
+    else:
+        blocks += page.beginning(subject, nomenclature, used(body), own)
+    blocks += body
+    shown = [readable(block, _ELSEWHERE) if long else readable(block, _LONGER, _OF_A_PAGE) for block in blocks]
+    return Equations(tuple(lettered(block, nomenclature) for block in shown), nomenclature, form=form, content=content)
 
 
 def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block]:
-    """Matrix form, which that with constraints has as blocks of its own, and first-order form."""
-    system = content.system
-    moving = [x for x in system.unknowns if x.dots]
-    made: list[Block] = []
+    """The matrix form; that with constraints has one in blocks of its own."""
+    system, made = content.system, list[Block]()
     if system.unknowns and form != "constraints":
-        only_moves = system.is_square and len(moving) == len(system.unknowns) and not subject.rows
+        only_moves = system.gives_accelerations and not subject.rows
         letter, name = ("M", "Mass matrix and right-hand side") if only_moves else ("A", "The equations together")
         made = [Heading("Matrix form"), MatrixEquation(system.matrix, system.unknowns, system.right, name, letter=letter)]
         if only_moves:
             pairs = ((row[k], system.matrix[k][i]) for i, row in enumerate(system.matrix) for k in range(i))
             made += [Paragraph(_LOPSIDED)] * (not all(equal(*pair, subject.tables) for pair in pairs))
-    if system.unknowns and not system.is_square:
-        made.append(Paragraph(_uneven(len(system.matrix), len(system.unknowns), len(subject.laws))))
-    if moving:
-        places, rates = ([Sym(x.name, x.dots - fewer) for x in moving] for fewer in (2, 1))
-        own, change = ([Sym(name, dots) for name in subject.source.metadata["states"]] for dots in (0, 1))
-        said: Words = ["For integration the state is z = (", *listed([*places, *rates, *own]), "). Its rate is ("]
-        said += listed([*rates, *moving, *change])
-        rest = "), of which the first half is in the state and the second solves the equations above at each instant."
-        if own:
-            rest = "), of which the equations above give at each instant what is not in the state."
-        made += [Heading("First-order form"), Paragraph([*said, rest])]
-        if len(system.unknowns) == len(system.matrix) == 1:
-            made.append(Equation(moving[0], quotient(system.right[0], system.matrix[0][0]), "Here this is"))
-    return made
+    return [*made, *_uneven(system, subject)]
 
 
-def _uneven(equations: int, unknowns: int, laws: int) -> str:
-    these = f"{'This is one equation' if equations == 1 else f'These are {equations} equations'} in {unknowns} unknowns"
-    if laws and equations + laws == unknowns:
-        return f"{these}: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
-    if equations < unknowns:
-        return f"{these}: redundant constraints, or friction, takes a law of its own besides the balances."
-    return f"{these}: some follow from the others."
+def _uneven(system: System, subject: SymbolicState) -> list[Block]:
+    """Why there are not as many equations as unknowns, where it is so."""
+    count, unknowns, laws = len(system.matrix), len(system.unknowns), len(subject.laws)
+    if system.is_square or not unknowns:
+        return []
+    these = f"{'This is one equation' if count == 1 else f'These are {count} equations'} in {unknowns} unknowns"
+    if laws and count + laws == unknowns:
+        said = f"{these}: the law{'s' * (laws > 1)} of friction, not linear, make{'s' * (laws == 1)} up the number."
+    elif count < unknowns:
+        said = f"{these}: redundant constraints, or friction, takes a law of its own besides the balances."
+    else:
+        said = f"{these}: some follow from the others."
+    return [Paragraph(said)]
 
 
 def used(blocks: Any) -> set[str]:

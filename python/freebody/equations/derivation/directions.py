@@ -12,10 +12,11 @@ from itertools import chain, count
 from freebody.document.blocks import Vector, Words, Written
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbolic_state import Arrow, Motion
+from freebody.symbolic.algebra import spread
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import SUBSCRIPTS, Name, Taken, direction, folded, unicode_name
-from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, mul, negative, number, symbols
+from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, minus, mul, negative, number, symbols
 
 
 @dataclass(frozen=True)
@@ -62,19 +63,23 @@ class Direction:
         """Name of the second."""
         return f"n_{self.below}"
 
+    @property
+    def angle_along(self) -> Tree:
+        """The angle of the first."""
+        return add(self.angle, mul(number(Fraction(self.quarters - 4 * (self.quarters == 3), 2)), Sym(PI)))
+
     def sentence(self, axes: Sequence[str]) -> Words:
         """What it is, where the unit vectors along x, along y and across the plane are called ``axes``."""
-        angle, where = self.angle, ""
+        where = ""
         if self.link:
             where = f"along {self.link.name}, from {self.link.first} to {self.link.second}, "
-            angle = add(angle, mul(number(Fraction(self.quarters - 4 * (self.quarters == 3), 2)), Sym(PI)))
         elif self.owners:
             where = f"along the x axis of {joined(self.owners)}, "
         elif self.turning:
             where = f"(turning with {joined(self.turning)}) "
         along, across = (Written(name, direction(name)) for name in (self.along, self.across))
         turned = [f" from {axes[0]}, counter-clockwise; ", across, f" = {axes[2]} × ", along, "."]
-        return [along, f" points {where}at the angle ", angle, *turned]
+        return [along, f" points {where}at the angle ", self.angle_along, *turned]
 
 
 @dataclass(frozen=True)
@@ -102,7 +107,8 @@ class Directions:
         symbols = symbols or Taken()
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
         bodies = [body for body in motions if not body.particle]
-        owners = {angle: tuple(body.body for body in bodies if body.angle == angle) for angle in angles}
+        ahead_of = {angle: {body.body: _quarters(body.angle, angle) for body in bodies} for angle in angles}
+        owners = {angle: tuple(name for name, ahead in ahead_of[angle].items() if ahead is not None) for angle in angles}
         spins = {angle: angle_rate(angle, moving) for angle in angles}
         turning = {
             a: tuple(b.body for b in bodies if w is not None and not is_zero(w) and b.omega == w) for a, w in spins.items()
@@ -112,7 +118,8 @@ class Directions:
         for angle in angles:
             alone = links if not (owners[angle] or turning[angle]) else ()
             quarters = ((link, link.quarters(angle, moving, values or {})) for link in alone)
-            link, ahead = next(((link, k) for link, k in quarters if k is not None), (None, 0))
+            own = ahead_of[angle][owners[angle][0]] if owners[angle] else 0
+            link, ahead = next(((link, k) for link, k in quarters if k is not None), (None, own or 0))
             named = [_word(body) for body in (*owners[angle], *turning[angle], *([link.name] if link else []))]
             named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
             taken = {folded(pair.below) for pair in made}
@@ -162,6 +169,15 @@ def angle_rate(angle: Tree, moving: Collection[str]) -> Tree | None:
             return None
         rates += [mul(*(Sym(f.name, f.dots + 1) if f == x else f for f in factors)) for x in changing]
     return add(*rates)
+
+
+def _quarters(angle: Tree, first: Tree) -> int | None:
+    """By how many quarters of a turn an angle is ahead of another; None where by something else."""
+    ahead = spread(minus(angle, first))
+    if any(x != Sym(PI) for x in symbols(ahead)):
+        return None
+    turns = 2 * evaluate(ahead, {Sym(PI): math.pi}) / math.pi
+    return round(turns) % 4 if abs(turns - round(turns)) < _QUARTER else None
 
 
 def _word(name: str) -> str:

@@ -48,6 +48,11 @@ class System:
         """Whether there are as many equations as unknowns."""
         return len(self.matrix) == len(self.unknowns)
 
+    @property
+    def gives_accelerations(self) -> bool:
+        """Whether accelerations, and nothing else, are unknown, as many as there are equations."""
+        return self.is_square and all(x.dots for x in self.unknowns)
+
 
 @dataclass(frozen=True)
 class Form:

@@ -10,7 +10,7 @@ from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.symbolic_state import Row
 from freebody.symbolic.algebra import common_number, divided
 from freebody.symbolic.linear import Linear, linear_in
-from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, is_zero, mul, negative, symbols
+from freebody.symbolic.tree import ONE, ZERO, Add, Sym, Tree, add, is_negative, is_zero, mul, negative, symbols
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
@@ -27,10 +27,7 @@ _TITLES = {
 
 def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = False) -> list[Block]:
     """The rows at all levels, the derivatives as matrix equations; ``everywhere``: every joint has rows, not those of loops only."""
-    title = "Constraints"
-    if not everywhere:  # loops, motions, and what touches, as far as there are any
-        title = joined([name for name, kinds in _TITLES.items() if kinds & {row.kind for row in rows}])
-    made: list[Block] = [Heading(title[0].upper() + title[1:]), Paragraph(_why(rows, everywhere))]
+    made: list[Block] = [Heading("Constraints" if everywhere else title(rows)), Paragraph(_why(rows, everywhere))]
     rows = written(rows)
     held, moving = ([row for row in rows if getattr(row, level) is not None] for level in ("value", "rate"))
     made += equations(((row.value, ZERO) for row in held), "For the positions")
@@ -45,9 +42,49 @@ def section(rows: Sequence[Row], coordinates: Sequence[str], everywhere: bool = 
     return made + accelerations(rows, coordinates, name)
 
 
+def title(rows: Sequence[Row]) -> str:
+    """Loops, motions, and what touches, as far as there are any."""
+    said = joined([name for name, kinds in _TITLES.items() if kinds & {row.kind for row in rows}])
+    return said[0].upper() + said[1:]
+
+
 def accelerations(rows: Sequence[Row], coordinates: Sequence[str], name: str = "") -> list[Block]:
     """Rows, as they are written, at the level of accelerations."""
     return _together(System.of([row.linear for row in rows], coordinates), name)
+
+
+def separately(rows: Sequence[Row], coordinates: Sequence[str]) -> list[list[tuple[Tree, Tree]]]:
+    """The rows as they are written, as a person puts them on two sides: places, velocities, accelerations."""
+    rates = ((row.rate, [Sym(name, 1) for name in coordinates]) for row in rows if row.rate is not None)
+    return [
+        [_sides(row.value) for row in rows if row.value is not None],
+        [_sides(_spread(linear_in(*each))) for each in rates],
+        [_apart(row.linear) for row in rows],
+    ]
+
+
+def _spread(linear: Linear) -> Tree:
+    return add(*(mul(factor, x) for x, factor in linear.coefficients.items()), linear.rest)
+
+
+def _apart(linear: Linear) -> tuple[Tree, Tree]:
+    """The accelerations = what depends on places and velocities, if anything does."""
+    if is_zero(linear.rest):
+        return _sides(_spread(linear))
+    left = add(*(mul(factor, x) for x, factor in linear.coefficients.items()))
+    sides = (left, negative(linear.rest))
+    return sides if any(not is_negative(term) for term in _terms(left)) else (negative(left), linear.rest)
+
+
+def _sides(tree: Tree) -> tuple[Tree, Tree]:
+    """What vanishes as two sides without minus signs in front of their terms."""
+    terms = _terms(tree)
+    left, right = (add(*(t for t in terms if is_negative(t) == sign)) for sign in (False, True))
+    return (negative(right), ZERO) if is_zero(left) else (left, negative(right))
+
+
+def _terms(tree: Tree) -> tuple[Tree, ...]:
+    return tree.terms if isinstance(tree, Add) else (tree,)
 
 
 def _together(system: System, name: str) -> list[Block]:
@@ -73,8 +110,7 @@ def written(rows: Sequence[Row]) -> list[Row]:
         if (common := common_number(terms)) != ONE:
             row = row.with_trees(lambda tree, by=common: divided(tree, by))
         tree = next(tree for tree in (row.value, row.rate, row.acceleration) if tree is not None)
-        parts = tree.terms if isinstance(tree, Add) else (tree,)
-        signs = [is_negative(part) for part in parts if _names(row) & {x.name for x in symbols(part)}]
+        signs = [is_negative(part) for part in _terms(tree) if _names(row) & {x.name for x in symbols(part)}]
         made.append(row.with_trees(negative) if 2 * sum(signs) > len(signs) else row)
     return made
 

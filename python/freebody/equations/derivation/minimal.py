@@ -10,22 +10,24 @@ from freebody.core import Load
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Words
 from freebody.equations.balances.equation import BalanceEquation
 from freebody.equations.balances.minimal import MinimalForm, minimal_form
-from freebody.equations.derivation import loop_closure, virtual
+from freebody.equations.derivation import loop_closure, page, virtual
 from freebody.equations.derivation.balance_text import Stated, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.form import Form
+from freebody.equations.derivation.put_in import Closed
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.figures import figure
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import coefficient
 from freebody.symbolic.tree import Sym, operations, symbols
 
+_NOTHING = "Nothing is free to move: no equation of motion is left. The reactions are found by the form brute."
 _POINTS = 2
 """Points of bodies tried for one place."""
 
 
-def minimal(subject: SymbolicState) -> Form:
-    """The minimal form of a subject.
+def minimal(subject: SymbolicState, long: bool = False) -> Form:
+    """The minimal form of a subject; ``long``: with all that a reader may ask for.
 
     In a tree these are the balances of the coordinates. With loops they are looked for among all connected sets of bodies; where
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
@@ -39,6 +41,11 @@ def minimal(subject: SymbolicState) -> Form:
     added = _of_bearing_friction(subject, chosen)
     stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen, *added], 1)]
     form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(rows))
+    if not long:
+        closed = Closed(subject)
+        brief = [*page.closure(rows, subject.names), *page.kinematics(subject, closed), *_friction(subject)]
+        brief += page.balances(subject, stated, closed)
+        return replace(form, blocks=(*brief, *([] if stated else [Paragraph(_NOTHING)])))
     made: list[Block] = loop_closure.section(rows, subject.names) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(chosen), search)), *_friction(subject)]
     if added:
@@ -106,7 +113,7 @@ def _of_bearing_friction(subject: SymbolicState, stated: Sequence[Stated]) -> li
 
 def _introduction(subject: SymbolicState, form: Form, number: int, search: MinimalForm | None) -> str:
     if not number:
-        return "Nothing is free to move: no equation of motion is left. The reactions are found by the form brute."
+        return _NOTHING
     prescribed = [load.symbol for load in subject.free.loads if load.kind == "motion" and load.symbol in form.reactions]
     leading = [name for name in form.reactions if search and name in search.frictional]
     by_law = {symbol.name for symbol, law in subject.laws for symbol in (symbol, *symbols(law))}

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -34,12 +35,19 @@ def configuration(subject: SymbolicState) -> list[Block]:
     said += f" mechanism has {'one degree' if count == 1 else f'{count} degrees' if count else 'no degrees'} of freedom"
     said += f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     said += f". Its configuration is described by {'one coordinate' if number == 1 else f'{number} coordinates'}:"
-    rows = [
-        ([Sym(c["name"])], _GUIDED.sub(_displacement, c["doc"].replace("`", "")), c["dimension"] or "1")
-        for c in subject.coordinates
-    ]
+    rows = [([Sym(c["name"])], meaning(c), c["dimension"] or "1") for c in subject.coordinates]
     made += [Paragraph(said), Table(("coordinate", "meaning", "unit"), rows)]
-    made.append(Figure(ConfigurationDrawing(subject.source, subject.state), _CAPTION, "sketch"))
+    return [*made, Figure(ConfigurationDrawing(subject.source, subject.state), _CAPTION, "sketch"), *notes(subject)]
+
+
+def meaning(coordinate: Mapping[str, Any]) -> str:
+    """What a coordinate measures."""
+    return _GUIDED.sub(_displacement, coordinate["doc"].replace("`", ""))
+
+
+def notes(subject: SymbolicState) -> list[Block]:
+    """What holds for a while only and does not show in the equations, and states with rates of their own."""
+    made: list[Block] = []
     acting = {load.name for load in subject.free.loads if load.kind == "force"}
     if cases := [force["name"] for force in subject.source.metadata["forces"] if force["cases"] and force["name"] in acting]:
         made.append(Paragraph(f"The law of {joined(cases)} has cases: the equations hold for the case at this state."))
@@ -47,8 +55,7 @@ def configuration(subject: SymbolicState) -> list[Block]:
         made.append(Paragraph("Beside the coordinates there are states with rates of their own:"))
         rates = [read(rate) for rate in subject.ask([{"ask": "state_rates"}])[0]]
         made += [Equation(Sym(name, 1), rate) for name, rate in zip(names, rates, strict=True)]
-    made += unloaded(subject)
-    return made
+    return made + unloaded(subject)
 
 
 def unloaded(subject: SymbolicState) -> list[Block]:

@@ -58,14 +58,14 @@ def lettered(block: Block, nomenclature: Nomenclature) -> Block:
     return block
 
 
-def readable(block: Block, elsewhere: str) -> Block:
-    """The block, or a sentence in its place where an expression in it is too long; ``elsewhere`` says where it is."""
+def readable(block: Block, elsewhere: str, longest: int = LONGEST) -> Block:
+    """The block, or a sentence in its place where an expression in it is longer than the ``longest``; ``elsewhere`` says where it is."""
     match block:
         case Bullets(items):
             sizes = [_signs(pieces(item)) for item in items]
             texts = ([piece for piece in pieces(words) if isinstance(piece, str)] for words in items)
             long = ([*said, f"an expression of {size} signs"] for said, size in zip(texts, sizes, strict=True))
-            kept = [words if size <= LONGEST else said for words, size, said in zip(items, sizes, long, strict=True)]
+            kept = [words if size <= longest else said for words, size, said in zip(items, sizes, long, strict=True)]
             return replace(block, items=kept)
         case Equation(_, Matrices((Matrix(rows),))):
             size = max(map(_signs, rows), default=0)
@@ -75,7 +75,7 @@ def readable(block: Block, elsewhere: str) -> Block:
             size = max(map(_signs, [*matrix, right]), default=0)
         case _:
             return block
-    if size <= LONGEST:
+    if size <= longest:
         return block
     name = [*pieces(block.name), ": "] if block.name else []
     return Paragraph([*name, f"an expression of {size} signs, too long to be read; {elsewhere}."])

@@ -7,15 +7,16 @@ from dataclasses import replace
 
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, listed
 from freebody.equations.balances.smallest import COUNT, VirtualPower, smallest_set
-from freebody.equations.derivation import loop_closure
+from freebody.equations.derivation import loop_closure, page
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
+from freebody.equations.derivation.put_in import Closed
 from freebody.solve.figures import figure
 from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.tree import Sym
 
 
-def wanted(subject: SymbolicState, name: str, about: Sequence[str] = ()) -> Form:
+def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: bool = False) -> Form:
     """The smallest set for a coordinate's acceleration, a component of a reaction, or a motion's force or torque; or that ``about``
     some points and directions.
 
@@ -38,9 +39,8 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = ()) -> Form
     if number > 1:
         smaller = [] if about else ["; no smaller set determines ", _symbol(found.wanted)]
         said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, " and no other unknown", *smaller, "."]
-    made: list[Block] = [Heading("Balance equations"), Paragraph(said)]
-    for s in stated:
-        made += s.blocks(subject)
+    made: list[Block] = [*[Heading("Balance equations")] * long, Paragraph(said)]
+    made += [block for s in stated for block in s.blocks(subject)] if long else page.balances(subject, stated, Closed(subject))
     made += _following(subject, form, free, following) if following else []
     return replace(form, blocks=(*made, *numbers))
 

@@ -105,8 +105,9 @@ def _class(factor: Tree, nomenclature: Nomenclature) -> int:
         return _RATES
     if any(isinstance(node, Fn) for node in walk(factor)):
         return _FUNCTIONS
+    load = isinstance(factor, Sym) and nomenclature.kind(factor.name) == "unknown"
     fixed = all(nomenclature.kind(symbol.name) in ("parameter", "constant") for symbol in found)
-    return _PARAMETERS if fixed else _COORDINATES
+    return _PARAMETERS if fixed or load else _COORDINATES
 
 
 def _term_rank(term: Tree, nomenclature: Nomenclature) -> tuple:

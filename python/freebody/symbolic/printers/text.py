@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,11 +15,13 @@ from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.line_breaking import broken
 from freebody.symbolic.printers.printer import Printer
-from freebody.symbolic.symbols import SUPERSCRIPTS, ascii_name, unicode_name
+from freebody.symbolic.symbols import SUBSCRIPTS, SUPERSCRIPTS, ascii_name, unicode_name
 from freebody.symbolic.tree import Fn, Num, Pow, Sym, Tree
 
 WIDTH = 100
-_VULGAR = {Fraction(1, 2): "½", Fraction(1, 3): "⅓", Fraction(2, 3): "⅔", Fraction(1, 4): "¼", Fraction(3, 4): "¾"}
+_VULGAR = {Fraction(unicodedata.numeric(sign)).limit_denominator(8): sign for sign in "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"}
+_MOST = 99
+"""The largest numerator and denominator of a fraction in small figures, ¹⁄₁₂."""
 
 
 def text(tree: Tree, nomenclature: Nomenclature | None = None, *, ascii: bool = False) -> str:
@@ -89,7 +92,7 @@ class TextPrinter(Printer[str]):
     def product(self, number: Fraction | float, factors: Sequence[Tree]) -> str:
         if isinstance(number, float) or number.denominator == 1:
             return self._factors(number, factors)
-        # In front where it is one sign, ½ m l²; else what is below stands behind, m l²/12, as it does in angles, π/2, but not behind
+        # In front in small figures, ½ m l²; else what is below stands behind, m l²/12, as it does in angles, π/2, but not behind
         # functions: (3/2) m g l sin θ.
         vulgar = "" if list(factors) == [Sym("pi")] else self._vulgar(number)
         if vulgar or not factors:
@@ -128,7 +131,10 @@ class TextPrinter(Printer[str]):
         return str(exponent).translate(SUPERSCRIPTS) if exponent.denominator == 1 else f"^({exponent})"
 
     def _vulgar(self, value: Fraction) -> str:
-        return _VULGAR.get(value, "")
+        above, below = value.as_integer_ratio()
+        if value in _VULGAR or below == 1 or max(above, below) > _MOST:
+            return _VULGAR.get(value, "")
+        return f"{str(above).translate(SUPERSCRIPTS)}⁄{str(below).translate(SUBSCRIPTS)}"
 
 
 @dataclass(frozen=True)

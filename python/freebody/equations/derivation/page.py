@@ -1,0 +1,169 @@
+"""The page of a book: coordinates, accelerations, then for each balance its free body, what acts = what is moved, the scalar equation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+from freebody.document.blocks import Block, Equation, Figure, Heading, Paragraph, Vector, Words, Written, listed, pieces
+from freebody.document.drawings import ConfigurationDrawing
+from freebody.equations.balances.reasons import agree
+from freebody.equations.derivation import loop_closure, preamble
+from freebody.equations.derivation.balance_text import Stated, cancelling, dropped, numbers
+from freebody.equations.derivation.put_in import Closed
+from freebody.equations.derivation.sentences import joined
+from freebody.solve.symbolic_state import Balance, Row, SymbolicState
+from freebody.symbolic.algebra import less, opposite
+from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.formula import EQUALS, PLUS, Atom, typed
+from freebody.symbolic.nomenclature import Nomenclature
+from freebody.symbolic.presentation import presented
+from freebody.symbolic.symbols import direction
+from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
+
+_TURNS = ", counter-clockwise"
+_SIGNS = {
+    **{sign: Atom(sign, "bold") for sign in "rFa"}, **{sign: Atom(sign, kind) for sign, kind in (("(", "open"), (")", "close"))},
+    "+": PLUS, "=": EQUALS, "×": Atom("×", "sign"), "Σ": Atom("∑", "sign"),
+}  # fmt: skip
+"""How the signs of a law are set in type; the others are letters."""
+_NONE = 1e-6
+_AXIS = re.compile(r" along [xy](?= of )")
+_BRIEFLY = tuple(
+    (re.compile(long), short)
+    for long, short in (
+        (r"^(it|they) (is|are|acts|act) ", r"{} \2 "),
+        (r"^(its|their) (lines?) of action ", r"the \2 of {} "),
+        (r"^(its|their) sums? with (its|their) friction ", r"{} with \2 friction "),
+        (r" internal to .*| a couple, which.*|couples, which.*", lambda found: found[0].split(" to ")[0].split(",")[0]),
+    )
+)
+"""What a reason for an absence is in half a sentence."""
+
+
+def beginning(subject: SymbolicState, known: Nomenclature, used: Collection[str], own: bool) -> list[Block]:
+    """What the coordinates measure, where they are those of the model, what is given and what else is unknown; the sketch; what is not
+    called by its usual name."""
+    shown = [symbol for symbol in known.values() if symbol.name in used]
+    given = [[Sym(x.name), f" ({x.doc})" * bool(x.doc)] for x in shown if x.kind in ("parameter", "constant")]
+    loads: dict[str, list[Sym]] = {}
+    for x in (x for x in shown if x.kind == "unknown"):
+        loads.setdefault(_AXIS.sub("", x.doc.removesuffix(f" ({x.name})")), []).append(Sym(x.name))
+    forces = [[*listed(names, " and "), f", {doc}"] for doc, names in loads.items()]
+    said = [_coordinates(subject)] if own else []
+    said += [["Given: ", *_listed(given, ", "), "."]] * bool(given)
+    said += [["Unknown besides: ", *_listed(forces, "; "), "."]] * bool(forces)
+    made: list[Block] = [Paragraph(_listed(said, " "))] if said else []
+    if own:
+        made += [Figure(ConfigurationDrawing(subject.source, subject.state), name="sketch"), *preamble.notes(subject)]
+    return made + [Paragraph(" ".join(map(str, known.renamed.values())))] * bool(known.renamed)
+
+
+def _coordinates(subject: SymbolicState) -> Words:
+    if not subject.coordinates:
+        return "The mechanism cannot move: there are no coordinates."
+    meanings = [preamble.meaning(c) for c in subject.coordinates]
+    said = [[Sym(name), f": {what.removesuffix(_TURNS)}"] for name, what in zip(subject.names, meanings, strict=True)]
+    return [*_listed(said, "; "), f".{' Angles are counter-clockwise.' * any(what.endswith(_TURNS) for what in meanings)}"]
+
+
+def kinematics(subject: SymbolicState, closed: Closed) -> list[Block]:
+    """The unit directions in a sentence, and the acceleration of every mass centre that has one."""
+    named = preamble.directions(subject, [motion.a for motion in subject.motions])
+    moving = [motion for motion in subject.motions if not (is_zero(motion.mass) or all(map(is_zero, motion.a.xy)))]
+    said = [[Written(pair.along, direction(pair.along)), " at ", pair.angle_along] for pair in named.pairs]
+    name: Words = "Accelerations of the mass centres"
+    if said:
+        turned = Written(
+            f"n = {named.axes[2]} × λ", (*direction("n"), *typed("="), *direction(named.axes[2]), *typed("×"), *direction("λ"))
+        )
+        name = ["Accelerations, in unit directions ", *_listed(said, ", "), f" from {named.axes[0]} and ", turned]
+    made: list[Block] = []
+    for motion in moving:
+        left = Written.of(subject.symbols.of_body("a", motion.body), bold=True)
+        vector = Vector(tuple((closed.put(tree), unit) for tree, unit in named.vector(motion.a).components))
+        made.append(Equation(left, vector, "" if made else name))
+    return made
+
+
+def closure(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
+    """What is closed or prescribed: the places, the velocities, the accelerations."""
+    if not (stated := loop_closure.written(rows)):
+        return []
+    levels = loop_closure.separately(stated, coordinates)
+    return [Heading(loop_closure.title(rows), 3), *(Equation(*sides) for level in levels for sides in level)]
+
+
+def balances(subject: SymbolicState, stated: Sequence[Stated], closed: Closed) -> list[Block]:
+    """Each balance: its free body, what does not enter, what acts = what is moved, part by part, and the scalar equation; of one that
+    stands alone also the acceleration."""
+    made: list[Block] = []
+    for given in stated:
+        each, known = closed.reduced(given)
+        acting, carried, turned = _parts(subject, each, closed)
+        name = [_absent(subject, each), *_law(each, len(carried), len(turned))]
+        name += [", with ", *listed(known, " and "), " as above"] if known else []
+        whole = Equation(*closed.alone(*each.sides), name, each.label)
+        made.append(Heading(each.title, 3))
+        if not is_zero(acting) and len(carried + turned) > 1:
+            made += [Equation(acting, Add((*carried, *turned)), name), replace(whole, name="")]
+        else:
+            made.append(whole)
+        made += closed.result(whole) if len(stated) == 1 else []
+    return made
+
+
+def _parts(subject: SymbolicState, stated: Stated, closed: Closed) -> tuple[Tree, list[Tree], list[Tree]]:
+    """The sum of what acts, and m a, or r × m a and I α, of each body, in the sense of the scalar equation."""
+    given, cancelled, put = stated.balance, cancelling(subject, stated.balance), opposite if stated.turned else lambda tree: tree
+    motions = subject.motions if given.turns else ()
+    turning = {motion.body: closed.put(mul(motion.inertia, motion.alpha)) for motion in motions}
+    apart = _is_plain(subject, given)
+    own = {body: turning.get(body, ZERO) if apart else ZERO for body, _ in given.inertia}
+    carried = (tree if is_zero(own[body]) else less(tree, own[body]) for body, tree in given.inertia)
+    acting = (presented(c.tree) for c in given.contributions if not c.absent and c.load not in cancelled)
+    moved = ([put(presented(tree)) for tree in trees if not is_zero(tree)] for trees in (carried, own.values()))
+    return add(*map(put, acting)), *moved
+
+
+def _is_plain(subject: SymbolicState, balance: Balance) -> bool:
+    """Whether moments are not taken times a factor, as about where two lines meet they are times the sine of the angle between."""
+    at = numbers(subject, balance)
+    for each in balance.contributions:
+        load = subject.free.loads[each.load]
+        arm = load.unit(balance.bodies, at)[2] * load.value
+        if not each.absent and abs(arm) > _NONE:
+            return abs(evaluate(each.tree, subject.values, subject.tables) / arm - 1) < _NONE
+    return True
+
+
+def _law(stated: Stated, carried: int, turned: int) -> list[str | Written]:
+    """The law in symbols, for as many bodies as are ``carried`` along and ``turned``, and its sense."""
+    each = "Σ " * (max(carried, turned) > 1)
+    if not stated.balance.turns:
+        return [_formula(f"Σ F = {each}m a"), ", positive against that direction" * stated.turned]
+    parts = ["r × m a"] * (carried > 0) + ["I α"] * (turned > 0)
+    inertia = f"Σ ({' + '.join(parts)})" if each and len(parts) > 1 else each + " + ".join(parts) or "0"
+    return [_formula(f"Σ r × F = {inertia}"), ", clockwise" * stated.turned]
+
+
+def _formula(law: str) -> Written:
+    return Written(law, tuple(_SIGNS.get(sign) or Atom(sign) for sign in law if sign != " "))
+
+
+def _absent(subject: SymbolicState, stated: Stated) -> str:
+    """What is not in a balance, in half a sentence: ``A_x and A_y act at A.``"""
+    said = []
+    for why, loads in dropped(subject, stated).items():
+        names = [f"the friction of {x.name}" if x.follows else x.symbol for x in loads]
+        what, who = agree(why, len(names)), joined(names)
+        for long, short in _BRIEFLY:
+            what = long.sub(short, what)
+        said.append(what.format(who))
+    sentence = f"{'; '.join(said)}. " if said else ""
+    return f"The{sentence[3:]}" if sentence.startswith("the ") else sentence
+
+
+def _listed(parts: Sequence[Words], between: str) -> list:
+    return [piece for i, part in enumerate(parts) for piece in ([between] if i else []) + pieces(part)]
