@@ -24,7 +24,7 @@ MAY_USE = {
     "views": SOLVED | {"document", "stability"},
     "codegen": CORE | {"model", "solve", "document"},
     "equations": SOLVED | {"document", "codegen", "stability"},
-    "check": SOLVED | {"equations"},
+    "check": SOLVED | {"equations", "stability"},
     "catalogue": SOLVED | {"document", "equations", "check", "mechanism"},
     "cli": SOLVED
     | {

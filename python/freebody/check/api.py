@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -16,16 +16,20 @@ from freebody.symbolic.errors import StatementError
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
-from .families import ALL, Family
+from .families import ALL, Family, NoMotion
 from .language.dimensions import misfit
+from .language.statements import symbols_in
 from .motion_sampler import MotionSampler
 from .printed_symbols import PrintedSymbols
-from .symbols import Symbols
-from .verdict import Verdict, judged, of_wrong_dimensions
+from .symbols import DOUBTFUL, Symbols
+from .verdict import Kind, Verdict, judged, of_wrong_dimensions
+from .vibration import Vibration
+from .wording import with_condition_first
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
+_STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -44,21 +48,31 @@ class Checker:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
         self.sampler, self.printed = MotionSampler(mechanism, seed, **asked), PrintedSymbols(mechanism, **asked)
+        self.vibration = Vibration(self.sampler)
         self.hypothesis = ALL
         self.correcting = True
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
+        self._seed, self._asked = seed, asked
         self._runs: list[Any] = []  # the model's own, once it is asked for
+        self._beside: dict[tuple[str, str], Checker] = {}  # the same of other moments
 
     def symbols(self, declared: Declared | None = None) -> Symbols:
         """The symbols of the model with own ones. Raises ``ModelProblem``."""
-        return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity, self.printed)
+        return Symbols(self.mechanism, {**self.declared, **(declared or {})}, self.sampler.gravity, self.printed, self.vibration)
 
-    def case(self, text: str, letters: Declared | None = None, hypothesis: Family | None = None, units: bool = True) -> Case:
-        """A statement beside the motions that decide about it, read with ``units`` or without. Raises ``StatementError`` and
-        ``ModelProblem``."""
+    def case(
+        self,
+        text: str,
+        letters: Declared | None = None,
+        hypothesis: Family | None = None,
+        units: bool = True,
+        tight: bool = False,
+    ) -> Case:
+        """A statement beside the motions that decide about it, read with ``units`` or without, and ``tight`` or not as ``parse`` does.
+        Raises ``StatementError`` and ``ModelProblem``."""
         known = self.symbols(letters)
-        program = known.read(text, units)
+        program = known.read(text, units, tight)
         meaning = StatementSymbols(known, program, self.sampler)
         given = hypothesis or self.hypothesis
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
@@ -79,8 +93,10 @@ class Checker:
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         checker.budget = Budget(self.seconds)
         try:
-            verdict = claimed(checker, text, letters or {}) or _stated(checker, text, letters)
+            verdict = claimed(checker, text, letters or {}) or _stated(checker, with_condition_first(text), letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
+        except NoMotion as error:
+            return Verdict(Kind.UNDECIDABLE, text, str(error))
         except (ModelProblem, ModelError, MotionError) as error:
             what, hint = error.args[-2:]
         except ModelFileError as error:  # a number of a parameter that is none
@@ -92,6 +108,49 @@ class Checker:
         word = next((word for word in re.findall("`([^`]+)`", what) if word in text), text)
         start = text.find(word)
         raise StatementError(what, (start, start + len(word)), hint, text)
+
+    def beside(self, side: str, event: str) -> Checker:
+        """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
+        part that changes. Raises ``ModelProblem``."""
+        name = self._happening(event)
+        if (side, name) not in self._beside:
+            asked = {word: given for word, given in self._asked.items() if word not in ("at", "before", "after")}
+            self._beside[side, name] = type(self)(
+                self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: name}
+            )
+        other = copy(self._beside[side, name])
+        other.correcting = self.correcting
+        return other
+
+    def _happening(self, event: str) -> str:
+        """The name of what happens on the model's own run that words speak of."""
+        events = {e["name"]: None for e in self.sampler.spec["events"]}
+        said = re.sub(r"\A(?:the|an?)\s+", "", event)
+        if said in events:
+            return said
+        run, _ = self.moment("end")
+        parts = dict.fromkeys(part for change in run.changes for part in change.of)
+        words = re.findall(r"\w+", said)
+        for known in (events, parts):
+            found = [name for name in known if any(name == word or _alike(name, word) for word in words)]
+            if len(found) == 1:
+                return found[0]
+        impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
+        if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):
+            return next(iter(impacts))
+        what = ", ".join({**events, **parts}) or "nothing does"
+        raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
+
+    def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
+        """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, and the only body turning
+        clockwise; each with declarations, whether it is read so tightly, and what is to be said of it."""
+        if DOUBTFUL.search(text):
+            yield {}, True, ()
+        known = self.symbols(letters)
+        program = known.read(text)
+        turned = {name: said for name, said in known.senses.items() if name in known.assumed}
+        if turned and any(n.name in turned for n in symbols_in(program)):
+            yield turned, False, tuple(f"Here {name} is read clockwise: {said}." for name, said in turned.items())
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
@@ -108,9 +167,28 @@ class Checker:
             ) from None
 
 
+def _alike(name: str, word: str) -> bool:
+    """Whether two words begin alike: cut and cutting."""
+    return len(word) >= _STEM and name.lower().startswith(word.lower()[:_STEM])
+
+
 def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
-    """The verdict about equations."""
-    case = checker.case(text, letters)
+    """The verdict about equations; where they are not true, but are in another way in which they can be read, of that reading."""
+    judging = copy(checker)
+    judging.correcting = False
+    first = _judged(judging, text, letters)
+    if first.ok:
+        return first
+    for other, tight, note in checker.readings(text, letters or {}):
+        found = _judged(judging, text, {**(letters or {}), **other}, tight)
+        if found.ok:
+            return replace(found, notes=(*found.notes, *note))
+    return _judged(checker, text, letters) if checker.correcting else first
+
+
+def _judged(checker: Checker, text: str, letters: Declared | None, tight: bool = False) -> Verdict:
+    """The verdict about equations, read in one way."""
+    case = checker.case(text, letters, tight=tight)
     if case.program.units and (found := _in_figures(checker.case(text, letters, units=False))):
         return found
     if (error := misfit(case.program, case.meaning.symbols.dimensions)) is None:

@@ -14,13 +14,14 @@ import numpy as np
 
 from freebody.core import ModelError
 from freebody.model.errors import ModelProblem
+from freebody.model.names import spell
 from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.evaluate import Array, is_zero, sampled
 from freebody.symbolic.tree import Fn, Sym, walk
 
 from .case import Case
-from .families import ALL, Family, NoMotion
+from .families import Family, NoMotion
 from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, figures, residual, rounding, unreached
 
@@ -41,6 +42,8 @@ _WORDS: dict[str, dict[str, Any]] = {
     "without gravity": {"gravity": False},
     "with these numbers": {"numbers": True, "zeros": False},
 }
+SMALL_MOTIONS = "small motions"
+"""About where the model swings, or where all coordinates are 0."""
 _RELEASED = re.compile(r"(?:it |the motion )?(?:(?:is )?(?:released|started|starting|starts|begins) (?:from|at) rest|from rest)")
 _INFINITE = ("inf", "infinity", "∞", "oo")
 _FAR = (1e3, 1e6)
@@ -111,7 +114,7 @@ def _to_first_order(case: Case, equation: Equation) -> str:
 
 def first_order(case: Case, equation: Equation, family: Family) -> bool:
     """Whether what is left is of higher order than each term, as what is small grows smaller. Raises ``NoMotion``."""
-    larger = replace(family, small=tuple((text, 10 * size) for text, size in family.small))
+    larger = wider(family)
 
     def beside_terms(values: Mapping[str, Array]) -> float:
         """What is left of the equation beside the least of its terms, in the median."""
@@ -122,6 +125,22 @@ def first_order(case: Case, equation: Equation, family: Family) -> bool:
 
     far, near = (beside_terms(case.values(each, count=_STATES)) for each in (larger, family))
     return bool(near < HOLDS or (near < _NEGLIGIBLE and near < far / 3))
+
+
+def wider(family: Family) -> Family:
+    """The same with what is small ten times as large."""
+    return replace(family, small=tuple((text, 10 * size) for text, size in family.small))
+
+
+def says_zero(equation: Equation) -> bool:
+    """Whether one term alone is said to be 0."""
+    return len([term for term in terms(equation) if not is_zero(term)]) == 1
+
+
+def vanishes(equation: Equation, there: Mapping[str, Array], before: Mapping[str, Array], least: float = _SLOPE) -> bool:
+    """Whether the side of an equation beside 0 shrinks on the way to a limit."""
+    last, first = (float(np.median(np.abs(residual(equation, values).sides.residual))) for values in (there, before))
+    return last <= least * first
 
 
 def _holds(case: Case, equation: Equation, family: Family) -> bool:
@@ -159,7 +178,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     yield [("at rest, and these numbers of the model", replace(own, at_rest=True))]
     yield [("at the start", replace(given, at_start=True))]
     yield [("at the start, with these numbers of the model", replace(own, at_start=True))]
-    if not (given.at_rest or given.at_start or given.vanishing or given.small):
+    if not (given.at_rest or given.at_start or given.small):
         yield [("motions from the start of this model", replace(given, since="start"))]
         yield [("motions from the start of this model at rest", replace(given, since="rest"))]
 
@@ -219,22 +238,32 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
     parts = [part.strip() for part in re.split(r",|\band\b", text) if part.strip()]
     if not parts:
         raise ModelProblem("the hypothesis is empty", f"write one, like `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(_WORDS)}")
-    return reduce(lambda given, part: _also(given, part, checker, declared), parts, ALL)
+    return reduce(lambda given, part: _also(given, part, checker, declared), parts, checker.hypothesis)
 
 
 def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Family:
     """Those of some motions of which a part is true, too."""
     part = "the start is at rest" if _RELEASED.fullmatch(part) else part
+    if part == SMALL_MOTIONS:
+        rest = checker.vibration.rest
+        places = rest.q if rest else np.zeros(len(checker.sampler.names))
+        near = tuple(
+            (f"({spell(name)}) - ({q!r})", SMALL) for name, q in zip(checker.sampler.names, places.tolist(), strict=True)
+        )
+        return replace(given, small=(*given.small, *near))
     if part in _WORDS:
         return replace(given, **_WORDS[part])
-    if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(\S+)", part):
+    if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(.+)", part):
         return _with_limit(given, found[1], found[2], checker, declared)
     if part.count("=") != 1:
         raise ModelProblem(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(_WORDS)}")
     left, right = (side.strip() for side in part.split("="))
     if (name := _parameter(left, checker, declared)) is not None:
         return replace(given, held=(*given.held, (name, _meant(right, checker, declared))))
-    return replace(given, vanishing=(*given.vanishing, _meant(f"({left}) - ({right})", checker, declared)))
+    vanishing = _meant(f"({left}) - ({right})", checker, declared)
+    asks_past = "⟦" in vanishing or re.search(r"(?<![\w.])t(?![\w.(])", vanishing)
+    since = given.since or ("start" if asks_past else "")
+    return replace(given, vanishing=(*given.vanishing, vanishing), since=since)
 
 
 def _with_limit(given: Family, name: str, value: str, checker: Checker, declared: Declared) -> Family:
@@ -243,8 +272,12 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
     found = _parameter(name, checker, declared)
     if found is None and value not in _INFINITE:
         return replace(given, small=(*given.small, (_meant(f"({name}) - ({value})", checker, declared), SMALL)))
-    if found is None or value not in ("0", *_INFINITE):
-        raise ModelProblem(f"`{name} → {value}` is no limit that can be taken", "a free parameter goes to `inf` or to `0`")
+    if found is None:
+        raise ModelProblem(
+            f"`{name} → {value}` is no limit that can be taken", "a free parameter goes to `inf`, to `0` or a value"
+        )
+    if value not in ("0", *_INFINITE):
+        return replace(given, held=(*given.held, (found, _meant(value, checker, declared))))
     zero = replace(given, held=(*given.held, (found, 0.0)))
     if value == "0" and checker.sampler.has(zero):
         return zero
@@ -253,11 +286,20 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
 
 def _meant(expression: str, checker: Checker, declared: Declared) -> str:
     """An expression of the statement's symbols in the model language."""
-    return checker.symbols({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
+    try:
+        return checker.symbols({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
+    except ModelProblem as problem:
+        try:
+            return checker.symbols(declared).expression(expression)
+        except (StatementError, ModelProblem) as error:
+            if isinstance(error, StatementError) and "has no meaning" in error.what:
+                raise ModelProblem(error.what, error.hint) from None
+            raise problem from None
 
 
 def _parameter(name: str, checker: Checker, declared: Declared) -> str | None:
     """The free parameter of the model that a symbol stands for, or None."""
-    known = checker.symbols(declared).meanings
-    texts = known[name].texts if name in known else (name,)
+    known = checker.symbols(declared)
+    found = known.meanings.get(name) or known.spelt(name)
+    texts = found.texts if found else (name,)
     return texts[0] if len(texts) == 1 and texts[0] in checker.sampler.free_parameters else None

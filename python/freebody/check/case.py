@@ -95,7 +95,7 @@ class StatementSymbols:
     def needs_past(self) -> bool:
         """Whether it reads works, or where a motion started, which a state has only as one of a motion from the start."""
         read = [self._one(n) for n in self.required]
-        return any(one.kind == "initial" or any(map(_SUMMED.search, one.texts)) for one in read)
+        return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""
@@ -180,6 +180,8 @@ class StatementSymbols:
 
     def _is_fixed(self, symbol: Sym) -> bool:
         """Whether it is made of parameters alone."""
+        if self._one(symbol).kind == "vibration":
+            return False
         words = {word for text in self._one(symbol).texts for word in _WORD.findall(text)}
         return words <= {*(p["name"] for p in self.sampler.spec["parameters"]), "pi", "sqrt", "sin", "cos", "tan"}
 

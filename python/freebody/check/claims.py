@@ -19,16 +19,17 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import FAR, family, first_order, tiny
+from .assumptions import FAR, family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
 from .correction import corrections
-from .families import ALL, Samples
+from .families import ALL, AT_START, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
+from .wording import as_claim, with_condition_first
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -42,10 +43,11 @@ _FEWEST = 8  # places at which they have to be
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
-    given, claim = _defined(_AS_CONSTANT.sub(r"constant: \1", _BEHIND.sub(r"\2: \1", text.strip())))
+    given, claim = _defined(with_condition_first(text))
+    claim = as_claim(claim)
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
-            said = (part.strip() for part in found.groups())
+            said = ((part or "").strip() for part in found.groups())
             return replace(judge(checker, {**declared, **given}, *said), text=text.strip())
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
@@ -70,27 +72,21 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     return replace(verdict, assumption=condition) if verdict.ok else verdict
 
 
-def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
-    """At a moment of the model's own run, at rest, or wherever something has a value."""
-    if found := re.fullmatch(r"t\s*=\s*(.+)", moment):
-        moment = "start" if re.fullmatch(r"0\s*s?", found[1]) else found[1]
-    elif "=" in moment or moment == "rest":
-        return _if(checker, declared, "at rest" if moment == "rest" else moment, statement)
-    return timed_claims.at(checker, declared, moment, statement)
-
-
-def _for_small(checker: Checker, declared: Declared, names: str, statement: str) -> Verdict:
-    """To first order in coordinates."""
-    return _limit(checker, declared, statement, ", ".join(f"{name} -> 0" for name in re.split(r",|\band\b|\s", names) if name))
-
-
-def _initially(checker: Checker, declared: Declared, statement: str) -> Verdict:
-    """Where the model starts."""
-    return _if(checker, declared, "at the start", statement)
+def _beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
+    """Before or after something that happens on a motion, at once or until the next change."""
+    there = checker.beside(side, event)
+    verdict = there.check(statement, declared, AT_START if just else None)
+    if verdict.ok or just or side == "after":
+        return verdict
+    until = checker.check(statement, declared, SINCE_START, correcting=False)  # what is before it may be the motion up to it
+    return until if until.ok else verdict
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
     """``ΔT + ΔV = 0``: a sum that stays the same, each term of it a change."""
+    if "∫" in left + right or r"\int" in left + right:
+        since = (_CHANGED.sub(r"(\1 - \1_0)", side) for side in (left, right))
+        return checker.check(" = ".join(since), declared)
     case = _reading(checker, declared, f"({_CHANGE.sub('', left)}) - ({_CHANGE.sub('', right)})")
     (equation,), changes = case.equations, _CHANGE.findall(left + right)
     if len(terms(equation)) != len(changes):
@@ -121,6 +117,12 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
     values, before = case.values(), case.values(near)
     for equation in case.equations:
         found = residual(equation, values)
+        if says_zero(equation):
+            if not vanishes(equation, values, before if given.scaled else case.values(ALL)):
+                what = f"it does not vanish in the limit {limits}"
+                return Verdict(Kind.WRONG, statement, what, evidence=evidence(found, values))
+            rest = 0.0
+            continue
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(found, values))
@@ -130,6 +132,8 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
 def _small(case: Case, statement: str, limits: str) -> Verdict:
     """For small motions, to first order."""
     for equation in case.equations:
+        if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
+            continue
         if not first_order(case, equation, case.hypothesis):
             found = residual(equation, case.values())
             mends = tuple(corrections(near[1], equation)) if case.correcting and (near := tiny(case, equation)) else ()
@@ -274,15 +278,9 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
-_AS_CONSTANT = re.compile(
-    r"(?:[^=:;\n]+=\s*)*([^=:;\n]+?)\s*(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
-    r"(?=\s*$|\s+where\b|\s+with\b)"
-)
-"""``E = T + V = const``, ``p is conserved``, as people write that something is constant."""
-_BEHIND = re.compile(r"\A([^:;\n]+=[^:;\n]+?),?\s+((?:when|if|for|at)\s[^:;\n]+)\Z")
-"""A condition behind an equation: ``… when θ = 0``."""
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
+_CHANGED = re.compile(r"(?:Δ|\\Delta)\s*([A-Za-z])")
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",
@@ -300,10 +298,8 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),
     (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), timed_claims.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
-    (re.compile(r"at (.+?):(.+)", re.S), _at),
-    (re.compile(r"(?:when|for) small (.+?):(.+)", re.S), _for_small),
-    (re.compile(r"(?:when|for)\b(.+?):(.+)", re.S), _if),
-    (re.compile(r"initially:?(.+)", re.S), _initially),
+    (re.compile(r"at (.+?):(.+)", re.S), timed_claims.at),
+    (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), _beside_event),
     (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), _changes),
     (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),
 )

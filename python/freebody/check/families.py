@@ -11,7 +11,8 @@ import numpy as np
 from freebody.core import CompiledModel, State
 from freebody.run.records import Array, quote
 
-from .user_symbols import LOAD
+from .integrals import summed
+from .user_symbols import LOAD, OF_START, SUMMED
 
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 
@@ -43,6 +44,10 @@ class Family:
 
 ALL = Family()
 """Every motion of the model, with every parameter free."""
+AT_START = Family(at_start=True)
+"""Where the model starts, with every parameter free."""
+SINCE_START = Family(since="start")
+"""The motions that begin where the model does, until something switches."""
 
 
 @dataclass
@@ -53,6 +58,8 @@ class Samples:
 
     core: CompiledModel
     states: list[State]
+    starts: list[State] = field(default_factory=list)
+    """Where the motion of each state began, if that is known."""
     stress: float = 1.0
     loose: set[str] = field(default_factory=set)
     known: dict[str, Array] = field(default_factory=dict)
@@ -63,17 +70,24 @@ class Samples:
         new = [text for text in dict.fromkeys(texts) if text not in self.known]
         if new:
             rng = np.random.default_rng(17)
-            rows = np.array([self._stressed(state, new, self._row(state, new), rng) for state in self.states])
+            rows = np.array([self._stressed(state, new, self._row(k, new), rng) for k, state in enumerate(self.states)])
             self.known |= {text: rows[:, i] for i, text in enumerate(new)}
         return {text: self.known[text] for text in texts}
 
-    def _row(self, state: State, texts: Sequence[str]) -> Array:
-        plain = [text for text in texts if not text.startswith(LOAD)]
-        found = self.core.evaluate(plain, state)
+    def _row(self, k: int, texts: Sequence[str]) -> Array:
+        """Expressions, loads and what is asked of the start, in one state."""
+        state, start = self.states[k], self.starts[k] if self.starts else None
+        of_start = {text: at_start(text, self.core, start) for text in texts if OF_START.search(text)} if start else {}
+        read = {text: of_start.get(text, text) for text in texts}
+        plain = [text for text, of in read.items() if not of.startswith((LOAD, SUMMED)) and not OF_START.search(of)]
+        found = self.core.evaluate([read[text] for text in plain], state)
         if len(plain) == len(texts):
             return found
-        loads = self.core.free_bodies(state).loads
-        known = {LOAD + load.symbol: load.value for load in loads} | dict(zip(plain, found.tolist(), strict=True))
+        known = dict(zip(plain, found.tolist(), strict=True))
+        if any(text.startswith(LOAD) for text in texts):
+            known |= {LOAD + load.symbol: load.value for load in self.core.free_bodies(state).loads}
+        if start:
+            known |= {text: summed(text, self.core, start, state) for text in texts if text.startswith(SUMMED)}
         return np.array([known.get(text, np.nan) for text in texts])
 
     def _stressed(self, state: State, texts: Sequence[str], row: Array, rng: np.random.Generator) -> Array:
@@ -94,6 +108,11 @@ class Samples:
             for name in rows[0]:
                 self.weighed[name] = np.array([row[name].mass for row in rows]), np.array([row[name].inertia for row in rows])
         return self.weighed
+
+
+def at_start(text: str, core: CompiledModel, start: State) -> str:
+    """An expression with numbers for what is asked of the start of the motion."""
+    return OF_START.sub(lambda found: f"({float(core.evaluate([found[1]], start)[0])!r})", text)
 
 
 # -- reactions that the balances leave open

@@ -20,7 +20,7 @@ from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE, Dimension
 
 from .admissible import UnderOtherLoads
-from .families import ALL, Family, NoMotion, Samples
+from .families import ALL, Family, NoMotion, Samples, at_start
 from .sides import changes_side, squares
 
 if TYPE_CHECKING:
@@ -46,6 +46,12 @@ _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need n
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
+_LONG = 12.0  # of the time typical of the model: where within that something vanishes on a run it is found
+_LOOKS, _FINER, _SHORTEST = (
+    65,
+    12,
+    1e-15,
+)  # times at which it is looked for between two, how often again, and how near they may come
 _STEPS = 2000  # of a run, which is short
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 
@@ -107,13 +113,15 @@ class MotionSampler:
         """True states of a family; ``fresh`` other than 0 gives others than before. Raises ``NoMotion``."""
         key = (family, 1000 * fresh + count)
         if key not in self._families:
-            self._families[key] = Samples(self.core, self._drawn_samples(family, count, fresh))
+            made = self._drawn_samples(family, count, fresh)
+            self._families[key] = Samples(self.core, [state for state, _ in made], [start for _, start in made if start])
         if not self._families[key].states:
             try:
                 _ = self.own
             except MotionError as error:
                 raise NoMotion(f"the model does not start: {error.what}") from None
             there = "".join(f"has `{_stated(text)}` and " for text in family.vanishing)
+            there += "no freedom is left in it to arrange that, and it " if family.vanishing and not self._free_rates.size else ""
             why = "is not singular, on a limit or of another mode than its start"
             raise NoMotion(f"no motion of this model was found that {there}{why}")
         return self._families[key]
@@ -124,10 +132,10 @@ class MotionSampler:
             return bool(self.samples(family, _PATIENCE).states)
         return False
 
-    def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[State]:
-        """``count`` samples; none where the first ones already fail."""
+    def _drawn_samples(self, family: Family, count: int, fresh: int) -> list[tuple[State, State | None]]:
+        """``count`` samples, each with where its motion began if that is known; none where the first ones already fail."""
         rng = np.random.default_rng([self.seed, fresh])
-        found: list[State] = []
+        found: list[tuple[State, State | None]] = []
         for i in range(count):
             if i == _PATIENCE and not found:
                 return []
@@ -138,17 +146,24 @@ class MotionSampler:
                         break
         return found if len(found) >= min(_ENOUGH, count) else []
 
-    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        if family.since and not family.at_start:
-            found = self._since_start(rng, values, family)
+    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State, State | None] | None:
+        start = None
+        driven = bool(family.vanishing and self.spec["motions"]) and not self._free_rates.size
+        if (family.since or driven) and not family.at_start:
+            found, start = self._since_start(rng, values, family)
         elif self.restricted:
             found = self._near_moment(rng, values, family)
         else:
             found = self._started(values) if family.at_start else self._anywhere(rng, values, family)
-        lost = [text for text in family.vanishing if found and not self._vanishes(text, found)]
+        start = found if family.at_start else start
+        lost = [
+            text
+            for text in family.vanishing
+            if found and not self._vanishes(at_start(text, self.core, start) if start else text, found)
+        ]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{_stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
-        return None if lost else found
+        return None if lost or not found else (found, start)
 
     def _vanishes(self, text: str, state: State) -> bool:
         """Whether an expression is 0 there."""
@@ -299,13 +314,18 @@ class MotionSampler:
         motion = self._run(state, max(late, 1e-6 / self.rate))
         return self._sampled(motion.state(state.t + min(late, 0.9 * (motion.end.t - state.t))))
 
-    def _since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
+    def _since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
         """A state on a run from the model's own start with random numbers, with the rates there or at rest, from the moment on and
-        before anything switches."""
-        state = self._at_moment(values, self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None)
-        motion = self._run(state, rng.uniform(0.05, 0.3) / self.rate, _EXACT)
-        ends = [motion.end.t, *(change.t for change in motion.changes if change.t > state.t)]
-        return self._sampled(motion.state(state.t + 0.99 * (min(ends) - state.t)))
+        before anything switches, where what vanishes first does so; and that start."""
+        start = self._at_moment(values, self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None)
+        long = _LONG if family.vanishing else rng.uniform(0.05, 0.3)
+        motion = self._run(start, long / self.rate, _EXACT)
+        ends = [motion.end.t, *(change.t for change in motion.changes if change.t > start.t)]
+        if not family.vanishing:
+            return self._sampled(motion.state(start.t + 0.99 * (min(ends) - start.t))), start
+        first = at_start(family.vanishing[0], self.core, start)
+        t = first_zero(lambda times: motion.evaluate([first], times)[:, 0], start.t, min(ends))
+        return (None if t is None else self._sampled(motion.state(t))), start
 
     def _sampled(self, found: State) -> State | None:
         """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge."""
@@ -411,6 +431,23 @@ def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
     """Derivatives of several numbers, a row each, by central differences."""
     columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T if columns else np.zeros((1, 0))
+
+
+def first_zero(of: Callable[[Array], Array], begins: float, ends: float) -> float | None:
+    """Where a function of time, read at many times at once, first goes through 0 behind its beginning; None where it does not."""
+    times = np.linspace(begins, ends, _LOOKS)
+    for _ in range(_FINER):
+        values = of(times)
+        crossings = np.flatnonzero((values[1:-1] * values[2:] <= 0) & (values[1:-1] != 0)) + 1
+        if not len(crossings) and values[0] * values[1] < 0:
+            crossings = np.zeros(1, int)
+        if not len(crossings):
+            return None
+        a, b = times[crossings[0]], times[crossings[0] + 1]
+        if b - a <= _SHORTEST * (abs(b) + ends - begins):
+            return float(b - (b - a) * values[crossings[0] + 1] / (values[crossings[0] + 1] - values[crossings[0]]))
+        times = np.linspace(a, b, _LOOKS)
+    return float(times[-1])
 
 
 def _about(rng: np.random.Generator) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,22 +17,25 @@ from freebody.model.writer import Writer
 from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Column, Matrix, Sym, walk
+from freebody.symbolic.tree import Column, Matrix, Sym, exchange, substitute, walk
 
-from .language.dimensions import check_dimensions, misfit
+from . import integrals
+from .language.dimensions import check_dimensions, dimension, misfit
 from .language.elimination import Elimination, eliminated
 from .language.parser import parse, parse_expression
+from .language.sizes import with_sizes
 from .language.spelling import spell as written
-from .language.statements import Program, symbols_in
+from .language.statements import Integral, Program, inlined, symbols_in
 from .language.tokens import Names
 from .printed_symbols import PrintedSymbols
-from .user_symbols import Array, Meaning, Reader
-from .usual_names import ENERGIES, usual
+from .user_symbols import INITIAL, OF_START, Array, Meaning, Reader
+from .usual_names import ENERGIES, senses, usual
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
     from .families import Samples
+    from .vibration import Vibration
 
 _WITHOUT = {
     "contact": {"tension", "slack"},
@@ -39,6 +43,8 @@ _WITHOUT = {
     "stop": {"T", "tension", "slack", "x", "y", "slip"},
 }
 """Readings of every limit that say nothing of one kind."""
+_DAMPED = re.compile(r"\\?(omega|[ωTfτ])_(?:d(?!\w)|\{d\})")
+"""ω_d and the like, which would be rates as programs have them."""
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])")
 _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
@@ -47,7 +53,7 @@ _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _SHORT = {"Fx": "x", "Fy": "y"}
 _WORD = 3
 """Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
-_DOUBTFUL = re.compile(r"/\s*\d+[^\W\d]")
+DOUBTFUL = re.compile(r"/\s*\d+[^\W\d]")
 """2k/3m, of which only a person knows whether m is below the stroke."""
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
@@ -77,7 +83,9 @@ class Symbols:
         declared: Mapping[str, str | Sequence[str | float]] | None = None,
         gravity: str | None = None,
         printed: PrintedSymbols | None = None,
+        vibration: Vibration | None = None,
     ) -> None:
+        self.vibration = vibration
         self.printed = printed or PrintedSymbols(mechanism)
         lowered = mechanism.lowered()
         self.spec, self.start = lowered.spec, lowered.start
@@ -89,10 +97,14 @@ class Symbols:
         self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         self.declared: set[str] = set()
+        self.own = frozenset(declared or ())
         self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         for name, said in (declared or {}).items():
-            self._declare(name, said)
+            try:
+                self._declare(name, said)
+            except ModelProblem as problem:
+                self._declare_as_stated(name, said, problem)
             self._hide_others(name)
 
     # --- what there is -------------------------------------------------------------------------
@@ -114,10 +126,10 @@ class Symbols:
     @property
     def constants(self) -> list[str]:
         """Symbols that do not change with time."""
-        return self.of_kind("parameter", "gravity", "direction")
+        return self.of_kind("parameter", "gravity", "direction", "initial", "vibration", "inertia")
 
-    def read(self, text: str, units: bool = True) -> Program:
-        """The statement that a text is, with ``units`` for symbols of their names where dimensions fit only so. What it asks of the
+    def read(self, text: str, units: bool = True, tight: bool = False) -> Program:
+        """The statement that a text is, ``tight`` or not as ``parse`` reads it, with ``units`` for symbols of their names where dimensions fit only so. What it asks of the
         model in the model's own words, ``ax(rod.G)``, ``energy()``, ``accel(s)``, becomes a symbol, too. Raises ``StatementError``."""
         for found in _READING.finditer(text):
             name = "".join(found[0].split())
@@ -131,40 +143,116 @@ class Symbols:
                 has = [name.removeprefix(f"{owner}.") for name in self.meanings if name.startswith(f"{owner}.")]
                 hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
                 raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
-        program = parse(text, self.names, self.constants)
+        self._vibrating(f"{'ω' if found[1] == 'omega' else found[1]}_d" for found in _DAMPED.finditer(text))
+        program = self._parsed(text, self.names, tight=tight)
         # what printed equations call things comes after the symbols of the model, and then what letters usually mean
-        for added in (lambda: self.printed.plain, lambda: self.printed.momenta, lambda: self._assume(self._usual)):
+        usual = (lambda: self._usual, lambda: self._initial(program))
+        for added in (lambda: self.printed.plain, lambda: self.printed.momenta, *usual):
             if self._unknown(program):
-                self._add(added(), program)
-                program = parse(text, self.names, self.constants)
+                self._add(added(), program, assumed=added in usual)
+                program = self._parsed(text, self.names, tight=tight)
         names = self.names
         if clashing := self._clashing(program):
             names = tuple(name for name in names if name not in clashing)
-            program = parse(text, names, self.constants)
+            program = self._parsed(text, names, tight=tight)
         program = self._eliminated(program)
         if self._unknown(program):
-            self._add(self._assume(ENERGIES), program)
+            self._add(ENERGIES, program, assumed=True)
+            self._vibrating(n.name for n in self._unknown(program) if not n.dots)
             names = (*names, *(name for name in self.names if name not in names))
-            program = self._eliminated(parse(text, names, self.constants))
-        others = ({"units": True}, {"tight": True}) if units else ({"tight": True},)
-        for way in others if misfit(program, self.dimensions, strictly=True) else ():
-            with suppress(StatementError):  # 5 m/s is a speed though m and s are symbols, if dimensions fit only so
-                other = self._eliminated(parse(text, names, self.constants, **way))
-                check_dimensions(other, self.dimensions)
-                return other
+            program = self._eliminated(self._parsed(text, names, tight=tight))
+        self._require_written_out(program)
+        return self._sized(self._fitting(program, names, units))
+
+    def _require_written_out(self, program: Program) -> None:
+        """Raises ``StatementError`` where something is differentiated partially that holds a symbol of which it is not known how it
+        depends on coordinates."""
+        if not re.search(r"∂|\\partial", program.text):
+            return
+        lasting = ("initial", "inertia", "vibration")
+        for n in symbols_in(program):
+            if n.name in self.assumed and n.name in self.meanings and self.meanings[n.name].kind not in lasting:
+                what = f"what ∂ makes of `{n.name}` is not known: it is not written out"
+                raise StatementError(what, n.span, f"give it in a line: `{n.name} = …`", program.text)
+
+    def _parsed(self, text: str, names: Sequence[str], **way: bool) -> Program:
+        """The lines of a text, with integrals of what has a meaning as symbols of their own."""
+        program = parse(text, names, self.constants, **way)
+        constants = self.of_kind("parameter", "gravity")
+        for node in [n for n in walk(program) if isinstance(n, Integral)]:
+            if all(n.name in self.meanings for n in (*symbols_in(node.of), node.by)):
+                name = f"∫_({written(node.lower)})^({written(node.upper)}) {written(node.of)} d{node.by.name}"
+                found = integrals.meaning(node, self.meanings, lambda of: self._measured(written(of))[0], constants)
+                parts = [dimension(part, self.dimensions) for part in (node.of, node.by)]
+                size = parts[0].times(parts[1]) if None not in parts else None
+                self._put(name, replace(found, dimension=size))
+                program = exchange(program, node, Sym(name, span=node.span))
         return program
 
-    def _assume(self, found: Mapping[str, str]) -> Mapping[str, str]:
-        self.assumed |= found
+    def _fitting(self, program: Program, names: Sequence[str], units: bool) -> Program:
+        """The same, or where its dimensions do not fit, as it fits: T a period, 5 m/s a speed though m and s are symbols, 2k/3m with m below
+        the stroke."""
+        if not misfit(program, self.dimensions, strictly=True):
+            return program
+        ways: list[dict[str, bool]] = [{"units": True}, {"tight": True}] if units else [{"tight": True}]
+        energy = self.meanings.get("T") if "T" in self.assumed else None
+        period = self.vibration.meanings(["period"]).get("period") if energy and self.vibration else None
+        for meaning in (energy, period) if period else (None,):
+            if meaning:
+                self.meanings["T"] = meaning
+            for way in ([{}] if meaning and meaning is period else []) + ways:
+                with suppress(StatementError):
+                    other = self._eliminated(self._parsed(program.text, names, **way))
+                    check_dimensions(other, self.dimensions)
+                    if meaning and meaning is period:
+                        self._vibrates("T", meaning)
+                    return other
+        if energy:
+            self.meanings["T"] = energy
+        return program
+
+    def _sized(self, program: Program) -> Program:
+        """The same with letters that usually are vectors as their sizes, where it makes sense only so."""
+        vectors = {name for name, m in self.meanings.items() if m.is_vector}
+        loose = {name for name in vectors - self.own if re.match("[vra](_|$)", name)}
+        program, sized = with_sizes(program, vectors, loose)
+        self.assumed |= {name: f"the size of {self.assumed.get(name, name)}, without a sign" for name in sized}
+        return program
+
+    def _vibrating(self, names: Iterable[str]) -> None:
+        """What a small vibration has, where names without a meaning may be that."""
+        known = {folded(name) for name in self.meanings}
+        asked = [name for name in names if folded(name) not in known]
+        for name, meaning in self.vibration.meanings(asked).items() if self.vibration else ():
+            self._put(name, meaning)
+            self._vibrates(name, meaning)
+
+    def _vibrates(self, name: str, meaning: Meaning) -> None:
+        self.assumed[name] = f"the {meaning.texts[0]} of small vibrations about {self.vibration.place}"  # type: ignore[union-attr]
+
+    def _initial(self, program: Program) -> dict[str, str]:
+        """Of symbols with the index 0 what is asked: θ₀, v₀, of anything that has a meaning without it."""
+        known = {**{folded(name): name for name in self.meanings}, **{folded(name): said for name, said in ENERGIES.items()}}
+        found = {}
+        for name in (n.name for n in self._unknown(program) if not n.dots and n.name.endswith("0")):
+            base = known.get(folded(name[:-1].rstrip("_")))
+            if base in self.meanings and self.meanings[base].is_vector:
+                base = "hypot({}, {})".format(*self.meanings[base].texts[:2])
+            if base:
+                found[name] = INITIAL + base
         return found
 
-    def _add(self, found: Mapping[str, str], program: Program) -> None:
-        """Symbols that are not taken by what there is, or by a line of the statement."""
+    def _add(self, found: Mapping[str, str], program: Program, assumed: bool = False) -> None:
+        """Symbols that are not taken by what there is, or by a line of the statement; of those that are only ``assumed``, which a
+        statement needs."""
         taken = {folded(name) for name in (*self.meanings, *(line.name.name for line in program.assignments))}
+        written = folded(re.sub(r"[\\{}\s]", "", program.text))
+        unknown = [folded(n.name) for n in self._unknown(program)]
         for name, said in found.items():
-            if folded(name) not in taken:
+            if folded(name) not in taken and (not assumed or any(folded(name) in text for text in (written, *unknown))):
                 with suppress(ModelProblem):
                     self._declare(name, said)
+                    self.assumed |= {name: said} if assumed else {}
 
     def _unknown(self, program: Program) -> list[Sym]:
         """The symbols of a program that have no meaning."""
@@ -204,7 +292,7 @@ class Symbols:
         said = [re.split(r"[;\n]", program.text[line.span[0] :])[0].strip() for line in gone]
         made = [f"Here {line.name.name} is what `{text}` makes it." for line, text in zip(gone, said, strict=True)]
         made += [f"Here {name} is read as: {self.assumed[name]}." for name in self.assumed if name in said_names]
-        if program.tight or (_DOUBTFUL.search(program.text) and misfit(program, self.dimensions)):
+        if program.tight or (DOUBTFUL.search(program.text) and misfit(program, self.dimensions)):
             made.append(f"It is read as: {written(program)}")
         return (*clashes, *made, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))
 
@@ -236,6 +324,19 @@ class Symbols:
         near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(symbol.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
         raise ModelProblem(f"the symbol `{symbol.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
+
+    def expression(self, text: str) -> str:
+        """An expression of a statement in the model language; what is asked of the start of a motion between ⟦ and ⟧. Raises
+        ``StatementError`` and ``ModelProblem``."""
+        program = self.read(f"{text} = 0")
+        (line,), given = inlined(program), {}
+        for symbol in self.require(program):
+            meaning = self._meaning(symbol)
+            if meaning.is_vector or meaning.kind in ("integral", "quadrature", "vibration"):
+                raise ModelProblem(f"`{symbol.key}` cannot stand in a condition")
+            (said,) = meaning.needed(symbol.dots)
+            given[symbol] = Sym(f"({said})")
+        return written(substitute(line.left, given))
 
     # --- building ------------------------------------------------------------------------------
 
@@ -291,6 +392,15 @@ class Symbols:
         except ModelProblem as problem:
             raise ModelProblem(f"symbol `{name}`: {problem.what}", problem.hint) from None
 
+    def _declare_as_stated(self, name: str, said: str | Sequence[str | float], problem: ModelProblem) -> None:
+        """A symbol by an expression in which something is asked of the start: ``2 v_0/g``."""
+        with suppress(StatementError, ModelProblem):
+            text = self.expression(said) if isinstance(said, str) else ""
+            if OF_START.search(text):
+                self._put(name, Meaning("initial", (text,)))
+                return
+        raise problem
+
     def _hide_others(self, name: str) -> None:
         """What of the model reads like a declared symbol is not meant by it: ω is not the parameter omega."""
         for other in [n for n in self.meanings if n not in self.declared and folded(n) == folded(name)]:
@@ -329,7 +439,18 @@ class Symbols:
 
     @cached_property
     def _usual(self) -> dict[str, str]:
-        return dict(usual(self.spec, self.metadata, self.start))
+        own = {name: m.texts[0] for name, m in self.meanings.items() if name in self.declared and len(m.texts) == 1}
+        return usual(self.spec, self.metadata, own)
+
+    def spelt(self, name: str) -> Meaning | None:
+        """What a name means that may be spelt as in LaTeX."""
+        found = self._spellings.find(folded(re.sub(r"[\\{}]", "", name)))
+        return self.meanings[found[0]] if found and not found[1] else None
+
+    @cached_property
+    def senses(self) -> dict[str, str]:
+        """ω and α of the only body in the other sense, where no coordinate says which is meant."""
+        return senses(self.spec, self.metadata)
 
     @cached_property
     def _spellings(self) -> Names:

@@ -23,6 +23,7 @@ from .language.parser import parse
 from .language.spelling import spell
 from .language.statements import Equation
 from .residual import Sides, equation_sides, figures, last_digit, rounding, slope
+from .user_symbols import OF_START
 from .verdict import Evidence, Kind, Verdict
 
 if TYPE_CHECKING:
@@ -166,7 +167,13 @@ class _OnRun:
         """Each expression, (nt,)."""
         sampler = self.checker.sampler
         own = {sampler.gravity: sampler.free_parameters.get(sampler.gravity)}
-        return {text: np.full(len(self.times), own[text]) if text in own else self.read(text, self.times) for text in texts}
+        read = {text: self._with_start(text) for text in texts}
+        return {text: np.full(len(self.times), own[of]) if of in own else self.read(of, self.times) for text, of in read.items()}
+
+    def _with_start(self, text: str) -> str:
+        """An expression with numbers for what is asked of the start of the run."""
+        begins = np.array([self.run.edges[0]])
+        return OF_START.sub(lambda found: f"({float(self.read(found[1], begins)[0])!r})", text)
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """As of the model's own numbers."""

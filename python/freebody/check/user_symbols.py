@@ -40,6 +40,8 @@ class Meaning:
 
     def needed(self, dots: int) -> list[str]:
         """The expressions from which its derivative of that order is read. Raises ``ModelProblem``."""
+        if self.kind in ("initial", "integral"):
+            return [OF_START.sub(lambda found: f"⟦{derivative(found[1], dots)}⟧", text) for text in self.texts]
         return [derivative(text, dots) for text in self.texts]
 
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
@@ -75,6 +77,14 @@ class OfBodies(Meaning):
         return found if self.axis is None else found[:, self.axis]
 
 
+@dataclass(frozen=True)
+class RadiusOfGyration(OfBodies):
+    """√(I/m) of one body."""
+
+    def value(self, dots: int, values: Values, masses: Masses) -> Array:
+        return np.sqrt(super().value(dots, values, masses) / masses()[self.bodies[0]][0])
+
+
 _KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}
 _POINT = r"(\S+)"
 _PLACE = re.compile(rf"(position|velocity|acceleration) of {_POINT}(?: (?:from|relative to) {_POINT})?")
@@ -83,9 +93,13 @@ _JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
 _GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\[.+\]|\S+?)(, along k)?")
 _MOMENTUM = re.compile(r"momentum of (.+) along \[(.+)\]")
 _FORCE = re.compile(r"force on (.+?)(?: along ([xy]))?")
-_INERTIA = re.compile(rf"inertia of (.+) about {_POINT}")
+_INERTIA = re.compile(rf"(inertia|radius of gyration) of (.+) about {_POINT}")
 INITIAL = "at the start: "
-"""How a text begins that says what a coordinate or a rate is where the motion starts."""
+"""How a declaration begins of what something is where the motion starts."""
+OF_START = re.compile("⟦(.+?)⟧")
+"""A part of a text whose value where the motion starts is asked."""
+SUMMED = "summed up: "
+"""How a text begins of an integral along the motion: what is summed up, over what, from where."""
 LOAD = "load "
 """How a text begins that names a load of the free-body diagrams, one place of a contact that holds at several, by its symbol."""
 
@@ -108,7 +122,8 @@ class Reader:
             return self.components(list(said))
         phrase = " ".join(said.split())
         if phrase.startswith(INITIAL):
-            return Meaning("initial", (self.measured(phrase.removeprefix(INITIAL))[0],))
+            text, dimension = self.measured(phrase.removeprefix(INITIAL))
+            return Meaning("initial", (f"⟦{text}⟧",), dimension)
         if phrase.startswith(LOAD):
             return Meaning("reaction", (phrase,), FORCE)
         phrases = {_PLACE: self.place, _DIRECTION: self.direction, _JOINT: self.reaction}
@@ -186,12 +201,15 @@ class Reader:
             out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)
 
-    def inertia(self, body: str, point: str) -> Meaning:
-        """The moment of inertia of a body about a point, by the parallel axis."""
+    def inertia(self, what: str, body: str, point: str) -> Meaning:
+        """The moment of inertia of a body about a point, by the parallel axis, or its radius of gyration."""
         (name,) = self.group(body)
         square = f"(x({point}) - x({spell(name)}.G))^2 + (y({point}) - y({spell(name)}.G))^2"
         parts = ("0", "0", self.measured(square)[0], "0" if name in self.particles else "1")
-        return OfBodies("declared", parts, MASS.times(LENGTH, 2), (name,), axis=2)
+        kind = "inertia" if point.startswith(f"{spell(name)}.") else "declared"
+        if what != "inertia":
+            return RadiusOfGyration(kind, parts, LENGTH, (name,), axis=2)
+        return OfBodies(kind, parts, MASS.times(LENGTH, 2), (name,), axis=2)
 
     def resultant(self, bodies: str, axis: str | None) -> Meaning:
         """All that acts on bodies from outside: Σ m a of their mass centres; its component along an axis."""

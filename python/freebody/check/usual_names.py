@@ -1,74 +1,115 @@
-"""What letters mean that nobody declared, as textbooks use them: ``α`` of the only body, ``a_{Gx}``, ``v_B``, ``I_O``, ``ΣM_O``, ``θ₀``,
-``T`` and ``V``. They come after all names of the model and of the person, and the verdict says how they were read."""
+"""What letters mean that nobody declared, as textbooks use them: ``α`` of the only body, ``a_{Gx}``, ``v_B``, ``r_{B/O}``, ``I_O``, ``k_G``,
+``H_O``, ``ΣM_O``, ``ω_1``, ``T``, ``V``. They come after all names of the model and of the person, and the verdict says how they were read."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from itertools import permutations
 from typing import Any
 
 from freebody.model.names import spell
-from freebody.model.start import Start
-
-from .user_symbols import INITIAL
 
 _LETTER = re.compile(r"[^\W\d_]\w?")
 ENERGIES = {**dict.fromkeys(("T", "K", "KE"), "kinetic()"), **dict.fromkeys(("V", "U", "PE"), "potential()"), "E": "energy()"}
 """What they mean where no line of the statement makes them something else."""
+_RATES = {"rate": "accel", "omega": "alpha"}
+
+Points = Mapping[str, tuple[str, str]]
+"""Body and name of each point that has a letter."""
 
 
-def usual(spec: Mapping[str, Any], metadata: Mapping[str, Any], start: Start) -> Iterator[tuple[str, str]]:
-    """Letters with what they mean in a model, as a declaration; only those that can mean but one thing."""
+def usual(spec: Mapping[str, Any], metadata: Mapping[str, Any], declared: Mapping[str, str]) -> dict[str, str]:
+    """Letters with what they mean in a model, as a declaration; only those that can mean but one thing. ``declared`` are expressions of
+    a person's own symbols: ω is the rate of turning to the α that is one of them."""
     points, rigid = _points(spec), [body["name"] for body in spec["bodies"] if not body["particle"]]
-    for letter, (_, point) in points.items():
-        for symbol, read in (("", ""), ("v_", "v"), ("a_", "a")):
-            parts = [f"{read}{axis}({point})" for axis in "xy"]
-            yield from (
-                (f"{symbol or axis + '_'}{letter}{axis * bool(symbol)}", part) for axis, part in zip("xy", parts, strict=True)
-            )
-            if symbol:
-                yield symbol + letter, f"[{', '.join(parts)}]"
-        yield f"ΣM_{letter}", f"moment on all about {point}, along k"
-    yield from ((f"ΣF_{axis}", f"force on all along {axis}") for axis in "xy")
-    yield from (pair for body in rigid for pair in _of_body(body, points, alone=len(rigid) == 1))
-    yield from _of_coordinates(metadata, start)
+    turns = spell(metadata["coordinates"][0]["name"]) if len(metadata["coordinates"]) == 1 else ""
+    found = [*_partners(declared), *_of_points(points, turns)]
+    found += [(f"ΣF_{axis}", f"force on all along {axis}") for axis in "xy"]
+    found += [pair for body in rigid for pair in _of_body(spec, body, points, alone=len(rigid) == 1)]
+    found += [*_of_coordinates(metadata)]
+    found += [(f"T_{name}", f"{spell(name)}.tension") for name in (each["name"] for each in spec["strings"])]
+    if len(spec["bodies"]) == 1:
+        centre = f"{spell(spec['bodies'][0]['name'])}.G"
+        found += [("v", f"velocity of {centre}"), ("a", f"acceleration of {centre}")]
+    return dict(reversed(found))  # what comes first stays
+
+
+def senses(spec: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict[str, str]:
+    """ω and α of the only body clockwise, where no coordinate says which sense is meant."""
+    rigid = [body["name"] for body in spec["bodies"] if not body["particle"]]
+    if len(rigid) != 1 or any(c["dimension"] == "rad" for c in metadata["coordinates"]):
+        return {}
+    return {symbol: f"-{read}({spell(rigid[0])})" for symbol, read in (("ω", "omega"), ("α", "alpha"))}
+
+
+def _partners(declared: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """ω where only α is declared, and the other way."""
+    for one, other, words in (("α", "ω", {b: a for a, b in _RATES.items()}), ("ω", "α", _RATES)):
+        if one in declared and other not in declared:
+            yield other, re.sub(rf"\b({'|'.join(words)})(?=\()", lambda found, words=words: words[found[1]], declared[one])
 
 
 def _points(spec: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
-    """Body and name of each point that has a letter, its own or that of the joint there; G of the only body."""
+    """Body and name of each point that has a letter, its own, its body's, or that of the joint there; G of the only body."""
     named = [(point["body"], point["name"], point["name"].rpartition(".")[2]) for point in spec["points"]]
-    ground = ("ground", "ground.O", "O")
+    named += [(body["name"], f"{spell(body['name'])}.G", body["name"]) for body in spec["bodies"] if body["particle"]]
     joints = [(joint["with"].get("point") or (joint["with"].get("of") or [""])[-1], joint["name"]) for joint in spec["joints"]]
     named += [(point.rpartition(".")[0], point, letter) for point, letter in joints if isinstance(point, str) and "." in point]
     if len(spec["bodies"]) == 1:
         named.append((spec["bodies"][0]["name"], f"{spell(spec['bodies'][0]['name'])}.G", "G"))
     letters = [each for each in named if _LETTER.fullmatch(each[2])]
-    moving = {letter for *_, letter in letters}
-    letters += [] if "O" in moving else [ground]
+    moving = {letter for body, _, letter in letters if body != "ground"}
+    letters = [each for each in letters if each[0] != "ground" or each[2] not in moving]
+    letters += [] if any(letter == "O" for *_, letter in letters) else [("ground", "ground.O", "O")]
     return {letter: (body, point) for body, point, letter in letters if sum(letter == other for *_, other in letters) == 1}
 
 
-def _of_body(body: str, points: Mapping[str, tuple[str, str]], alone: bool) -> Iterator[tuple[str, str]]:
-    """Rates of turning and moments of inertia: α or α_AB, I_O."""
+def _of_points(points: Points, turns: str) -> Iterator[tuple[str, str]]:
+    """Places, velocities, accelerations with their components, along the path as the only coordinate ``turns``, too, and one relative to
+    the other; moments and angular momenta about them."""
+    for letter, (_, point) in points.items():
+        for symbol, read in (("", ""), ("v_", "v"), ("a_", "a")):
+            parts = [f"{read}{axis}({point})" for axis in "xy"]
+            names = [f"{symbol or axis + '_'}{letter}{axis * bool(symbol)}" for axis in "xy"]
+            yield from zip(names, parts, strict=True)
+            yield (symbol or "r_") + letter, f"[{', '.join(parts)}]"
+        speed = f"hypot(vx({point}), vy({point}))"
+        yield f"a_{letter}n", f"abs(vx({point})*ay({point}) - vy({point})*ax({point}))/{speed}"
+        if turns:
+            yield f"a_{letter}t", f"(ax({point})*vx({point}) + ay({point})*vy({point}))/{speed}*sign(rate({turns}))"
+        yield f"ΣM_{letter}", f"moment on all about {point}, along k"
+        yield f"H_{letter}", f"angular momentum of all about {point}, along k"
+    words = (("r", "position of {} from {}"), ("v", "velocity of {} relative to {}"), ("a", "acceleration of {} relative to {}"))
+    for one, other in permutations(points, 2):
+        yield from ((f"{symbol}_{one}/{other}", said.format(points[one][1], points[other][1])) for symbol, said in words)
+
+
+def _of_body(spec: Mapping[str, Any], body: str, points: Points, alone: bool) -> Iterator[tuple[str, str]]:
+    """Rates of turning, moments of inertia and radii of gyration: α, α_AB or α_rod, I_O, k_G."""
     own = [letter for letter, (of, _) in points.items() if of == body]
-    pairs = [a + b for a in own for b in own if a != b]
+    held = [joint["name"] for joint in spec["joints"] if f'"{body}.' in str(joint["with"]).replace("'", '"')]
+    pairs = [a + b for a, b in permutations(dict.fromkeys([*own, *filter(_LETTER.fullmatch, held)]), 2)]
     for symbol, read in (("ω", "omega"), ("α", "alpha")):
-        yield from (
-            (name, f"{read}({spell(body)})") for name in (*([symbol] if alone else []), *(f"{symbol}_{pair}" for pair in pairs))
-        )
-    yield from ((f"I_{letter}", f"inertia of {body} about {points[letter][1]}") for letter in own)
-    if alone and "O" in points and "O" not in own:
-        yield "I_O", f"inertia of {body} about {points['O'][1]}"
+        names = [*([symbol] if alone else []), *(f"{symbol}_{each}" for each in (*pairs, body))]
+        yield from ((name, f"{read}({spell(body)})") for name in names)
+    pins = dict(each["with"]["of"] for each in spec["joints"] if each["type"] == "hinge")
+    centres = {letter: points[letter][1] for letter in [*own, *(["O"] if alone and "O" in points else [])]}
+    centres = {letter: pins.get(point, point) if alone else point for letter, point in centres.items()}
+    centres |= {"G": f"{spell(body)}.G"} if alone else {}
+    for letter, point in centres.items():
+        yield f"I_{letter}", f"inertia of {body} about {point}"
+        yield f"k_{letter}", f"radius of gyration of {body} about {point}"
+    if alone and all(joint["type"] != "hinge" for joint in spec["joints"]):  # else it may be about a pin
+        yield "I", f"inertia of {body} about {centres['G']}"
 
 
-def _of_coordinates(metadata: Mapping[str, Any], start: Start) -> Iterator[tuple[str, str]]:
-    """Velocity and acceleration along the only coordinate; where each coordinate starts, and how fast, if nothing else decides it."""
-    names, lengths = [c["name"] for c in metadata["coordinates"]], [c["dimension"] == "m" for c in metadata["coordinates"]]
-    free = not metadata["closure_coordinates"] and not start.equilibrium and not start.points
-    for name in names if free else ():
-        yield f"{name}_0", f"{INITIAL}{start.fixed.get(name, 0)}"
-    if len(names) == 1:
-        v, a = ("v", "a") if lengths[0] else ("ω", "α")
-        yield from ((v, f"rate({spell(names[0])})"), (a, f"accel({spell(names[0])})"))
-        if free:
-            yield f"{v}_0", f"{INITIAL}{start.rates.get(names[0], 0)}"
+def _of_coordinates(metadata: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Velocity and acceleration along the only length, or the only angle, among the coordinates, and of x₁, φ₂ by their index."""
+    for dimension, symbols in (("m", "va"), ("rad", "ωα")):
+        names = [c["name"] for c in metadata["coordinates"] if c["dimension"] == dimension]
+        indices = [(found[1], name) for name in names if (found := re.fullmatch(r"[^\W\d_]+_?(\d+)", name))]
+        read = [(symbol, word) for symbol, word in zip(symbols, ("rate", "accel"), strict=True)]
+        if len(names) == 1:
+            yield from ((symbol, f"{word}({spell(names[0])})") for symbol, word in read)
+        yield from ((f"{symbol}_{index}", f"{word}({spell(name)})") for symbol, word in read for index, name in indices)

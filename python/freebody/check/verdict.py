@@ -20,7 +20,7 @@ from .families import ALL, NoMotion
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .nearest import nearest
-from .residual import FAILS, HOLDS, Residual, Sides, jacobian, residual, rounding, sizes, unreached
+from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, jacobian, residual, rounding, sizes, unreached
 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
@@ -149,11 +149,14 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         return of_wrong_dimensions(case, [equation], text, error.what)
     if np.isnan(found.worst):
         values = case.values()
-        lost = [n.key for n in symbols_in(equation) if n.key in values and not np.isfinite(values[n.key]).all()]
-        what = "it has no value at some motions: a division by 0, a root or a logarithm of something negative"
-        if lost:
-            what = f"{', '.join(lost)} is not determined by the balances of this model (its parts can be pre-stressed)"
-        return Verdict(Kind.UNDECIDABLE, text, what)
+        lost = [n for n in symbols_in(equation) if n.key in values and not np.isfinite(values[n.key]).all()]
+        where = np.isfinite(found.ratio).all(axis=1)
+        if stressed := [n.key for n in lost if case.meaning.solved(n)]:
+            what = f"{', '.join(stressed)} is not determined by the balances of this model (its parts can be pre-stressed)"
+            return Verdict(Kind.UNDECIDABLE, text, what)
+        if equation.relation != "=" or where.sum() < OFTEN:
+            return _without_value(case, equation, text)
+        found = Residual(found.sides, np.where(where[:, None], found.ratio, 0.0))
     if equation.relation != "=":  # one side is not above the other, on every state
         gap = found.ratio if equation.relation.startswith("<") else -found.ratio
         if gap.max() <= HOLDS:
@@ -175,6 +178,14 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         what = f"{', '.join(loose)} is not determined by the balances of this model: its parts can be pre-stressed"
         return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(found, case.values()))
     return _not_true(case, equation, text, found)
+
+
+def _without_value(case: Case, equation: Equation, text: str) -> Verdict:
+    """The verdict about an equation that has no value at most motions: true under an assumption, or not decidable."""
+    if case.correcting and equation.relation == "=" and (assumed := assumption(case, equation)):
+        return Verdict(Kind.TRUE_IF, text, f"true only if: {'; or: '.join(assumed)}", assumed[0])
+    what = "it has no value at some motions: a division by 0, a root or a logarithm of something negative"
+    return Verdict(Kind.UNDECIDABLE, text, what)
 
 
 def holds(case: Case, *equations: Equation) -> bool:

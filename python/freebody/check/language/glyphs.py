@@ -72,9 +72,15 @@ _FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", 
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
 _NUMBER = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_LIMITS = re.compile(
+    r"(?:\s|\\limits)*(?:_(?:\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}|([^\s^{}]+))|([₀-₉]+))"
+    r"\s*(?:\^(?:\{([^{}]*(?:\{[^{}]*\}[^{}]*)*)\}|(\\[A-Za-z]+|\w[\w']*))|([ᵗˣˢ⁰-⁹]+))"
+)
+"""The limits of an integral, as in ``_0^{t_1}`` and ``₀ᵗ``."""
+_UPRIGHT = {Kind.LOW: Kind.DIGIT, Kind.RAISED: Kind.WORD}
 _BLANKS = re.compile(r"\s*")
 _COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
-_CONDITION = r"at|when|if|for|after|before|initially|just|until|while|during"
+_CONDITION = r"at|as|when|once|if|in|for|with|after|before|initially|just|immediately|right|until|while|during|lim"
 """Words with which no label begins: what stands there says of which motions it is."""
 _LABEL = re.compile(
     rf"(?m)^(?!\s*(?:{_CONDITION})\b)[^=:\n\\]*:(?!=)|^\s*(?:\\sum|[Σ∑])[^:\n]*:(?!=)"
@@ -121,6 +127,8 @@ class _Reader:
             plainly = unicodedata.normalize("NFKC", fraction[0]).replace("⁄", "/")
             return [Glyph(Kind.SIGN, f"({plainly})", (start, self.at))]
         self.at += 1
+        if char == "∫":
+            return self.integral(start)
         while self.at < len(self.text) and unicodedata.combining(self.text[self.at]):
             self.at += 1
         if char == "_" and self.text[self.at : self.at + 1] == "{":  # what stands in braces is one piece of the name
@@ -179,6 +187,8 @@ class _Reader:
     def sign(self, word: str, span: Span) -> list[Glyph]:
         if word in _THEREFORE:
             return [Glyph(Kind.LINE, "\n", span)]
+        if word == "int":
+            return self.integral(span[0])
         if word == "\\":
             return [Glyph(Kind.SIGN, ";", span) if self.matrices else Glyph(Kind.LINE, "\n", span)]
         if word in _FUNCTIONS:
@@ -191,6 +201,21 @@ class _Reader:
             raise StatementError(f"`\\{word}` is not known here", span, hint)
         sign = Glyph(Kind.SPACE if _COMMANDS[word] == " " else Kind.SIGN, _COMMANDS[word], span)
         return [sign, *self.braced(), *self.braced()] if sign.text == "frac" else [sign]
+
+    def integral(self, start: int) -> list[Glyph]:
+        """The sign of an integral and its limits, each in braces."""
+        found = _LIMITS.match(self.text, self.at)
+        if not found:
+            raise StatementError("an integral without limits", (start, self.at), "write `∫_0^t … dt`")
+        out, self.at = [Glyph(Kind.SIGN, "∫", (start, self.at))], found.end()
+        for low, group, marked in ((1, 2, 3), (4, 5, 6)):
+            name = next(number for number in (low, group, marked) if found[number] is not None)
+            inside = _Reader(self.text[: found.end(name)])
+            inside.at = found.start(name)
+            row = [replace(g, kind=_UPRIGHT[g.kind]) if name == marked and g.kind in _UPRIGHT else g for g in inside.all()]
+            ends = [Glyph(Kind.SIGN, brace, found.span(name)) for brace in "{}"]
+            out += [ends[0], *row, ends[1]]
+        return out
 
     def environment(self, found: re.Match[str]) -> list[Glyph]:
         self.at = found.end()

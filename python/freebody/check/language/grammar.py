@@ -15,13 +15,13 @@ from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Neg
 
 from ...model import units
 from ...model.errors import ModelProblem
-from .statements import Equation, Partial, Rate
+from .statements import Equation, Integral, Partial, Rate
 from .tokens import Names, Token
 
 RELATIONS = ("=", "<=", ">=", "<", ">")
 _ADDS = ("+", "-")
 SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
-_BEGINS = ("number", "symbol", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|")
+_BEGINS = ("number", "symbol", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|", "∫")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
@@ -173,6 +173,8 @@ class Line:
                 return self.group(token)
             case "[" | "matrix[":
                 return self.matrix(token)
+            case "∫":
+                return self.integral(token)
             case "rate":
                 return self.rate(self.factor(), token.dots, token)
             case "frac":
@@ -181,6 +183,15 @@ class Line:
         inside = self.sum()
         self.expect("|")
         return Fn("abs", (inside,), span=self.span(token))
+
+    def integral(self, token: Token) -> Node:
+        """What stands between the limits and the dx."""
+        lower, upper = self.group(self.take()), self.group(self.take())
+        of = Num(1.0, "1", span=token.span) if self.now.kind == "differential" else self.sum()
+        if self.now.kind != "differential":
+            raise StatementError("an integral without its `dt`", self.span(token), "write `∫_0^t … dt`")
+        by = self.take()
+        return Integral(of, Sym(by.text, span=by.span), lower, upper, span=self.span(token))
 
     def symbol(self, token: Token) -> Node:
         """A symbol; written as a function of time, θ(t), it is the same."""
@@ -307,26 +318,28 @@ class Line:
         if not (isinstance(before, Num) or after_bracket) or not (self.names.known or self.now.text == "°"):
             return None
         start = self.row[self.at - 1].span[1]
+        if self.now.kind in CLOSES.values() or self.now.span[0] < start:  # within ½ or the braces of a fraction
+            return None
         if upright := _UPRIGHT.match(self.text, start):
             # A word with a subscript, or one that is a symbol here, is printed upright as well.
             named = self.text.startswith("_", upright.end()) or (len(upright[1]) > 1 and self.names.find(folded(upright[1])))
             return None if named else self.unit_of(upright[1].replace(r"\cdot", "·"), start, upright.end())
-        for end in reversed(self.unit_ends(start)):
+        for end in reversed(self.unit_ends(start, self.names.units and not after_bracket)):
             if found := self.unit_of(self.text[start:end], start, end):
                 return found
         return None
 
-    def unit_ends(self, start: int) -> list[int]:
+    def unit_ends(self, start: int, common: bool) -> list[int]:
         """Where a unit that starts here can end: where tokens do, and some word of it is no symbol that is known.
 
-        A known symbol goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``; with
-        ``units`` a symbol that has the name of a common one is one.
+        A known symbol goes on with a unit only when a sign without blanks ties it to that, as in ``N·m`` and ``m/s``; where those
+        that are ``common`` go first a symbol that has the name of a common one is one.
         """
         ends, at, some_unknown = [], start, False
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
             named = self.names.find(folded(found["word"])) is not None
-            known = named and not (self.names.units and found["word"] in units.COMMON)
+            known = named and not (common and found["word"] in units.COMMON)
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
                 break
             at, some_unknown = found.end(), some_unknown or not known

@@ -41,6 +41,16 @@ class Rate(Node):
 
 
 @dataclass(frozen=True)
+class Integral(Node):
+    """∫ of d(by) from lower to upper."""
+
+    of: Node
+    by: Sym
+    lower: Node
+    upper: Node
+
+
+@dataclass(frozen=True)
 class Equation(Node):
     """Two sides that are said to be equal, or as ``relation`` says: ``=``, ``<=``, ``>=``, ``<``, ``>``."""
 

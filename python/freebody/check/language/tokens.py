@@ -102,7 +102,7 @@ class _Reader:
     def __init__(self, row: list[Glyph], names: Names) -> None:
         self.row, self.names, self.at = [*row, Glyph(Kind.LINE, "\n", (0, 0))], names, 0
         self.out: list[Token] = []
-        self.blank = True
+        self.blank, self.integrals = True, 0
         self.best = lru_cache(None)(self._best)
 
     def all(self) -> list[Token]:
@@ -144,6 +144,8 @@ class _Reader:
             kind, text = "function", CALLS[text.removeprefix("function:")]
         elif text == "sqrt":
             kind = "function"
+        elif text == "∫":
+            self.integrals += 1
         elif len(text) == 1 and pair in ("<=", ">=", "**"):
             self.at += 1
             kind = text = "^" if pair == "**" else pair
@@ -157,6 +159,9 @@ class _Reader:
 
     def run(self) -> None:
         """The names that stand side by side from here."""
+        if self.integrals and (found := self.differential()):
+            self.integrals -= 1
+            return self.take([found])
         if found := self.derivative():
             return self.take([found])
         if found := self.slope():
@@ -305,6 +310,17 @@ class _Reader:
         spelling = self.spelling(at, stroke)
         name, dots = self.names.find(spelling) or (spelling, 0)
         return _Piece("symbol", name, dots + order + self.marks(at, stroke), end)
+
+    def differential(self) -> _Piece | None:
+        """dθ, with which an integral ends."""
+        end = self.run_end(self.at)
+        spelling = self.spelling(self.at, end)
+        name = self.names.find(spelling[1:])
+        if not spelling.startswith("d") or self.names.find(spelling) == (spelling, 0) or (name or ("", 0))[1]:
+            return None
+        if name is None and spelling != "dt":
+            return None
+        return _Piece("differential", name[0] if name else "t", 0, end)
 
     def fraction_derivative(self) -> _Piece | None:
         """The same, and the derivative of what stands behind, d/dt and d²/dt², written as a LaTeX fraction."""

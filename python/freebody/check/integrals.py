@@ -1,0 +1,97 @@
+"""What an integral in a statement means: of a function of its own variable a number, else over the motion from its start to now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from freebody.core import Array, CompiledModel, State
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import sampled
+from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Num, Sym
+
+from .language.statements import Integral, symbols_in
+from .user_symbols import SUMMED, Masses, Meaning, Values
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_PANELS = 12
+_EXACT = 1e-13  # tolerance of the motion along which is summed up
+_SAME = 1e-9  # by how much two places may differ, relative
+_ENDS = ("1", "2", "f", "e")
+"""Indices of the moment at which a stretch ends."""
+
+
+@dataclass(frozen=True)
+class Quadrature(Meaning):
+    """∫ f(x) dx between limits, where f holds nothing else that moves."""
+
+    node: Integral | None = None
+    known: Mapping[Sym, Meaning] = field(default_factory=dict, compare=False)
+
+    @property
+    def is_vector(self) -> bool:
+        return False
+
+    def needed(self, dots: int) -> list[str]:
+        return [text for symbol, meaning in self.known.items() for text in meaning.needed(symbol.dots)]
+
+    def value(self, dots: int, values: Values, masses: Masses) -> Array:
+        assert self.node is not None
+        there = {n.key: meaning.value(n.dots, values, masses) for n, meaning in self.known.items()}
+        count = len(next(iter(values.values()), np.zeros(1)))
+        low, high = (np.broadcast_to(sampled(end, there), (count,)) for end in (self.node.lower, self.node.upper))
+        total = np.zeros(count)
+        for x, weight in zip(_NODES, _WEIGHTS, strict=True):
+            at = low + (high - low) * (1 + x) / 2
+            total = total + weight * (high - low) / 2 * sampled(self.node.of, {**there, self.node.by.key: at})
+        return total
+
+
+def meaning(node: Integral, known: Mapping[str, Meaning], measure: Callable[[object], str], constants: Sequence[str]) -> Meaning:
+    """What an integral is, without its dimension; ``measure`` writes an expression in the model language. Raises ``StatementError`` at limits
+    that are no stretch of the motion."""
+    by = node.by.name
+    inside = [n for n in symbols_in(node.of) if n.name != by]
+    upper = node.by if _is_end(node.upper, by, known) else node.upper
+    begins = isinstance(node.lower, Sym) and folded(node.lower.name) in (folded(f"{by}_0"), "t0", folded(f"{by}_1"), "t1")
+    if by != "t" and not begins and all(n.name in constants for n in inside):
+        node = Integral(node.of, node.by, node.lower, upper)
+        return Quadrature("quadrature", (measure(node.by),), node=node, known={n: known[n.name] for n in symbols_in(node)})
+    if upper != node.by:
+        what = f"the stretch over which is integrated ends where `{by}` is something else"
+        raise StatementError(what, node.upper.span, f"integrate up to `{by}`, and say where with `at {by} = …:`")
+    low = "" if begins or _is_time(node.lower, node.upper) else measure(node.lower)
+    return Meaning("integral", (f"{SUMMED}{measure(node.of)};{measure(node.by)};{low}",))
+
+
+def _is_end(upper: object, by: str, known: Mapping[str, Meaning]) -> bool:
+    """Whether a limit is where the motion is: t, x or t₁, x₁."""
+    if not isinstance(upper, Sym) or upper.dots:
+        return False
+    ends = {folded(f"{of}_{index}") for of in (by, "t") for index in _ENDS}
+    return upper.name in (by, "t") or (upper.name not in known and folded(upper.name) in ends)
+
+
+def _is_time(lower: object, upper: object) -> bool:
+    """Whether the limits are times, of which the first is 0."""
+    return isinstance(lower, Num) and lower.value == 0 and isinstance(upper, Sym) and folded(upper.name).rstrip("12fe_") == "t"
+
+
+def summed(text: str, core: CompiledModel, start: State, state: State) -> float:
+    """An integral along the motion from its start to a state; NaN where that does not begin at the lower limit."""
+    of, by, low = text.removeprefix(SUMMED).split(";")
+    if low:
+        (first, begins), (last,) = core.evaluate([by, low], start), core.evaluate([by], state)
+        if abs(first - begins) > _SAME * max(abs(last), abs(first)):
+            return float("nan")
+    if state.t <= start.t:
+        return 0.0
+    motion = core.simulate(start, state.t, rtol=_EXACT, max_steps=5000)
+    edges = np.linspace(start.t, state.t, _PANELS + 1)
+    half = np.diff(edges)[:, None] / 2
+    times = (edges[:-1, None] + half * (1 + _NODES)).ravel()
+    values = motion.evaluate([of, f"rate({by})"] if by != "t" else [of, "1"], times)
+    return float(np.sum((half * _WEIGHTS).ravel() * values[:, 0] * values[:, 1]))

@@ -1,0 +1,138 @@
+"""The small vibration of a model of one freedom about a place of rest: natural frequency, damping ratio, period."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.core import Array, ModelError, MotionError, State
+from freebody.stability.equilibria import equilibria, rest_near
+from freebody.stability.state_space import SingularConfiguration, state_space
+from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.symbols import folded
+
+from .user_symbols import Masses, Meaning, Values
+
+if TYPE_CHECKING:
+    from .motion_sampler import MotionSampler
+
+_QUANTITIES = {
+    **dict.fromkeys(("ω_n", "ω_0", "natural_frequency"), "natural frequency"),
+    **dict.fromkeys(("f", "f_n", "frequency"), "frequency"),
+    **dict.fromkeys(("τ", "τ_n", "T_n", "period"), "period"),
+    **{
+        "ζ": "damping ratio",
+        "ω_d": "damped frequency",
+        "f_d": "frequency, damped",
+        "T_d": "damped period",
+        "τ_d": "damped period",
+    },
+}
+_STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
+_LENGTHS = 3.0  # of the model, within which a place of rest is looked for
+
+
+@dataclass(frozen=True)
+class OfVibration(Meaning):
+    """What a vibration has, a function of the ``parameters`` alone."""
+
+    of: Vibration | None = field(default=None, compare=False)
+
+    @property
+    def is_vector(self) -> bool:
+        return False
+
+    def needed(self, dots: int) -> list[str]:
+        return ["0"] if dots or self.of is None else list(self.of.parameters)
+
+    def value(self, dots: int, values: Values, masses: Masses) -> Array:
+        if dots or self.of is None:
+            return values["0"]
+        rows = np.array([values[name] for name in self.of.parameters]).T
+        return np.array([self.of.quantities(row)[self.texts[0]] for row in rows])
+
+
+class Vibration:
+    """That of a sampler's model, about the place of rest next to the start that it swings about."""
+
+    def __init__(self, sampler: MotionSampler) -> None:
+        self.sampler, self.parameters = sampler, tuple(sampler.free_parameters)
+        self._known: dict[bytes, dict[str, float]] = {}
+
+    def meanings(self, asked: Iterable[str]) -> dict[str, OfVibration]:
+        """What those of the ``asked`` names mean that are used for it; nothing where the model has no such vibration."""
+        named = {folded(name): name for name in asked}
+        found = {named[folded(name)]: what for name, what in _QUANTITIES.items() if folded(name) in named}
+        per_second, second = NUMBER_ONLY.times(TIME, -1), NUMBER_ONLY.times(TIME, 1)
+        dimensions: dict[str, Dimension] = {"period": second, "damped period": second, "damping ratio": NUMBER_ONLY}
+        return {
+            name: OfVibration("vibration", (what,), dimensions.get(what, per_second), of=self)
+            for name, what in (found.items() if found and self.rest else ())
+        }
+
+    @property
+    def place(self) -> str:
+        """Where that is, in words."""
+        core, rest = self.sampler.core, self.rest
+        (name,) = state_space(core, rest).free
+        k, is_angle = (
+            self.sampler.names.index(name),
+            name in {c["name"] for c in self.sampler.coordinates if c["dimension"] == "rad"},
+        )
+        return f"{name} = {round(np.degrees(rest.q[k]), 6) + 0.0:g}°" if is_angle else f"{name} = {round(rest.q[k], 6) + 0.0:g} m"
+
+    @cached_property
+    def rest(self) -> State | None:
+        """The place of rest that it swings about with the model's own numbers."""
+        sampler, core = self.sampler, self.sampler.core
+        try:
+            first = sampler.first.at(sampler.first.q)
+            free = state_space(core, first).free
+            if sampler.restricted or len(free) != 1 or core.metadata["states"]:
+                return None
+            (k,) = (sampler.names.index(name) for name in free)
+            reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
+            found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
+        except (MotionError, ModelError, SingularConfiguration, ValueError, np.linalg.LinAlgError):
+            return None
+        swinging = [each.state for each in found if np.linalg.det(each.space.a) > 0]
+        return min(swinging, key=lambda rest: abs(rest.q[k] - first.q[k]), default=None)
+
+    def quantities(self, row: Array) -> Mapping[str, float]:
+        """What it has with other parameters; NaN where it is none."""
+        if (key := row.tobytes()) not in self._known:
+            self._known[key] = self._found(row)
+        return self._known[key]
+
+    def _found(self, row: Array) -> dict[str, float]:
+        a = self._linear(row)
+        with np.errstate(all="ignore"):
+            natural = np.sqrt(np.linalg.det(a)) if a is not None else np.nan
+            damping = -np.trace(a) / (2 * natural) if a is not None else np.nan
+            damped = natural * np.sqrt(1 - damping**2)
+            out = {"natural frequency": natural, "damping ratio": damping, "damped frequency": damped}
+            out |= {"frequency": natural / (2 * np.pi), "frequency, damped": damped / (2 * np.pi)}
+            return {**out, "period": 2 * np.pi / natural, "damped period": 2 * np.pi / damped}
+
+    def _linear(self, row: Array) -> Array | None:
+        """The matrix of the linear equations at rest with other parameters."""
+        core, rest = self.sampler.core, self.rest
+        p = core.bind(dict(zip(self.parameters, row.tolist(), strict=True)))
+        for stages in (1, _STAGES):
+            state = rest
+            for done in np.arange(1, stages + 1) / stages:
+                try:
+                    there = rest.p + done * (p - rest.p)
+                    near, _ = core.assemble(there, rest.t, guess=dict(zip(self.sampler.names, state.q.tolist(), strict=True)))
+                    state = rest_near(core, near.at(near.q))
+                except (MotionError, ModelError):
+                    state = None
+                if state is None:
+                    break
+            if state is not None and np.linalg.det(a := state_space(core, state).a) > 0:
+                return a
+        return None

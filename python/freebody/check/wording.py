@@ -1,0 +1,114 @@
+"""Claims in the words of exercise sheets, put into the forms that ``claims`` judges: ``as k → 0, a = g sin β`` is
+``limit: a = g sin β as k -> 0``."""
+
+from __future__ import annotations
+
+import re
+
+_INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
+_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|in the limit(?: (?:as|of|where|when))?|initially"
+_BEFORE = re.compile(rf"({_STARTS}|with)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
+_BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
+"""``when r = R, a = 0``."""
+_BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
+_LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
+_ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶)\s*")
+_INFINITY = re.compile(r"([-+]?)\s*(?:\\infty|∞|infinity)")
+_START = re.compile(
+    r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release|beginning)|being released|it is released)"
+)
+_CONSTANT = re.compile(
+    r"(?:[^=:;\n]+=\s*)*([^=:;\n]+?)\s*(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
+    r"(?=\s*$|\s+where\b|\s+with\b)"
+)
+"""``E = T + V = const``, ``p is conserved``."""
+_NUMBERED = re.compile(r"([^=:;\n]+)=([^=:;\n]+)")
+_TWICE = {"1": re.compile(r"(?<=\w)_?\{?[1₁]\}?(?!\w)"), "2": re.compile(r"(?<=\w)_?\{?[2₂]\}?(?!\w)")}
+_ENERGIES = re.compile(r"[\sTVUEK+=()_{}12₁₂]+")
+_COMPONENT = re.compile(r"\(\s*((?:\\(?:vec|mathbf|bm)\s*)?\{?[av]\}?_\{?\w+\}?)\s*\)_\{?([txynr])\}?")
+"""``(a_G)_t``, a component of a vector that has an index."""
+_NAMED = {
+    r"period(?: of (?:small )?(?:oscillations?|vibrations?))?": "period",
+    r"(?:natural|circular|angular|natural circular|natural angular) frequency": "natural_frequency",
+    r"frequency": "frequency",
+}
+_NAMED_VALUE = re.compile(r"([a-z ]+?)\s*(?::|\bis\b)\s*([^=:;\n]+)")
+_FROM_TO = re.compile(
+    r"(∫|\\int)(?![_^])([^=;\n]*?\bd\s*\\?\w+)\s+from\s+(?:\w+\s*=\s*)?(\S+)\s+to\s+(?:\w+\s*=\s*(?=\S+\s*=))?(\S+)"
+)
+
+
+def with_condition_first(text: str) -> str:
+    """A statement with the condition that stands behind it before it, and what is said to be constant in the form of a claim."""
+    said = _FROM_TO.sub(r"\1_{\3}^{\4}\2", _COMPONENT.sub(lambda found: _component(*found.groups()), text.strip()))
+    if said.startswith("limit:"):
+        return said
+    if found := _LIMIT.fullmatch(said):
+        return f"as {next(filter(None, found.groups()[:3]))}: {found[4]}"
+    if (found := _NUMBERED.fullmatch(said)) and _ENERGIES.fullmatch(said) and (same := _same_twice(*found.groups())):
+        return f"constant: {same}"
+    if (found := _NAMED_VALUE.fullmatch(said)) and (name := _quantity(found[1])):
+        return f"{name} = {found[2]}"
+    if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
+        said = f"{found[2]}: {found[1]}"
+    return _CONSTANT.sub(r"constant: \1", said)
+
+
+def as_claim(text: str) -> str:
+    """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
+    found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
+    if not found:
+        return text
+    word, said, statement = " ".join(found[1].split()), _plainly(found[2]), found[3]
+    if word == "at" and said == "start":
+        return text  # of the model's own run, as ``at end``
+    side = word.split()[-1]
+    if side in ("after", "before") and not (" " in word and side == "after" and _START.fullmatch(said)):
+        return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
+    said = "at the start" if word == "initially" else said
+    parts = [_condition(part) for part in re.split(r",|\band\b", said)]
+    if any("->" in part or part == "small motions" for part in parts):
+        inner = re.fullmatch(r"limit:\s*(.+)\s+as\s(.+)", as_claim(statement), re.S)
+        statement, parts = (inner[1], [*parts, inner[2]]) if inner else (statement, parts)
+        return f"limit: {_ARROW.sub(' = ', statement)} as {', '.join(parts)}"
+    if word == "at" and parts == [said] and not re.search("[=<>]", said):
+        return text  # a moment of the run by its name
+    if word == "at" and (moment := re.fullmatch(r"t\s*=\s*([\d.]+\s*\w*)", said)) and parts == [said]:
+        return f"at {moment[1]}: {statement}"
+    return f"if {', '.join(parts)}: {statement}"
+
+
+def _plainly(condition: str) -> str:
+    """A condition with arrows and infinities of one kind, without LaTeX's blanks."""
+    return _INFINITY.sub(r"\1inf", _ARROW.sub(" -> ", condition.strip().replace(r"\,", " ").strip("$ ")))
+
+
+def _condition(part: str) -> str:
+    """One part of a condition in the words of a hypothesis."""
+    said = part.strip()
+    said = re.sub(r"\A(?:for|when|at|as|if)\s+(?=small|large|\S+\s*(?:=|->))", "", said)
+    if re.fullmatch(r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)", said):
+        return "small motions"
+    if found := re.fullmatch(r"(small|large) (.+)", said):
+        return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
+    if _START.fullmatch(said):
+        return "at the start"
+    return "at rest" if said == "rest" else said
+
+
+def _component(vector: str, axis: str) -> str:
+    """``a_{Gt}`` for ``(a_G)_t``."""
+    symbol, _, index = re.sub(r"\\(?:vec|mathbf|bm)\s*|[{}]", "", vector).partition("_")
+    return f"{symbol}_{{{index}{axis}}}"
+
+
+def _same_twice(left: str, right: str) -> str | None:
+    """What has one value at two places, ``T_1 + V_1 = T_2 + V_2``; None where the two sides are not alike."""
+    first, second = ("".join(_TWICE[i].sub("", side).split()) for i, side in zip("12", (left, right), strict=True))
+    numbered = all(_TWICE[i].search(side) for i, side in zip("12", (left, right), strict=True))
+    return first if numbered and first == second else None
+
+
+def _quantity(words: str) -> str | None:
+    """The name of what a vibration has, in words."""
+    return next((name for said, name in _NAMED.items() if re.fullmatch(said, words)), None)
