@@ -9,6 +9,7 @@ import pytest
 from store import MODELS, WITHOUT_ANSWER, every, run
 from typer.testing import CliRunner
 
+import freebody as fb
 from freebody import cli
 from freebody.run.certificate import Certificate
 
@@ -75,6 +76,36 @@ def test_what_is_not_that_of_the_impact_is_found(field, of):
     motion.state = good.motion.state
     routes = {route.name: route.digits for route in Certificate(replace(good, motion=motion)).routes}
     assert routes[of] < 3
+
+
+def test_couples_of_joints_are_compared_too():
+    """Two rods welded at an angle, one of which guides a third, fall on the floor."""
+    good = fb.Mechanism.loads("""
+freebody: 1
+ground: {lines: {floor: {through: O, angle: 0}}}
+bodies:
+  a: {shape: rod, length: 1, mass: 1}
+  b: {shape: rod, length: 0.5, mass: 2}
+  c: {shape: rod, length: 0.5, mass: 2, lines: {axis: [start, end]}}
+joints:
+  plane: {type: free, of: [ground.O, a.centre], coordinates: [x, y, turn]}
+  w: {type: weld, of: [a.end, b.start], angle: 40 deg}
+  s: {type: slider, along: {through: b.centre, angle: 90 deg}, line: c.axis, coordinate: z}
+contacts: {f: {of: [b.end, ground.floor], restitution: 0.5, friction: 0.3}}
+initial: {x: 0, y: 2, turn: 0.3, z: 0.1, rates: {x: 1, y: 0, turn: 2, z: 0.3}}
+""").simulate(1, impacts="newton")
+    [hit, *_] = good.impacts
+    for joint, part in (("w", 2), ("s", 2), ("w", 0)):
+        impulses = {name: list(impulse) for name, impulse in hit.impulses.joints.items()}
+        assert abs(impulses[joint][part]) > 1e-3
+        impulses[joint][part] *= 1.01
+        motion = Lying(good.motion)
+        told = replace(hit, impulses=replace(hit.impulses, joints={name: tuple(each) for name, each in impulses.items()}))
+        motion.changes = [told if change is hit else change for change in good.changes]
+        motion.state = good.motion.state
+        routes = {route.name: route.digits for route in Certificate(replace(good, motion=motion))._over_impacts()}
+        assert routes["impulses of impacts"] < 4
+    assert {route.name: route.digits for route in Certificate(good)._over_impacts()}["impulses of impacts"] > 12
 
 
 def test_the_command_names_the_weakest_link_and_fails_below_what_is_asked():

@@ -259,6 +259,16 @@ def test_the_command_line_prints_no_digit_that_does_not_hold():
     assert data["digits"]["better"]["rtol"] == pytest.approx(1e-14)
 
 
+def test_an_instant_of_a_motion_is_told_with_how_far_that_is_known(tmp_path):
+    m = rods(*FROM_135)
+    m.save(tmp_path / "m.yaml")
+    told = CliRunner().invoke(cli.app, ["solve", str(tmp_path / "m.yaml"), "--at", "20 s"]).output
+    assert "The motion until then holds to 6 digits until" in told and "no digit" in told
+    assert "digits" not in CliRunner().invoke(cli.app, ["solve", str(tmp_path / "m.yaml")]).output
+    data = json.loads(CliRunner().invoke(cli.app, ["solve", str(tmp_path / "m.yaml"), "--at", "1 s", "--json"]).output)
+    assert data["digits"]["none_from"] is None and data["digits"]["until"]["6"] is None
+
+
 def test_of_several_equal_extremes_any_time_will_do():
     m = rods(*DRAWS["tame 0"])
     accuracy = m.simulate(2).accuracy

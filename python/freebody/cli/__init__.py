@@ -93,10 +93,13 @@ def solve(
     from freebody.cli import show
 
     mechanism, asked = opened(model, changes), moment(at, before, after)
-    opening = None if {"at", "before", "after"} & asked.keys() else mechanism.opening(**asked)
+    timed = {"at", "before", "after"} & asked.keys()
+    opening = None if timed else mechanism.opening(**asked)
     routes = [each for each in get_args(Route) if each != "all"] if route == "all" else [route]
     solved = [mechanism.solve(route=name, **asked | ({"before": "start"} if opening else {})) for name in routes]
-    show.instants(solved, opening, axes == "joint", balance, as_json)
+    t = solved[0].state.t  # a moment of the motion is known as far as the motion until then is
+    known = mechanism.simulate(t).accuracy if timed and t > 0 else None
+    show.instants(solved, opening, known, axes == "joint", balance, as_json)
 
 
 @app.command(cls=Command)

@@ -21,6 +21,7 @@ from freebody.views.peaks import known_peaks
 if TYPE_CHECKING:
     from freebody.core import Change, CompiledModel
     from freebody.run.certificate import Certificate
+    from freebody.run.digits import Accuracy
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant, Reaction
     from freebody.views.compare import Comparison
@@ -147,14 +148,19 @@ def switch_rows(changes: Sequence[Change]) -> list[Row]:
 # One instant
 
 
-def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, balance: bool, as_json: bool) -> None:
-    """The first instant whole; the others, by other routes, by how far they are from it; what events at the start make of it."""
+def instants(
+    solved: Sequence[Instant], opening: Run | None, known: Accuracy | None, joint_axes: bool, balance: bool, as_json: bool
+) -> None:
+    """The first instant whole; the others, by other routes, by how far they are from it; what events at the start make of it; how far
+    the motion that leads to it is ``known``."""
     first, *others = solved
     if as_json:
         after: dict[str, Any] = {}
         if opening:
             changes = {"changes": [asdict(change) for change in opened(opening)]}
             after["after_opening"] = changes | _instant_as_dict(opening.instant(opening.start.t), joint_axes)
+        if known:
+            after["digits"] = known.to_json()
         data = [_instant_as_dict(instant, joint_axes) | after for instant in solved]
         print_json(data if others else data[0])
         return
@@ -163,6 +169,8 @@ def instants(solved: Sequence[Instant], opening: Run | None, joint_axes: bool, b
         put(Text("just before the events at the start\n", "bold"))
     elif first.state.moment:
         put(Text(f"{first.state.moment}\n", "bold"))
+    if known:
+        put(f"The motion until then {known.sentence}.\n")
     put(*_tables(first, joint_axes))
     if balance:
         put(first.tables()[-1], f"Largest relative residual: {first.residual:.1e}")

@@ -169,8 +169,11 @@ class Certificate:
                 continue
             balances.append(apart(jump, acting, largest))
             for part, side, impulse in parts:
-                on_body = (load.acting([part[side]]) for load in free.loads if load.name == part["name"])
-                balances.append(apart(sum(on_body, np.zeros(3))[:2], np.array(impulse[:2]), largest))
+                loads = [load for load in free.loads if load.name == part["name"]]
+                point = next((each.point for load in loads for each in load.on if each.body == part[side]), (0.0, 0.0))
+                on_body = sum((load.acting([part[side]], point) for load in loads), np.zeros(3))
+                known = len(impulse)  # of contacts no couple is stated
+                balances.append(apart((on_body / self._reach)[:known], (np.array(impulse) / self._reach[:known]), largest))
         if losses:
             yield Route("impulses of impacts", agreement(balances), "jumps of the momentum of each body, and the impulses on it")
             yield Route("energy of impacts", agreement(losses), "kinetic energy lost, the work of motions, and what is booked")

@@ -273,7 +273,7 @@ class Instant:
         left = [(body, *(f"{value:.1e}" for value in row)) for body, row in self.residuals.items()]
         return [
             table("accelerations", ["coordinate", "value", "unit"], coordinates),
-            rich_tables.of_reactions(each for name, each in self.reactions.items() if name not in self.absent),
+            rich_tables.of_reactions((r for name, r in self.reactions.items() if name not in self.absent), self.sizes[0]),
             rich_tables.of_limits(self.limits.values()),
             rich_tables.of_forces(self.limits.values()),
             *(table(title, [kind, "force or torque"], forces.items()) for title, kind, forces in drives),

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from freebody.core import Limit
     from freebody.solve.instant import Reaction
 
+_NO_FORCE = 1e-15  # of the largest force, by the metre for couples: less is round-off
 _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what rounding left
 
 
@@ -65,13 +66,15 @@ def captured(shown: Any, width: int) -> str:
     return capture.get()
 
 
-def of_reactions(reactions: Iterable[Reaction]) -> Table:
-    """Reactions on both bodies of every joint that can carry a load."""
+def of_reactions(reactions: Iterable[Reaction], largest: float) -> Table:
+    """Reactions on both bodies of every joint that can carry a load; beside the ``largest`` force among what balances (N) round-off is
+    0."""
     rows = []
     for joint in reactions:
         for body in (joint.second, joint.first) if joint.carries else ():
             side = joint.on(body)
-            x, y, couple = np.where(side.determined, side.values, np.nan).tolist()
+            values = np.where(np.abs(side.values) > _NO_FORCE * largest, side.values, 0.0)
+            x, y, couple = np.where(side.determined, values, np.nan).tolist()
             rows.append((joint.name if body == joint.second else "", body, x, y, couple if joint.has_couple else None))
     return table("reactions", ["joint", "on", "Fx [N]", "Fy [N]", "M [N·m]"], rows)
 

@@ -135,7 +135,8 @@ def cancelling(subject: SymbolicState, balance: Balance) -> set[int]:
 
 def numbers(subject: SymbolicState, balance: Balance) -> Pair:
     """The point (m), or the unit direction, of a balance at the state, in fixed axes."""
-    x, y = (float(evaluate(tree, subject.values, subject.tables)) for tree in balance.place.xy)
+    with np.errstate(all="ignore"):  # a string without free length has no direction yet
+        x, y = (float(evaluate(tree, subject.values, subject.tables)) for tree in balance.place.xy)
     length = 1.0 if balance.turns else float(np.hypot(x, y)) or 1.0
     return x / length, y / length
 
