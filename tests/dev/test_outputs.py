@@ -82,6 +82,14 @@ def test_what_fails_midway_leaves_the_old_file(command, tmp_path, monkeypatch, f
     assert path.read_text() == "old" and sorted(tmp_path.iterdir()) == before
 
 
+@pytest.mark.parametrize(("word", "ending"), {"run": ".csv", "equations": ".txt", "code": ".c"}.items())
+def test_what_was_written_is_told_by_its_name(command, tmp_path, monkeypatch, falling, word, ending):
+    monkeypatch.chdir(tmp_path)
+    done = command(word, falling, *(["--no-report"] if word == "run" else []), "-o", f"made{ending}")
+    told = [line.removeprefix("wrote ") for line in done.output.splitlines() if line.startswith("wrote ")]
+    assert done.exit_code == 0 and told == [f"made{ending}"] and Path(told[0]).is_file()
+
+
 def test_a_summary_is_printed_before_files_are_written(command, tmp_path, falling):
     done = command("run", falling, "--report", "/dev/full")
     assert done.exit_code == 2

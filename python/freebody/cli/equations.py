@@ -116,7 +116,7 @@ def equations(
     if kind not in FORMATS:
         raise UserError(f"files that end in .{kind} cannot be written", f"take one of {_ENDINGS}")
     if output:
-        written(found.save(output, kind))
+        written(*found.save(output, kind))
     else:
         ascii = kind == text.FORMAT.ending and not speaks_unicode()
         typer.echo((spelt(found.text(ascii=True)) if ascii else found.printed(kind)).rstrip("\n"))
