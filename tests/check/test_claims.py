@@ -214,3 +214,28 @@ def test_a_slip_of_the_pen_is_no_unknown() -> None:
     model = _WEIGHTS.replace("m1: 2 kg", "mass: 2 kg").replace("mass: m1", "mass: mass")
     with pytest.raises(StatementError, match="maas"):
         Mechanism.loads(model).check("maas g = 2 y1''; maas y1'' = y2''")
+
+
+def test_what_is_said_to_be_constant_is_corrected():
+    """An energy with a kinetic part forgotten, the wrong sign of a potential, and twice the energy of a spring."""
+    checker = Checker(
+        Mechanism.loads("""
+freebody: 1
+parameters: {m: 3 kg, I: 0.05 kg*m^2, r: 0.15 m, k: 200 N/m, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {down: {through: O, angle: -90 deg}}}
+bodies: {weight: {shape: particle, mass: m}, pulley: {mass: 0, inertia: I}}
+joints:
+  way: {type: slot, point: weight.centre, along: ground.down, coordinate: x}
+  axle: {type: hinge, of: [ground.O, pulley.origin], coordinate: {name: phi, sense: clockwise}}
+  rope: {type: coupling, zero: x - r*phi}
+forces: {spring: {type: spring, along: x, stiffness: k}}
+initial: {phi: 0, at_rest: true}
+""")
+    )
+    kinetic, lost = "1/2 m x'^2 + 1/2 I phi'^2", []
+    for said in ("1/2 m x'^2 + 1/2 k x^2 - m g x", f"{kinetic} + 1/2 k x^2 + m g x", f"{kinetic} + k x^2 - m g x"):
+        (mend,) = checker.check(f"constant: {said}").mends
+        assert checker.check(mend.equation).ok, mend.equation
+        lost.append(mend.edits[0][2])
+    assert lost == ["I*phidot^2/2", "-m*g*x", "k*x^2/2"]

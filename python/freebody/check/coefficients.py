@@ -34,6 +34,8 @@ def multiplied(node: Node, value: float) -> Node | None:
     match node:
         case Mul((Num(own), *rest)) if recognised(own * value) is not None:
             return multiplied(product(rest), own * value)
+        case Quotient(top, Num(below)) if recognised(value / below) is not None:
+            return multiplied(top, value / below)
         case Mul((Quotient(Num(above), Num(below)), *rest)) if recognised(above / below * value) is not None:
             return multiplied(product(rest), above / below * value)
     number = recognised(abs(value))

@@ -84,7 +84,7 @@ class _Search:
         except (KeyError, ValueError):
             return False
         parts = [part for part in (node.terms if isinstance(node, Add) else (node,)) if not is_zero(part)]
-        if value.ndim != 1 or len(parts) < 2 or not np.isfinite(value).all():
+        if value.ndim != 1 or len(parts) < 2 or not np.isfinite(value).all() or np.abs(value).max() < _STEADY * size.max():
             return False
         moves = all(np.abs(self._changes(sampled(part, self.values))).max() > _STEADY * size.max() for part in parts)
         return moves and np.abs(self._changes(value)).max() < _STEADY * size.max()

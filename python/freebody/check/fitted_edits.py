@@ -132,11 +132,11 @@ class FittedEdits:
         """A sum that lacks a term."""
         scalar = required.missing.ndim == 1
         ratio = required.missing / required.value if scalar and not isinstance(required.node, Add) else np.full(1, np.nan)
-        if np.ptp(ratio) < _NEARLY * np.abs(ratio).max():
-            return  # another number is a factor
-        for term in (
-            self._monomials(equation).equal_to(required.missing) if scalar else self._matching(equation, required.missing)
-        ):
+        is_number = np.ptp(ratio) < _NEARLY * np.abs(ratio).max()
+        found = self._monomials(equation).equal_to(required.missing) if scalar else self._matching(equation, required.missing)
+        for term in found:
+            if is_number and {*symbols_in(term)} <= {*symbols_in(required.node)}:
+                continue  # another number is a factor
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, _more(required.node, term)), size)
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from typing import TYPE_CHECKING, Any
@@ -12,14 +13,27 @@ from freebody.equations import Nomenclature as Printed
 from freebody.equations import Tree, equation_text, read, symbols
 from freebody.equations.balances.system import Problem, groups, problem
 from freebody.equations.balances.virtual_motions import named_motions
-from freebody.symbolic.tree import ZERO, Sym
+from freebody.symbolic.dimensions import FORCE
+from freebody.symbolic.tree import ZERO, Add, Negative, Node, Num, Sym, is_zero
 
+from .beside import Difference, Letters, difference, said_terms
+from .correction import Correction
+from .edits import Edit
 from .families import NoMotion
-from .language.statements import Equation, symbols_in
+from .language.dimensions import dimension
+from .language.spelling import spell
+from .language.statements import Equation, symbols_in, terms
+from .residual import HOLDS, residual
+from .slips import why
 
 if TYPE_CHECKING:
     from .case import Case
 
+_COMMON = 2  # terms that a statement has of a balance at least, to be one that lacks some
+_MOST_MISSING = 4
+_PART = 0.9  # of the budget, at which no more is looked for
+_MOST_DIFFERENT = 6  # terms that are told
+_EACH = 0.2  # by which a correction is larger for each term
 _MOST = 150  # balances that are looked at, those of few bodies first
 _LONG = 1500  # signs, beyond which nobody reads an equation
 _WORD = re.compile(r"'[^']+'\.\w+|[^\W\d][\w.\[\]]*")
@@ -28,60 +42,121 @@ _KINDS = {"number": "constant"}
 
 
 @dataclass(frozen=True)
+class Nearest:
+    """A true equation in words, and how a statement differs from it; ``correction`` where it only lacks some of its terms."""
+
+    text: str
+    differs: str = ""
+    correction: Correction | None = None
+
+
+@dataclass(frozen=True)
 class _True:
-    """A true equation with its words and what is unknown in it."""
+    """A true equation with its words, what is unknown in it, and how a statement differs from it."""
 
     words: str
     left: Tree
     right: Tree
     unknown: frozenset[Sym]
+    difference: Difference | None = None
 
-    def distance(self, said: frozenset[Sym], unknown: frozenset[Sym]) -> tuple[int, int, int]:
-        """How far its symbols are from those of a statement: unknown ones, then all, then how many there are."""
+    def distance(self, said: frozenset[Sym], unknown: frozenset[Sym]) -> tuple[Any, ...]:
+        """How far it is from a statement: whether terms are common, how many unknowns of it are not here, by how many terms they differ;
+        then by symbols, unknown ones, all, and how many there are."""
         own = frozenset(symbols(self.left, self.right))
-        return len(unknown ^ self.unknown), len(said ^ own), len(own)
+        alone, strange, missing = self.difference.rank if self.difference else (True, 0, 0)
+        absent = 0 if alone else len(unknown - self.unknown)
+        return alone, absent, strange, missing, len(unknown ^ self.unknown), len(said ^ own), len(own)
 
 
-def nearest(case: Case, equation: Equation) -> str:
-    """The nearest true equation in the model's symbols, with what it is; "" where none holds an unknown of the statement."""
+def nearest(case: Case, equation: Equation) -> Nearest | None:
+    """The nearest true equation; None where none holds an unknown of the statement."""
     try:
         state = case.samples().states[0]
     except NoMotion:
-        return ""
+        return None
     core = case.sampler.core
-    given = problem([core.free_bodies(state)])
-    points = core.points(core.bind())
+    free = core.free_bodies(state)
     stated = core.symbolic_answers(state, [{"ask": "rows"}])
     said = _said(case, equation, stated.symbols)
     kinds = {name: entry["kind"] for name, entry in stated.symbols.items()}
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
+    wanted = unknown or frozenset(s for s in said if s.dots == 1)
     level = max((s.dots for s in said), default=0)
+    letters = Letters(case, equation) if case.admissible else None
+    own = said_terms(equation, case.admissible) if letters and not any(n in case.meaning.vocabulary.vectors for n in said) else []
+    touched = Counter(part.body for load in free.loads if Sym(load.symbol) in said for part in load.on)
+    joints = [joint for joint in case.sampler.metadata["joints"] if {Sym(n, 2) for n in joint["coordinates"]} & said]
+    touched.update(joint["second"] for joint in joints)
+    points = core.points(core.bind())
+    dimensions = {dimension(term, case.meaning.vocabulary.dimensions) for term in terms(equation, expand=True)}
+    asked = _questions(problem([free]), points, touched, {joint["name"] for joint in joints}, FORCE in dimensions)
     found = []
-    for words, question in case.budget.within(islice(_questions(given, points), _MOST)):
+    for words, question in case.budget.within(islice(asked, _MOST), _PART):
         (answer,) = core.symbolic_answers(state, [{**question, "terms": False, "momentum": False}]).answers
         there = frozenset(read(each["symbol"]) for each in answer["linear"]["coefficients"])
-        found.append(_True(words, read(answer["left"]), read(answer["right"]), there))
+        left, right = read(answer["left"]), read(answer["right"])
+        if there & wanted:
+            beside = difference(own, [*letters.terms(left, right)]) if letters and own else None
+            found.append(_True(words, left, right, there, beside))
     for row in stated.answers[0]:  # what loops ask of the configuration, the rates or the accelerations
         if (stated_there := row[_LEVELS[level]]) is None:
             continue  # what sticks or rolls holds rates, and no place
         tree = read(stated_there)
         there = frozenset(s for s in symbols(tree) if s.dots == level)
-        found.append(_True(f"the closure at {row['name']}", tree, ZERO, there))
-    wanted = unknown or frozenset(s for s in said if s.dots == 1)
-    common = [each for each in found if wanted & each.unknown]
-    if not common:
-        return ""
-    best = min(common, key=lambda each: each.distance(said, wanted))
+        found += [_True(f"the closure at {row['name']}", tree, ZERO, there)] if there & wanted else []
+    if not found:
+        return None
+    best = min(found, key=lambda each: each.distance(said, wanted))
     table = Printed.read({n: {**e, "kind": _KINDS.get(e["kind"], e["kind"])} for n, e in stated.symbols.items()})
-    stated = equation_text(best.left, best.right, table, width=_LONG)
-    return f"{best.words} reads: {stated}" if len(stated) < _LONG else f"{best.words} is too long to be printed"
+    text = equation_text(best.left, best.right, table, width=_LONG)
+    if letters and letters.are_others:
+        sides = ([term for term, _ in letters.terms(side, ZERO)] for side in (best.left, best.right))
+        text = spell(Equation(*(_sum(terms) for terms in sides)))
+    text = f"{best.words} reads: {text}" if len(text) < _LONG else f"{best.words} is too long to be printed"
+    return Nearest(text, _in_words(best.difference), _lacking(case, equation, best.difference))
 
 
-def _questions(given: Problem, points: Mapping[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Balances of bodies that hang together, about points and along directions that have a name."""
-    twists = sorted(named_motions(given, points), key=lambda twist: twist.rank)
-    for group in groups(given)[0]:
-        bodies = [given.bodies[i] for i in group]
+def _in_words(found: Difference | None) -> str:
+    """How a statement differs from a balance with which it has terms in common."""
+    if found is None or not found.common or not 0 < len(found.strange) + len(found.missing) <= _MOST_DIFFERENT:
+        return ""
+    strange, missing = (", ".join(f"`{spell(term)}`" for term in each) for each in (found.strange, found.missing))
+    return (
+        "; ".join(filter(None, (strange and f"{strange} is not in it", missing and f"of it {missing} is missing")))
+        + ", all on the left"
+    )
+
+
+def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correction | None:
+    """The statement with all that it lacks of a balance, if that is all."""
+    if found is None or found.strange or not found.missing or found.common < _COMMON or len(found.missing) > _MOST_MISSING:
+        return None
+    lost = _sum([term.of if isinstance(term, Negative) else Negative(term) for term in found.missing])
+    after = Equation(equation.left, lost if is_zero(equation.right) else _sum([equation.right, lost]))
+    if not case.meaning.fits(after) or not residual(after, case.values()).worst < HOLDS:
+        return None
+    vocabulary = case.meaning.vocabulary
+    reasons = (why(Edit("missing term", None, term, after), equation, vocabulary) for term in found.missing)
+    size = 1.0 + _EACH * len(found.missing)
+    return Correction((("missing term", "", spell(lost)),), spell(after), size, why="; ".join(dict.fromkeys(reasons)))
+
+
+def _sum(parts: Sequence[Node]) -> Node:
+    flat = [inner for term in parts for inner in (term.terms if isinstance(term, Add) else (term,))]
+    return Add(tuple(flat)) if len(flat) > 1 else flat[0] if flat else Num(0.0, "0")
+
+
+def _questions(
+    given: Problem, points: Mapping[str, Any], touched: Mapping[str, int], joints: set[str], forces: bool
+) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Balances of bodies that hang together, about points and along directions that have a name; first of the bodies ``touched`` most by
+    what was said, of ``forces`` or else of moments, and at its ``joints``."""
+    order = lambda twist: (("along" in (twist.question or {})) is not forces, twist.name not in joints, twist.rank)
+    twists = sorted(named_motions(given, points), key=order)
+    every = [[given.bodies[i] for i in group] for group in groups(given)[0]]
+    outside = lambda bodies: len([body for body in bodies if body not in touched])
+    for bodies in sorted(every, key=lambda each: (outside(each), len(each), -sum(touched.get(body, 0) for body in each))):
         for twist in twists:
             if twist.question is not None:
                 how = "moments about" if "about" in twist.question else "forces along"

@@ -124,7 +124,7 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
         """Of which derivative a symbol is, as its dimension says."""
         its = vocabulary.dimension(symbol)
         known = its is not None and its.mass == 0 and its.length in (0, 1) and symbol not in vocabulary.parameters
-        return -its.time if known else 0
+        return -its.time if known else symbol.dots if its is None else 0
 
     found = symbols_in(term)
     rates = [n for n in found if order(n) == 1]

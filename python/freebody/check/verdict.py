@@ -25,6 +25,7 @@ from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, jacobian, residual, 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
 
+_FAR = 2.0  # size of a correction from which on one is looked for among the balances
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
 _FEW = 0.1  # share of such states
@@ -92,6 +93,8 @@ class Verdict(PlainText):
     evidence: Evidence | None = None
     untested: tuple[str, ...] = ()
     true: str = ""
+    differs: str = ""
+    """How the statement differs from the nearest true equation."""
     notes: tuple[str, ...] = ()
     """What the statement calls by a name that means something else in this model."""
     moment: str = ""
@@ -108,8 +111,7 @@ class Verdict(PlainText):
         lines = [self.reason] if self.reason else []
         for correction in self.mends:
             lines += [f"correction: {correction}", *([f"  {correction.why}"] if correction.why else [])]
-        if self.true:
-            lines.append(self.true)
+        lines += filter(None, (self.true, self.differs))
         if self.evidence and not self.ok:
             lines.append(str(self.evidence))
         if self.untested:
@@ -132,8 +134,10 @@ def judged(case: Case) -> Verdict:
     together = tuple(chain(*(part.mends for part in parts)))
     assumed = "; ".join(dict.fromkeys(p.assumption for p in parts if p.assumption))
     untested = tuple(chain(*(part.untested for part in parts)))
-    true = "\n  ".join(dict.fromkeys(part.true for part in parts if part.true))
-    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true)
+    true, differs = (
+        "\n  ".join(dict.fromkeys(filter(None, said))) for said in ([p.true for p in parts], [p.differs for p in parts])
+    )
+    return Verdict(worst.kind, text, reason, assumed, together, worst.evidence, untested, true, differs)
 
 
 def judged_one(case: Case, equation: Equation) -> Verdict:
@@ -209,7 +213,8 @@ def of_wrong_dimensions(case: Case, equations: Iterable[Equation], text: str, re
     inside = _in_figures(case, list(fixes)) if least > 1.5 else ()
     if inside and min(each.size for each in inside) < least:
         return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
-    true = "\n  ".join(filter(None, (nearest(case, equation) for equation, found in fixes.items() if not found)))
+    near = (nearest(case, equation) for equation, found in fixes.items() if not found)
+    true = "\n  ".join(found.text for found in near if found)
     return Verdict(Kind.DIMENSIONS, text, reason, mends=every, true=true)
 
 
@@ -257,13 +262,17 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if assumed and not leaves_out(assumed[0], bool(single)):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
-        given, near = small
-        fixes = tuple(replace(each, given=given) for each in islice(corrections(near, equation, SECOND), MOST))
+        given, beside = small
+        fixes = tuple(replace(each, given=given) for each in islice(corrections(beside, equation, SECOND), MOST))
+    if not fixes or fixes[0].size > _FAR:
+        near = nearest(case, equation)
+        fixes = (*([near.correction] if near and near.correction else ()), *fixes)[:MOST]
     reason, first = (f"it would hold only if: {words}", assumed[0]) if assumed else ("", "")
     if fixes:
         return Verdict(Kind.WRONG, text, reason, first, fixes, seen)
     what = reason or ("wrong" if case.budget.spent else "wrong, and no single or double edit corrects it")
-    return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=nearest(case, equation))
+    true, differs = (near.text, near.differs) if near else ("", "")
+    return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=true, differs=differs)
 
 
 def _sufficiency(case: Case) -> str:

@@ -1,0 +1,170 @@
+"""A statement beside a true balance, term by term, at states where no balance holds; and a balance in the statement's letters."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.core import quote
+from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends
+
+from .coefficients import multiplied, product
+from .language.statements import Equation, symbols_in
+
+if TYPE_CHECKING:
+    from .case import Case
+
+_SAME = 1e-7  # relative: below it two terms are one
+_LETTER = re.compile(r"(-)?(?:(rate|accel)\()?\(?([^\W\d][\w.]*)\)?\)?(?:([*/])([^\W\d]\w*))?")
+_DOTS = {None: 0, "rate": 1, "accel": 2}
+_READ = ("{}", "rate({})", "accel({})")
+
+Term = tuple[Node, Array]
+"""A term with its values."""
+
+
+@dataclass(frozen=True)
+class Difference:
+    """What a balance has that a statement lacks, and what a statement has that is not in it, each in the statement's sense."""
+
+    missing: tuple[Node, ...]
+    strange: tuple[Node, ...]
+    common: int
+
+    @property
+    def rank(self) -> tuple[bool, int, int]:
+        """How much differs: first terms that a statement has and a balance has not."""
+        return self.common == 0, len(self.strange) if self.common else 0, len(self.missing) if self.common else 0
+
+
+def difference(said: Sequence[Term], true: Sequence[Term]) -> Difference:
+    """How the terms of a statement differ from those of a balance, which may be written with any factor."""
+    ratios = {
+        (i, k): found for i, (_, s) in enumerate(said) for k, (_, t) in enumerate(true) if (found := _ratio(s, t)) is not None
+    }
+    often = Counter(round(ratio, 6) for ratio in ratios.values())
+    factor = max(often, key=lambda ratio: often[ratio], default=1.0)
+    alone, rest = [], dict(enumerate(true))
+    for i, (node, value) in enumerate(said):
+        place = next((k for k in rest if (i, k) in ratios and abs(ratios[i, k] / factor - 1) < _SAME * 10), None)
+        if place is None:
+            alone.append((node, value))
+        else:
+            del rest[place]
+    left = sum((factor * value for _, value in rest.values()), start=np.zeros(1))
+    if len(alone) == 1 and rest and np.allclose(alone[0][1], left, rtol=_SAME, atol=_SAME * np.abs(left).max()):
+        alone, rest = [], {}
+    missing = (multiplied(node, float(factor)) for node, _ in rest.values())
+    return Difference(tuple(node for node in missing if node is not None), tuple(n for n, _ in alone), len(said) - len(alone))
+
+
+def _ratio(one: Array, other: Array) -> float | None:
+    """By which number a term is another times it."""
+    with np.errstate(all="ignore"):
+        found = one / other
+    same = one.shape == other.shape and np.isfinite(found).all() and np.ptp(found) <= _SAME * np.abs(found).max()
+    return float(np.median(found)) if same and found[0] else None
+
+
+def said_terms(equation: Equation, values: Mapping[str, Array]) -> list[Term]:
+    """The terms of a statement, all on one side and multiplied out."""
+    found = [*addends(equation.left, expand=True), *((-sign, term) for sign, term in addends(equation.right, expand=True))]
+    return [(node if sign > 0 else Negative(node), sign * sampled(node, values)) for sign, node in found]
+
+
+class Letters:
+    """The symbols of a model in those of a statement."""
+
+    def __init__(self, case: Case, equation: Equation) -> None:
+        self.samples = case.sampler.admissible.samples(count=len(next(iter(case.admissible.values()))))
+        said, known = [Sym(n.name) for n in symbols_in(equation)], case.meaning.symbols
+        gauges = {gauge["name"]: gauge["value"] for gauge in case.sampler.spec["gauges"]}
+        self._own: dict[Sym, Node] = {}
+        for symbol in dict.fromkeys((*said, *map(Sym, known.of_kind("gauge")))):
+            if symbol.key not in case.values():
+                continue
+            texts = [str(gauges.get(text, text)) for text in known.meanings[symbol.name].texts]
+            found = _LETTER.fullmatch(texts[0]) if len(texts) == 1 else None
+            if found and found[3] not in {n.name for n in said}:
+                sign, word, name, operation, other = found.groups()
+                for dots in range(_DOTS[word], 3):
+                    own: Node = Sym(symbol.name, dots - _DOTS[word])
+                    own = own if not other else Mul((Sym(other), own)) if operation == "/" else Quotient(own, Sym(other))
+                    self._own.setdefault(Sym(name, dots), Negative(own) if sign else own)
+
+    @property
+    def are_others(self) -> bool:
+        """Whether the statement has letters of its own."""
+        return bool(self._own)
+
+    def terms(self, left: Node, right: Node) -> Iterator[Term]:
+        """The terms of a balance, all on one side and multiplied out, in the letters of the statement."""
+        found = [*addends(left, expand=True), *((-sign, term) for sign, term in addends(right, expand=True))]
+        names = {n for _, term in found for n in symbols_in(term)}
+        texts = {n: _READ[n.dots].format(quote(n.name)) for n in names}
+        read = self.samples.values([*texts.values()])
+        values = {n.key: read[text] for n, text in texts.items()}
+        yield from ((self.written(term, sign), sign * sampled(term, values)) for sign, term in found)
+
+    def written(self, node: Node, sign: int = 1) -> Node:
+        """A term as a person writes it: a number, what stands above and what below the line."""
+        number, powers = _powers(node, self._own)
+        above = [_power(base, n) for base, n in powers.items() if n > 0]
+        below = [_power(base, -n) for base, n in powers.items() if n < 0]
+        term = Quotient(product(above), product(below)) if below else product(above)
+        return multiplied(term, sign * number) or Mul((Num(sign * number, repr(sign * number)), term))
+
+
+def _powers(node: Node, own: Mapping[Sym, Node]) -> tuple[float, dict[Node, int]]:
+    """The number of a product and the powers of its other factors."""
+    match node:
+        case Sym() if node in own:
+            return _powers(own[node], {})
+        case Num(value=value):
+            return float(value), {}
+        case Negative(of=of):
+            number, powers = _powers(of, own)
+            return -number, powers
+        case Mul(factors=factors):
+            return _times(_powers(factor, own) for factor in factors)
+        case Quotient(top=top, bottom=bottom):
+            number, powers = _powers(bottom, own)
+            return _times([_powers(top, own), (1 / number, {base: -n for base, n in powers.items()})])
+        case Pow(base=base, exponent=exponent):
+            n = Fraction(exponent.value if isinstance(exponent, Num) else exponent)
+            if n.denominator == 1:
+                number, powers = _powers(base, own)
+                return number ** int(n), {each: int(n) * m for each, m in powers.items()}
+        case Fn(name=name, args=args):
+            return 1.0, {Fn(name, tuple(_sum(arg, own) for arg in args)): 1}
+        case Add():
+            return 1.0, {_sum(node, own): 1}
+    return 1.0, {node: 1}
+
+
+def _sum(node: Node, own: Mapping[Sym, Node]) -> Node:
+    """A sum in other letters, term by term."""
+    written = Letters.__new__(Letters)
+    written._own = dict(own)
+    terms = tuple(written.written(term, sign) for sign, term in addends(node))
+    return Add(terms) if len(terms) > 1 else terms[0]
+
+
+def _times(parts: Iterable[tuple[float, dict[Node, int]]]) -> tuple[float, dict[Node, int]]:
+    number, powers = 1.0, Counter[Node]()
+    for its, of in parts:
+        number *= its
+        for base, n in of.items():
+            powers[base] += n
+    return number, {base: n for base, n in powers.items() if n}
+
+
+def _power(base: Node, n: int) -> Node:
+    return base if n == 1 else Pow(base, Num(float(n), str(n)))
