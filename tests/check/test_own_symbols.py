@@ -204,3 +204,14 @@ def test_own_letters_go_before_names_of_the_model_that_read_alike(name, own):
     assert verdict.notes == (f"Here {own} is what is declared, not the parameter {name} of the model.",)
     assert checker.check(f"T {name} = 2 pi", correcting=False).ok
     assert not checker.check(f"{own} = 3", correcting=False).ok
+
+
+@pytest.mark.parametrize(("name", "quoted"), [("knee[2]", "knee[2]"), ("left knee", "'left knee'")])
+def test_a_letter_for_a_force_is_that_force_however_its_joint_is_called(name, quoted):
+    """No correction says of a letter only that it is what it stands for."""
+    m = fb.Mechanism("two rods")
+    a, b = (m.rod(each, length=1.0, mass=1.0) for each in "ab")
+    m.hinge(m.ground.O, a.start, name="hip", coordinate="p")
+    m.hinge(a.end, b.start, name=name, coordinate="q")
+    m.initial(p=0.3, q=0.5, rates={"p": 1.0, "q": 0.0})
+    assert not any(quoted in str(mend) for mend in m.check("F = 0", {"F": f"{quoted}.Fx"}).mends)

@@ -42,7 +42,7 @@ _SOLVED = re.compile(rf"\b(accel|ax|ay|alpha|tension)\(|\.({_FORCES})\b")
 _SUMMED = re.compile(r"\.work\b|\bfriction_work\(")
 """What is summed up from the start of a motion on."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
-_BRACKETS = re.compile(r"^\(([\w.\[\]']+)\)$")
+_BRACKETS = re.compile(r"^\(((?:[\w.\[\]]|'[^']+')+)\)$")
 _ADMISSIBLE = 24  # states at which no balance holds
 _KINEMATIC = 1e-8  # what is left there of an equation that is none
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
