@@ -9,7 +9,7 @@ import typer
 
 from freebody.cli.models import moment, opened, pairs, written
 from freebody.cli.options import After, Before, Model, offering
-from freebody.cli.terminal import speaks_unicode, spelt
+from freebody.cli.terminal import speaks_unicode, spelt, width
 from freebody.cli.user_errors import UserError
 from freebody.codegen.languages import LANGUAGES
 from freebody.document.rendering import FORMATS, text
@@ -118,8 +118,12 @@ def equations(
     if output:
         written(*found.save(output, kind))
     else:
-        ascii = kind == text.FORMAT.ending and not speaks_unicode()
-        typer.echo((spelt(found.text(ascii=True)) if ascii else found.printed(kind)).rstrip("\n"))
+        if kind == text.FORMAT.ending:
+            plain = found.text(ascii=not speaks_unicode(), width=width())
+            shown = plain if speaks_unicode() else spelt(plain)
+        else:
+            shown = found.printed(kind)
+        typer.echo(shown.rstrip("\n"))
 
 
 def derived(

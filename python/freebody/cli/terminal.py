@@ -5,12 +5,14 @@ from __future__ import annotations
 import codecs
 import json
 import math
+import shutil
 import sys
 import unicodedata
 from collections.abc import Mapping
 from typing import Any
 
 from freebody.symbolic.alphabet import READ
+from freebody.symbolic.printers.text import WIDTH
 
 _SIGNS = {
     "·": "*", "⋅": "*", "×": "x", "−": "-", "–": "-", "—": "-", "•": "*", "→": "->", "←": "<-", "≤": "<=", "≥": ">=", "≈": "~",
@@ -36,6 +38,11 @@ def spelt(text: str) -> str:
 def _spelt(error: UnicodeEncodeError) -> tuple[str, int]:
     run, before = error.object[error.start : error.end], error.object[: error.start][-1:]
     return unicodedata.normalize("NFD", run)[0] if before.isalpha() and run == "ü" else spelt(run), error.end
+
+
+def width() -> int:
+    """Columns of the terminal, as far as a text is easily read."""
+    return min(shutil.get_terminal_size((WIDTH, 24)).columns, WIDTH)
 
 
 def speaks_unicode() -> bool:

@@ -6,6 +6,7 @@ import re
 import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 from freebody.document.blocks import Block, Equation, Figure, Heading, Matrices, Side, Vector, Words, Written, is_tree, pieces
 from freebody.document.rendering.format import Format
@@ -15,9 +16,11 @@ from freebody.symbolic.alphabet import columns
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import equation_text, folded, printer, text
 
-_INDENT = "    "
+_INDENT, _BETWEEN = "    ", "  "
 _BRIEF = 20
 """Letters of what an equation is called up to which it stands close under another."""
+_NARROW = 12
+"""Columns that the widest column of a table has at least."""
 _TIE = "\u00a0"
 _CORNERS = {False: ("⎡⎤", "⎢⎥", "⎣⎦", "[]"), True: ("[]", "[]", "[]", "[]")}
 
@@ -68,17 +71,13 @@ class Text(Markup):
         return re.sub(rf" (?![+−-]{_TIE})", _TIE, re.sub(r"(?<= [+−-]) ", _TIE, shown))
 
     def heading(self, title: str, level: int) -> str:
-        return f"{title}\n{('=' if level == 1 else '-') * columns(title)}" if level < 3 else title
+        lines = _wrapped(title, self.width)
+        under = ["=-"[level - 1] * max(map(columns, lines))] if level < 3 else []
+        return "\n".join([*lines, *under])
 
     def paragraph(self, words: str, lead: str = "") -> str:
-        return textwrap.fill(
-            words,
-            self.width,
-            initial_indent=lead,
-            subsequent_indent=" " * len(lead),
-            break_long_words=False,
-            break_on_hyphens=False,
-        )
+        lines = _wrapped(words, self.width - len(lead))
+        return lead + f"\n{' ' * len(lead)}".join(lines)
 
     def bullets(self, items: Sequence[str]) -> str:
         return "\n".join(self.paragraph(item, "- ") for item in items)
@@ -93,6 +92,8 @@ class Text(Markup):
         else:
             left, right = (side_text(side, self.nomenclature, ascii=self.ascii) for side in (left, right))
             shown = folded(f"{left} = ", right, room)
+        if not has_matrices(block):
+            shown = "\n".join(part for line in shown.split("\n") for part in _broken(line, room))
         lines = textwrap.indent(shown, _INDENT).split("\n")
         if block.label:
             lines[-1] += " " * max(2, self.width - columns(lines[-1]) - len(block.label) - 2) + f"({block.label})"
@@ -126,11 +127,15 @@ class Text(Markup):
 
     def table(self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str) -> str:
         widths = [max(map(columns, column)) for column in zip(heads, *rows, strict=True)]
-        lines = [
-            "  ".join(cell + " " * (width - columns(cell)) for cell, width in zip(row, widths, strict=True)).rstrip()
-            for row in (heads, ["-" * width for width in widths], *rows)
-        ]
-        return "\n".join(([caption] if caption else []) + lines)
+        over = sum(widths) + len(_BETWEEN) * (len(widths) - 1) - self.width
+        if over > 0:  # the widest column on several lines
+            widest = widths.index(max(widths))
+            widths[widest] = max(widths[widest] - over, _NARROW)
+        lines = []
+        for row in (heads, ["-" * width for width in widths], *rows):
+            cells = zip_longest(*(_wrapped(cell, width) for cell, width in zip(row, widths, strict=True)), fillvalue="")
+            lines += [_BETWEEN.join(_filled(*each) for each in zip(line, widths, strict=True)).rstrip() for line in cells]
+        return "\n".join((_wrapped(caption, self.width) if caption else []) + lines)
 
     def figure(self, figure: Figure, caption: str) -> str:
         return ""
@@ -148,6 +153,31 @@ def _space(above: Block, below: Block) -> str:
     ):
         return "\n\n"
     return "\n" if sum(map(len, filter(lambda piece: isinstance(piece, str), pieces(below.name)))) <= _BRIEF else "\n\n"
+
+
+def _wrapped(words: str, width: int) -> list[str]:
+    """Words on lines of at most so many columns, as far as there is space between them."""
+    lines = [""]
+    for each in words.split(" "):
+        longer = f"{lines[-1]} {each}" if lines[-1] else each
+        if columns(longer) <= width or not lines[-1]:
+            lines[-1] = longer
+        else:
+            lines.append(each)
+    return lines
+
+
+def _broken(line: str, width: int) -> list[str]:
+    """A line of an equation, where it has no sign to be broken at between factors."""
+    if columns(line) <= width:
+        return [line]
+    margin = " " * (len(line) - len(line.lstrip()))
+    first, *more = _wrapped(line.strip(), width - len(margin) - 2)
+    return [margin + first, *(f"{margin}  {each}" for each in more)]
+
+
+def _filled(cell: str, width: int) -> str:
+    return cell + " " * (width - columns(cell))
 
 
 def _padded(lines: list[str], height: int) -> list[str]:

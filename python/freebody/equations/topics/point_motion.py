@@ -144,10 +144,12 @@ class PointKinematics:
 
 def below(stem: str, name: str) -> Written:
     """A vector with the name of a place behind it: r_P."""
-    return Written(f"{stem}_{name}", (Script(bold(stem), word(name)),))
+    letters = (*word(name.removesuffix("′")), *(_PRIME if name.endswith("′") else ()))
+    return Written(f"{stem}_{name}", (Script(bold(stem), letters),))
 
 
-_PRIMED = Written("r′", (*bold("r"), Atom("′", "sign")))
+_PRIME: Formula = (Atom("′", "sign"),)
+_PRIMED = Written("r′", (*bold("r"), *_PRIME))
 _CROSS: Formula = (THIN, Atom("×", "sign"), THIN)
 
 

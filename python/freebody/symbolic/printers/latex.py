@@ -10,7 +10,7 @@ from freebody.symbolic.formula import Accent, Atom, Formula, Fraction, Grid, Par
 
 COMMANDS = {sign: rf"\{word}" for word, sign in GREEK.items()} | {
     "×": r"\times", "·": r"\cdot", "→": r"\to", "∞": r"\infty", "≤": r"\le", "≥": r"\ge", "√": r"\surd", "∂": r"\partial",
-    "≠": r"\ne", "≈": r"\approx", "∑": r"\sum", "−": "-", "\u2009": r"\,", "\u2003": r"\quad ",
+    "≠": r"\ne", "≈": r"\approx", "∑": r"\sum", "−": "-", "′": "'", "\u2009": r"\,", "\u2003": r"\quad ",
 }  # fmt: skip
 """A sign, and how LaTeX writes it in mathematics."""
 ACCENTS = {"˙": r"\dot", "¨": r"\ddot", "¯": r"\overline"}
