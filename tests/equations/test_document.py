@@ -10,12 +10,16 @@ from html.parser import HTMLParser
 
 import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
+from store import ANSWERED, MODELS, derived, every, mechanism
+from typer.testing import CliRunner
 
+from freebody.cli import app
 from freebody.document.blocks import Bullets, Equation, Figure, Heading, MatrixEquation, Paragraph, Table, Vector, Written
 from freebody.document.document import Document
 from freebody.document.drawings import drawn
 from freebody.document.rendering import FORMATS
 from freebody.equations import latex, read
+from freebody.equations.topics import topic
 from freebody.symbolic.alphabet import columns
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import MINUS_ONE, ZERO, add, mul
@@ -76,6 +80,21 @@ def test_text():
     assert max(map(columns, DOCUMENT.text(width=72).split("\n"))) <= 72
 
 
+@every([f"{name} {form}" for name in ANSWERED for form in ("minimal", "brute")], "case", share=300)
+def test_no_line_of_a_text_is_wider_than_asked(case):
+    name, form = case.split()
+    made = derived(name, form)
+    for width in (60, 80, 100):
+        assert max(map(columns, made.text(width=width).split("\n"))) <= width
+
+
+def test_the_width_is_that_of_the_terminal(monkeypatch):
+    for width, room in ((60, 60), (80, 80), (100, 100), (200, 100)):
+        monkeypatch.setenv("COLUMNS", str(width))
+        shown = CliRunner().invoke(app, ["equations", str(MODELS["S19.17/model"]), "--form", "brute"]).output
+        assert 0.8 * room < max(map(columns, shown.split("\n"))) <= room
+
+
 def test_ascii_text_is_ascii():
     assert DOCUMENT.text(ascii=True).isascii()
 
@@ -116,13 +135,29 @@ def test_latex_is_balanced():
     assert r"\mathbf{a}_G = l \ddot\theta_1 \cos\theta_1 \, \mathbf{i} + (m_1 + l) \, \mathbf{j} - \mathbf{e}_r" in shown
 
 
-@pytest.mark.long
-def test_latex_compiles(tmp_path):
+DERIVATIONS = {
+    "of every block": lambda: DOCUMENT,
+    "pendulum": lambda: mechanism("19.3.15/model").equations(),
+    "four-bar": lambda: mechanism("GEN-FOURBAR/model").equations(long=True),
+    "a point through a frame": lambda: mechanism("S19.20/model").equations(of="wheel.P", frame="rod"),
+    "a point by a chain": lambda: mechanism("GEN-SLIDER/driven").equations(of="rod.end"),
+    "smallest set": lambda: mechanism("S19.17/model").equations(want="pivot.Fx"),
+    "impact": lambda: topic(mechanism("examples/tossed_box"), "impact"),
+}
+
+
+@pytest.mark.parametrize("which", ["of every block", *(pytest.param(x, marks=pytest.mark.long) for x in [*DERIVATIONS][1:])])
+def test_latex_compiles_with_its_figures(which, tmp_path):
+    """Nothing is missing from the page, and nothing is wider."""
     head = r"\documentclass{article}\usepackage[utf8]{inputenc}\usepackage{amsmath,amssymb,graphicx}\begin{document}"
-    DOCUMENT.save(tmp_path / "part.tex")
+    _, *figures = DERIVATIONS[which]().save(tmp_path / "part.tex")
     (tmp_path / "made.tex").write_text(head + r"\input{part}\end{document}")
-    subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "made.tex"], cwd=tmp_path, check=True)
-    assert (tmp_path / "made.pdf").stat().st_size > 10_000
+    done = subprocess.run(
+        ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "made.tex"], cwd=tmp_path, capture_output=True
+    )
+    said = done.stdout.decode(errors="replace")
+    assert done.returncode == 0, said[-2000:]
+    assert all(figure.name in said for figure in figures) and "Overfull" not in said, said
 
 
 def test_figures_are_written_beside_and_words_stand_for_them_elsewhere(tmp_path):

@@ -69,7 +69,7 @@ class Search:
         """The smallest set; all balances of the coordinates, and more."""
         if least := smallest_set(wanted.name, self.states, self.subject.points).equations:
             yield from_search(self.subject, least)
-        stated = of_coordinates(self.subject)
+        stated = of_coordinates(self.subject, momentum=False)
         if wanted.dots or any(wanted in s.balance.linear.coefficients for s in stated):
             yield stated
         else:

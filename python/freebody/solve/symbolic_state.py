@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+import gc
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -15,7 +17,7 @@ from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.linear import Linear
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.symbols import Name
-from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read, write
 
 Question = Mapping[str, Any]
 _SEED, _OTHERS = 5, 3
@@ -81,7 +83,7 @@ class Contribution:
 
 @dataclass(frozen=True)
 class Balance:
-    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``residual`` = right − left.
+    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``residual`` = right − left; ``momentum`` is 0 where it was not asked for.
 
     ``place`` is the point about which, or the vector along which; ``linear`` that of the residual."""
 
@@ -121,7 +123,7 @@ class Balance:
         """From an answer."""
         test, turns = data["test"], data["test"]["kind"] == "moment"
         loads = (Contribution(each["load"], read(each["tree"]), each["internal"]) for each in data["loads"])
-        trees = (read(data[word]) for word in ("momentum", "left", "right", "residual"))
+        trees = (read(data.get(word, write(ZERO))) for word in ("momentum", "left", "right", "residual"))
         inertia = tuple((each["body"], read(each["tree"])) for each in data["inertia"])
         place = Arrow.read(test["about" if turns else "along"])
         return cls(tuple(data["bodies"]), turns, place, tuple(loads), inertia, *trees, Linear.read(data["linear"]))
@@ -189,7 +191,8 @@ class SymbolicState:
 
     def balances(self, questions: Sequence[Question]) -> list[Balance]:
         """Answers about balances."""
-        return list(map(Balance.read, self.ask(questions)))
+        with uncollected():
+            return list(map(Balance.read, self.ask(questions)))
 
     def of_bodies(self) -> list[Balance]:
         """The balances of every body by itself: force along x and y, and moment about the mass centre of one that is no particle."""
@@ -350,3 +353,15 @@ class SymbolicState:
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
         return self.source.symbolic_answers(self.state, questions, self.at_rest, self.numbers)
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """No search for cycles while large trees are made, which have none: it would take as long as the making."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()

@@ -15,13 +15,14 @@ from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import ZERO, Sym, is_zero
 
 
-def stated(subject: SymbolicState) -> list[Stated]:
-    """One equation for every coordinate of the tree; no reaction of a joint of the tree is in any of them."""
+def stated(subject: SymbolicState, momentum: bool = True) -> list[Stated]:
+    """One equation for every coordinate of the tree, with its ``momentum``; no reaction of a joint of the tree is in any of them."""
     joints = {joint["name"]: joint for joint in subject.source.metadata["joints"]}
     own = [joints.get(c["joint"], {"type": "free", "name": c["joint"]}) for c in subject.coordinates]
     cards = [cards_of()[joint["type"]] for joint in own]
     moves = [next(m for m in card.coordinates if m.name == c["word"]) for card, c in zip(cards, subject.coordinates, strict=True)]
-    found = subject.balances([_question(subject, *each) for each in zip(subject.names, own, moves, strict=True)])
+    asked = [_question(subject, *each) for each in zip(subject.names, own, moves, strict=True)]
+    found = subject.balances([{**question, "momentum": momentum} for question in asked])
     made = []
     for name, joint, card, motion, balance in zip(subject.names, own, cards, moves, found, strict=True):
         inertia = balance.linear.coefficients.get(Sym(name, 2), ZERO)

@@ -33,11 +33,11 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows, search = subject.rows, None
     if all(row.kind == "motion" for row in rows) and not any(load.follows for load in subject.free.loads):
-        chosen = of_coordinates(subject)
+        chosen = of_coordinates(subject, momentum=False)
     else:
         search = minimal_form(subject.neighbours, subject.points, forces=True)
         found = from_search(subject, search.equations)
-        chosen = found if found or not search.wanted else of_coordinates(subject)
+        chosen = found if found or not search.wanted else of_coordinates(subject, momentum=False)
     added = _of_bearing_friction(subject, chosen)
     stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen, *added], 1)]
     form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(rows))
@@ -63,7 +63,7 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
 def from_search(subject: SymbolicState, equations: Sequence[BalanceEquation]) -> list[Stated]:
     """Equations that a search found, symbolically."""
     asked = [_questions(subject, equation) for equation in equations]
-    found = iter(subject.balances([question for questions in asked for question in questions]))
+    found = iter(subject.balances([{**question, "momentum": False} for questions in asked for question in questions]))
     stated = [[_stated(subject, next(found), e) for _ in questions] for questions, e in zip(asked, equations, strict=True)]
     return [min(each, key=lambda s: operations(s.balance.left) + operations(s.balance.right)) for each in stated]
 
