@@ -1,8 +1,8 @@
 """How far ``freebody check`` gets with what students write about mechanisms of textbooks.
 
-    python benchmarks/books.py [NAME …]
+    python benchmarks/books.py [mended | unseen | NAME …]
 
-The statements are in tests/check/books/, with the verdict that a person came to and the correction that a tutor would give; those that
+The statements are in tests/check/books/, with which the check was mended, and in tests/check/books_unseen/, with the verdict that a person came to and the correction that a tutor would give; those that
 are judged or corrected otherwise are printed.
 """
 
@@ -16,12 +16,21 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "check"))
 
-from books import FILES, Book, Said
+from books import FILES, UNSEEN, Book, Said
 
 
 def main() -> None:
+    names = sys.argv[1:] or ["mended", "unseen"]
+    halves = {"mended": list(FILES), "unseen": list(UNSEEN)}
+    for name in names:
+        print(f"{name}:")
+        score(halves.get(name, [name]))
+
+
+def score(names: list[str]) -> None:
+    """Prints what is judged or corrected otherwise than a person did, and counts."""
     began, seen, places = time.perf_counter(), Counter(), Counter()
-    for name in sys.argv[1:] or FILES:
+    for name in names:
         book = Book(name)
         for said in book.verdicts():
             wanted, found = said.kind, said.verdict.kind

@@ -1,4 +1,5 @@
-"""Mechanisms of textbooks with statements as students write them, right and with a slip, in ``books/``: none is made by a rule.
+"""Mechanisms of textbooks with statements as students write them, right and with a slip, in two halves: none is made by a rule. The check
+was mended with those in ``books/``; those in ``books_unseen/`` were written by someone who did not know it, and are for its score alone.
 
 A file holds a ``model``, ``letters``, and ``statements``: what is said, the ``verdict`` that a person came to, and the ``correction``
 that a tutor would give. Both were written down before the program had seen them.
@@ -27,7 +28,13 @@ from freebody.mechanism import Mechanism
 from freebody.symbolic.evaluate import Array
 
 _CONSTANT = re.compile(r"\s*constant:(.+)|(.+)=\s*const\s*")
-FILES = {path.stem: path for path in sorted((Path(__file__).parent / "books").glob("*.yaml"))}
+
+
+def _files(half: str) -> dict[str, Path]:
+    return {path.stem: path for path in sorted((Path(__file__).parent / half).glob("*.yaml"))}
+
+
+FILES, UNSEEN = _files("books"), _files("books_unseen")
 
 
 @dataclass(frozen=True)
@@ -48,7 +55,7 @@ class Book:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self.data = YAML(typ="safe").load(FILES[name].read_text(encoding="utf-8"))
+        self.data = YAML(typ="safe").load((FILES | UNSEEN)[name].read_text(encoding="utf-8"))
 
     @cached_property
     def checker(self) -> Checker:

@@ -16,25 +16,25 @@ from freebody.run.records import quote
 BODIES = """
 freebody: 1
 ground:
-  points: {P: [0.2 m, 0.1 m]}
+  points: {P: [0.2 m, 0.1 m], R: [0.6 m, 0.3 m]}
   lines: {rail: {through: P, angle: 20 deg}}
   curves: {bow: {x: 2*s, y: 0.3*s^2}}
 bodies:
   plate: {mass: 2 kg, inertia: 0.1 kg*m^2, centre: [0.1 m, 0.05 m], points: {A: [0.3 m, 0.1 m], B: [-0.2 m, 0.2 m]},
-          lines: {edge: {through: A, angle: 10 deg}}}
+          lines: {edge: {through: A, angle: 10 deg}}, curves: {bow: {x: 2*s, y: 0.3*s^2}}}
 forces:
   push: {type: force, at: plate.B, x: 3 N, y: 1 N}
 """
 FIELDS = {
-    "points": (["ground.P", "plate.A"], None, ["plate.A", "plate.B"]),
+    "points": (["ground.P", "plate.A"], ["ground.P", "ground.R"], ["plate.A", "plate.B"]),
     "point": (None, "ground.P", "plate.A"),
     "line": (None, "ground.rail", "plate.edge"),
     "circle": (None, "{centre: ground.P, radius: 0.5 m}", "{centre: plate.A, radius: 0.3 m}"),
-    "curve": (None, "ground.bow", None),
+    "curve": (None, "ground.bow", "plate.bow"),
     "numbers": "[0.4 m, 0.3 m]",
     "number": "0.9 m",
 }
-"""What is written in a field: for both bodies, the first, the second; or a number."""
+"""What is written in a field: for both bodies, the ground, the plate; or a number."""
 EVENTS = """
 events:
   let go: {when: t - 0.1, then: [{release: it}]}
@@ -43,25 +43,26 @@ events:
 ROUTES = ("minimal", "newton_euler", "constraints")
 
 
-def written(card):
-    """The fields of a joint that must be given."""
-    role = {"both": 0, "first": 1, "second": 2}
+def written(card, *, turned=False):
+    """The fields of a joint that must be given; ``turned``: the plate comes first, the ground second."""
+    role = {"both": 0, "first": 2, "second": 1} if turned else {"both": 0, "first": 1, "second": 2}
     chosen = {f.name: FIELDS[f.kind] if f.role == "number" else FIELDS[f.kind][role[f.role]] for f in card.fields if f.required}
-    return ", ".join(f"{name}: [{', '.join(v)}]" if isinstance(v, list) else f"{name}: {v}" for name, v in chosen.items())
+    pairs = {name: v[::-1] if turned and isinstance(v, list) else v for name, v in chosen.items()}
+    return ", ".join(f"{name}: [{', '.join(v)}]" if isinstance(v, list) else f"{name}: {v}" for name, v in pairs.items())
 
 
-def model(card, *, alone, events=""):
+def model(card, *, alone, events="", turned=False):
     """The plate on the joint alone, or on free coordinates beside it, so that it closes a loop."""
     text = BODIES
     on_curve = any(field.kind == "curve" for field in card.fields)
     # One along a curve that can be released has but the place on the curve for a coordinate.
     names = [f"c{i}" for i in range(1 if on_curve and events else len(card.coordinates))]
     if alone:
-        joints = f"  it: {{type: {card.type}, {written(card)}, coordinates: [{', '.join(names)}]}}\n"
+        joints = f"  it: {{type: {card.type}, {written(card, turned=turned)}, coordinates: [{', '.join(names)}]}}\n"
         values = ", ".join(f"{name}: {0.7 - 0.2 * i}" for i, name in enumerate(names))
         start = f"initial: {{{values}, rates: {{{', '.join(f'{name}: 0.5' for name in names)}}}}}\n"
     else:
-        joints = f"  it: {{type: {card.type}, {written(card)}}}\n"
+        joints = f"  it: {{type: {card.type}, {written(card, turned=turned)}}}\n"
         joints += "  where: {type: free, of: [ground.P, plate.A], coordinates: [x, y, phi]}\n"
         start = "initial: {guess: {x: 0.9, y: 0.4, phi: 0.3}}\n"
     return fb.Mechanism.loads(f"{text}joints:\n{joints}{start}run: {{until: 0.3 s}}\n{events}")
@@ -78,9 +79,10 @@ def cases():
             yield pytest.param(card, False, id=f"{card.type}-loop")
 
 
+@pytest.mark.parametrize("turned", [False, True])
 @pytest.mark.parametrize(("card", "alone"), list(cases()))
-def test_joint(card, alone):
-    mechanism = model(card, alone=alone)
+def test_joint(card, alone, turned):
+    mechanism = model(card, alone=alone, turned=turned)
     solved = {route: mechanism.solve(route=route) for route in ROUTES}
     first = solved["minimal"]
     reaction = first.reactions["it"]

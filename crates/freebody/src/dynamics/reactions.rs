@@ -112,13 +112,16 @@ impl<S: Scalar> SolvedView<'_, S> {
     /// these leave is taken up once more, so that derivatives are exact.
     pub fn row_loads(&self, joint: usize) -> Vec<S> {
         let at = self.at;
-        let second = at.m.ends(&at.m.joints[joint])[1];
-        let load = self.joint_load(joint).at_joint_origin(at, second).parts();
+        let [first, second] = at.m.ends(&at.m.joints[joint]);
+        let on = |body: usize| self.joint_load(joint).at_joint_origin(at, body);
+        // The ground has no balance.
+        let (body, load) = if second > 0 { (second, on(second)) } else { (first, -on(first)) };
+        let load = load.parts();
         let mut rows = vec![];
         constraint_rows(at, joint, &mut rows);
         let zero = [S::zero(); 3];
-        let of_second = |row: &Row<S>| row.motion.iter().find(|(b, _)| *b == second).map_or(zero, |(_, w)| w.parts());
-        let columns: Vec<[S; 3]> = rows.iter().map(of_second).collect();
+        let of_body = |row: &Row<S>| row.motion.iter().find(|(b, _)| *b == body).map_or(zero, |(_, w)| w.parts());
+        let columns: Vec<[S; 3]> = rows.iter().map(of_body).collect();
         let unit = [1.0, 1.0, 1.0 / self.length];
         let g = Matrix::from_fn(3, rows.len(), |i, j| columns[j][i].value() * unit[i]);
         let factored = Orthogonal::factor(&g);
