@@ -52,17 +52,6 @@ class OutcomeKind(str, Enum):
 
     __str__ = str.__str__
 
-    @classmethod
-    def _missing_(cls, value: object) -> OutcomeKind | None:
-        """Of files that were saved under an earlier name."""
-        earlier = {
-            "string_drawn_in": cls.STRING_ZERO_LENGTH,
-            "no_authority": cls.INSUFFICIENT_ACTUATION,
-            "friction_jams": cls.SELF_LOCKING,
-            "endless_impacts": cls.IMPACT_ITERATION_LIMIT,
-        }
-        return earlier.get(str(value))
-
 
 class ModelError(ValueError):
     """A model that cannot be compiled: ``path`` is like ``joints.pivot.of[1]``."""
