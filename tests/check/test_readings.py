@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import time
 from functools import cache
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from books import FILES, Book
 from ruamel.yaml import YAML
 from store import SYSTEMS, family
 
-from freebody.check import Checker
+from freebody.check import Checker, Kind
 from freebody.check.file import WORDS, judged_alone
 from freebody.mechanism import Mechanism
 
@@ -55,3 +56,24 @@ def test_a_doubtful_reading_is_shown() -> None:
     ):
         notes = "\n".join(judged_alone(checker(name), text).notes)
         assert note in notes or (note == "α" and "ω is read as" in notes), notes
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.5])
+def test_the_angles_of_what_rolls_within_a_loop_are_measured_from_the_start(turned: float) -> None:
+    """A planet in a ring, its arm started at θ = 0: r φ = −(R − r) θ but for what it was turned there."""
+    planet = Checker(Mechanism.loads(DATA["models"]["planet"].replace("φ: 0", f"φ: {turned}")))
+    kinds = [planet.check(f"r φ = {sign}(R - r) θ", correcting=False).kind for sign in "-+"]
+    assert kinds == [Kind.TRUE_IF if turned else Kind.TRUE, Kind.WRONG]
+
+
+def test_what_is_printed_is_what_was_written() -> None:
+    for text in ("(m + m) g L = m", "(g/L) = 2 ω²", r"\left(g/L\right) = (m) g"):
+        assert checker("rod").check(text, correcting=False).text == text
+
+
+def test_a_wrong_statement_about_two_loops_is_answered_in_time() -> None:
+    """Five bars, of which random ones seldom close: the budget holds for the true motions, too."""
+    began = time.process_time()
+    verdict = Checker(Mechanism.loads(DATA["models"]["two loops"])).check("m a^2 q0'' + m g a cos q0 = 0")
+    assert verdict.kind is Kind.WRONG
+    assert time.process_time() - began < 3.5  # two seconds, and the model read

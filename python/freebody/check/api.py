@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
+from time import process_time
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import ModelError, MotionError
@@ -91,7 +92,7 @@ class Checker:
             raise StatementError("this is no character", broken.span(), "write it again", shown)
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
-        checker.budget = Budget(self.seconds)
+        checker.budget = Budget(self.seconds, begins=process_time())
         try:
             verdict = claimed(checker, text, letters or {}) or _stated(checker, with_condition_first(text), letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict

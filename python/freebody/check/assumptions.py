@@ -28,8 +28,8 @@ from .residual import HOLDS, figures, residual, rounding, unreached
 if TYPE_CHECKING:
     from .api import Checker, Declared
 
-FAR = 1e7
-"""How far a parameter goes that goes to infinity (its inverse: to 0)."""
+FAR = 1e7, 1e5, 1e3
+"""How far a parameter goes that goes to infinity (its inverse: to 0): as far as closed loops still close to round-off."""
 
 SMALL = 1e-3
 """How small a coordinate is that is small, in rad or typical lengths of the model."""
@@ -49,7 +49,7 @@ _INFINITE = ("inf", "infinity", "∞", "oo")
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
 _STATES = 16
-_PART = 0.7  # of the budget, so that there is time for what comes after
+_PART = 0.85  # of the budget, so that there is time for the balance that comes nearest
 _TINY = 5e-6  # rad, at which what is left of a true linear equation is below HOLDS, and round-off, too
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
@@ -106,6 +106,8 @@ def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
 def _to_first_order(case: Case, equation: Equation) -> str:
     """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
     words, family = _small(case, equation, SMALL)
+    if not case.budget.lasts(_PART):
+        return ""
     with suppress(NoMotion, StatementError, ModelError):
         if family.small and not case.hypothesis.small and first_order(case, equation, family):
             return f"{words}, to first order"
@@ -281,7 +283,9 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
     zero = replace(given, held=(*given.held, (found, 0.0)))
     if value == "0" and checker.sampler.has(zero):
         return zero
-    return replace(given, scaled=(*given.scaled, (found, FAR if value != "0" else 1 / FAR)))
+    powers = (far if value != "0" else 1 / far for far in FAR)
+    scaled = [replace(given, scaled=(*given.scaled, (found, power))) for power in powers]
+    return next(filter(checker.sampler.has, scaled), scaled[0])
 
 
 def _meant(expression: str, checker: Checker, declared: Declared) -> str:

@@ -11,6 +11,7 @@ from typing import TypeVar
 import numpy as np
 
 T = TypeVar("T")
+_CORRECTIONS = 0.8  # of the budget, so that there is time for assumptions
 _SECONDS = (10, 20), (2.0, 10.0)
 """Bodies, and how long a statement about them may take."""
 
@@ -33,11 +34,16 @@ class Budget:
         """That it was not enough."""
         return f"After {self.seconds:g} s no more was looked for: there may be other corrections."
 
-    def within(self, found: Iterable[T], part: float = 1.0) -> Iterator[T]:
-        """What there is, as long as there is time; a ``part`` of it, so that some is left for what comes after."""
-        self.begins = process_time() if math.isnan(self.begins) else self.begins
+    def within(self, found: Iterable[T], part: float = _CORRECTIONS) -> Iterator[T]:
+        """What there is, as long as there is a ``part`` of the time left: by default so that assumptions can be tried after corrections."""
         for each in found:
-            if process_time() - self.begins > part * self.seconds:
-                self.spent = True
+            if not self.lasts(part):
                 return
             yield each
+
+    def lasts(self, part: float = 1.0) -> bool:
+        """Whether there is time, or a ``part`` of it, left."""
+        self.begins = process_time() if math.isnan(self.begins) else self.begins
+        over = process_time() - self.begins > part * self.seconds
+        self.spent |= over
+        return not over

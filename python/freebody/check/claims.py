@@ -19,7 +19,7 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import FAR, family, first_order, says_zero, tiny, vanishes, wider
+from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
 from .correction import corrections
@@ -126,7 +126,7 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(found, values))
-    return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} at {FAR:.0e}", limits)
+    return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
 
 
 def _small(case: Case, statement: str, limits: str) -> Verdict:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
+from time import process_time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE, Dimension
 
 from .admissible import UnderOtherLoads
+from .budget import Budget
 from .families import ALL, Family, NoMotion, Samples, at_start
 from .sides import changes_side, squares
 
@@ -43,6 +45,8 @@ _NEWTON = 30  # steps of it
 _STEP = 1e-6  # of central differences, relative to the size of a coordinate
 _EXACT = 1e-13  # tolerance of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
+_SHARE, _MOST, _FEWER = 0.1, 0.4, 16
+"""Of the time for a statement: when fewer samples are enough, and when no more are looked for."""
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
@@ -136,9 +140,13 @@ class MotionSampler:
         """``count`` samples, each with where its motion began if that is known; none where the first ones already fail."""
         rng = np.random.default_rng([self.seed, fresh])
         found: list[tuple[State, State | None]] = []
+        began, seconds = process_time(), Budget.seconds_for(len(self.metadata["bodies"]))
         for i in range(count):
-            if i == _PATIENCE and not found:
-                return []
+            spent = (process_time() - began) / seconds
+            if (i >= _PATIENCE and not found) or spent > _MOST:
+                break
+            if len(found) >= _FEWER and spent > _SHARE:
+                return found
             for _ in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
                 with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
                     if (made := self._made(rng, self._parameters(rng, family), family)) is not None:
@@ -243,14 +251,14 @@ class MotionSampler:
         """The nearest rates, or where they are not in it the nearest place, at which an expression is 0: of the coordinates that
         are ``free``; the others follow where loops close. What rolls leaves more places free than rates. Raises ``NoMotion`` and
         ``MotionError``."""
-        movable = free if state.history is None else self.names
+        movable = free if state.history is None and not self.rolls_in_loop else self.names
         places_of, rates_of = ([self.names.index(name) for name in names] for names in (movable, free))
 
         def moved(places: Array, rates: Array) -> State:
             there, given = dict(zip(movable, places.tolist(), strict=True)), dict(zip(free, rates.tolist(), strict=True))
-            held = (
-                {"fixed": there, "guess": self._named(state.q), "branch": branch} if state.history is None else {"guess": there}
-            )
+            held: dict[str, Any] = {"guess": there}
+            if movable is free:
+                held = {"fixed": there, "guess": self._named(state.q), "branch": branch}
             return self.core.assemble(state.p, state.t, rates=given, history=state.history, **held)[0]
 
         def value(places: Array, rates: Array) -> Array:
@@ -325,6 +333,8 @@ class MotionSampler:
             return self._sampled(motion.state(start.t + 0.99 * (min(ends) - start.t))), start
         first = at_start(family.vanishing[0], self.core, start)
         t = first_zero(lambda times: motion.evaluate([first], times)[:, 0], start.t, min(ends))
+        if t is None and self._vanishes(first, start):
+            return self._sampled(start), start
         return (None if t is None else self._sampled(motion.state(t))), start
 
     def _sampled(self, found: State) -> State | None:
@@ -415,6 +425,12 @@ class MotionSampler:
     def loops(self) -> int:
         """How many joints close a loop."""
         return len(self.metadata.get("closure_coordinates", [])) + sum(1 for j in self.metadata["joints"] if j.get("cut"))
+
+    @cached_property
+    def rolls_in_loop(self) -> bool:
+        """Whether something that rolls closes a loop: that binds rates, and of the places only what follows from the start."""
+        cut = {joint["name"] for joint in self.metadata["joints"] if joint.get("cut")}
+        return any(joint["name"] in cut and joint["type"].startswith("rolling") for joint in self.spec["joints"])
 
     def shapes_loop(self, name: str) -> bool:
         """Whether a parameter may be a length of a closed loop."""

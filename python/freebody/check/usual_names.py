@@ -55,7 +55,15 @@ def _points(spec: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
     named = [(point["body"], point["name"], point["name"].rpartition(".")[2]) for point in spec["points"]]
     named += [(body["name"], f"{spell(body['name'])}.G", body["name"]) for body in spec["bodies"] if body["particle"]]
     joints = [(joint["with"].get("point") or (joint["with"].get("of") or [""])[-1], joint["name"]) for joint in spec["joints"]]
-    named += [(point.rpartition(".")[0], point, letter) for point, letter in joints if isinstance(point, str) and "." in point]
+    held = {
+        joint["name"]: [of.rpartition(".")[2] for of in map(str, joint["with"].get("of") or ()) if not of.startswith("ground.")]
+        for joint in spec["joints"]
+    }
+    named += [
+        (point.rpartition(".")[0], point, letter)
+        for point, letter in joints
+        if isinstance(point, str) and "." in point and letter not in held[letter]
+    ]
     if len(spec["bodies"]) == 1:
         named.append((spec["bodies"][0]["name"], f"{spell(spec['bodies'][0]['name'])}.G", "G"))
     letters = [each for each in named if _LETTER.fullmatch(each[2])]

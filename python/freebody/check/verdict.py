@@ -16,11 +16,11 @@ from freebody.symbolic.errors import StatementError
 from .assumptions import assumption, leaves_out, linearised, tiny
 from .case import Case
 from .correction import MOST, SECOND, Correction, corrections
-from .families import ALL, NoMotion
+from .families import ALL, NoMotion, Samples
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .nearest import nearest
-from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, jacobian, residual, rounding, sizes, unreached
+from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, rounding, sizes, unreached
 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
@@ -251,6 +251,11 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     """Under an assumption that a person would make; else wrong, with its corrections, also where what was left out would be 0 at
     rest or without a part of the model."""
     seen = evidence(found, case.values())
+    if case.sampler.rolls_in_loop and case.hypothesis.since and _stays(case, equation):
+        what = "the angles of what rolls are measured from a place where both sides are equal"
+        return Verdict(
+            Kind.TRUE_IF, text, f"true only if {what}: they differ by what they differ by at the start", what, evidence=seen
+        )
     if not case.correcting:
         return Verdict(Kind.WRONG, text, evidence=seen)
     fixes = tuple(islice(corrections(case, equation), MOST))
@@ -273,6 +278,17 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     what = reason or ("wrong" if case.budget.spent else "wrong, and no single or double edit corrects it")
     true, differs = (near.text, near.differs) if near else ("", "")
     return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=true, differs=differs)
+
+
+def _stays(case: Case, equation: Equation) -> bool:
+    """Whether the two sides go on to differ by what they differ by at the start of each motion."""
+    samples = case.samples()
+    if not samples.starts:
+        return False
+    began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
+    change = equation_sides(equation, case.values()).residual - equation_sides(equation, began).residual
+    left = [equation_sides(equation, values).left for values in (case.values(), began)]
+    return bool(np.all(np.abs(change) <= FAILS * np.abs(left[0] - left[1]).reshape(change.shape)))
 
 
 def _sufficiency(case: Case) -> str:

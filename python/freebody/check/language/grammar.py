@@ -69,12 +69,12 @@ class Line:
 
     def line(self) -> list[Equation]:
         """The equations of a line; a = b = c is two."""
-        left, out = self.sum(), []
+        begins, left, out = self.now.span[0], self.sum(), []
         while self.now.kind in RELATIONS:
             relation = self.take().kind
-            right = self.sum()
-            out.append(Equation(left, right, relation, span=(left.span[0], right.span[1])))
-            left = right
+            behind, right = self.now.span[0], self.sum()
+            out.append(Equation(left, right, relation, span=(begins, self.row[self.at - 1].span[1])))
+            begins, left = behind, right
         self.expect("end")
         if not out:
             raise StatementError("this is no equation: it has no `=`", left.span, "write both sides, like `m*a = F`")
