@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import base64
+import io
 import json
 import re
 import subprocess
 from html.parser import HTMLParser
+from unicodedata import normalize
 
 import pytest
+from fontTools.ttLib import TTFont
 from material import LETTERS, cos, half, product, sin, square, sym
 from store import ANSWERED, MODELS, derived, every, mechanism
 from typer.testing import CliRunner
@@ -208,7 +211,24 @@ def test_a_page_is_whole_and_needs_nothing_from_elsewhere():
     page = DOCUMENT.html()
     assert page.startswith("<!DOCTYPE html>") and '<meta charset="utf-8">' in page
     assert "<title>A pendulum &amp; 100 % of it</title>" in page
-    assert not re.search(r"<script|<link|src=|url\((?!#)", page)
+    assert not re.search(r"<script|<link|src=|url\((?!#|data:)", page)
+
+
+ITALIC = {*range(0x1D434, 0x1D468), *range(0x1D6E2, 0x1D6FB), *range(0x1D6FC, 0x1D71C)} - {0x1D455}
+"""The letters as which a browser shows single ones (MathML Core, C.1); h is that of Planck."""
+
+
+@every(ANSWERED, "name", share=100)
+def test_a_page_brings_the_signs_of_its_formulas_and_brackets_that_grow(name):
+    parser = Nesting()
+    parser.feed(derived(name, "minimal").html())
+    [font] = re.findall(r"data:font/woff;base64,([\w+/=]+)", derived(name, "minimal").html())
+    font = TTFont(io.BytesIO(base64.b64decode(font)))
+    said = {sign for sign in "".join(parser.said) if not sign.isspace()}
+    slanted = {code for code in range(0x1D434, 0x1D71C) if normalize("NFKC", chr(code)) in {normalize("NFKC", x) for x in said}}
+    assert {*map(ord, said), *(code for code in slanted if code in ITALIC)} <= font.getBestCmap().keys()
+    grows = font["MATH"].table.MathVariants.VertGlyphCoverage.glyphs
+    assert {font.getBestCmap()[ord(sign)] for sign in "()[]√"} <= {*grows}
 
 
 def test_json_has_trees_and_what_is_printed():

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from base64 import b64encode
 from collections.abc import Sequence
+from pathlib import Path
 
 import markupsafe
 
@@ -15,6 +17,8 @@ from freebody.document.templates import template
 from freebody.symbolic.formula import Formula
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.mathml import broken, mathml
+
+_FONT = Path(__file__).with_name("templates") / "math.woff"
 
 
 class Html(TypesetMarkup):
@@ -39,9 +43,10 @@ class Html(TypesetMarkup):
 
 
 def page(blocks: Sequence[Block], nomenclature: Nomenclature, around: str = "page.html") -> str:
-    """A whole page, which needs nothing from elsewhere, or a ``fragment.html`` of one."""
+    """A whole page, which needs nothing from elsewhere, or a ``fragment.html`` of one; a page has the font of its mathematics in it."""
     titles = (words_text(block.words, nomenclature) for block in blocks if isinstance(block, Heading))
-    return template(__package__, around).render(title=next(titles, "Equations"), body=Html(nomenclature).render(blocks))
+    shown = {"title": next(titles, "Equations"), "body": Html(nomenclature).render(blocks)}
+    return template(__package__, around).render(**shown, font=b64encode(_FONT.read_bytes()).decode())
 
 
 FORMAT = Format("html", "html", "A page for a browser.", lambda blocks, nomenclature, beside: page(blocks, nomenclature))
