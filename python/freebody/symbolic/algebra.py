@@ -71,6 +71,37 @@ def _products(tree: Tree) -> list[Tree]:
     return [tree]
 
 
+def grouped(tree: Tree) -> Tree:
+    """A sum with brackets in its brackets multiplied out, what differs in one factor standing together: (M + m) l² + I."""
+    if _depth(tree) < 2:
+        return factored(tree)
+    flat, made = spread(tree), list[Tree]()
+    left = [_split(term) for term in (flat.terms if isinstance(flat, Add) else (flat,))]
+    while left:
+        (size, powers), *left = left
+        shared = [{f: e for f, e in powers.items() if f != own} for own, exponent in powers.items() if exponent == 1]
+        alike = {i: [term for term in left if _but_one(term[1], rest)] for i, rest in enumerate(shared) if rest}
+        best = max(alike, key=lambda i: len(alike[i]), default=None)
+        rest = shared[best] if best is not None and alike[best] else {}
+        same = [(size, powers), *(alike[best] if best is not None and rest else [])]
+        left = [term for term in left if term not in same]
+        parts = (_joined((size, {f: e for f, e in own.items() if f not in rest})) for size, own in same)
+        made.append(mul(factored(add(*parts)), _joined((Fraction(1), rest))))
+    return add(*made)
+
+
+def _depth(tree: Tree) -> int:
+    """How many sums are in each other, as factors."""
+    if isinstance(tree, Mul):
+        return max(map(_depth, tree.factors))
+    return 1 + max(map(_depth, tree.terms)) if isinstance(tree, Add) else 0
+
+
+def _but_one(powers: Powers, shared: Powers) -> bool:
+    """Whether these are the shared ones and one more factor."""
+    return len(powers) == len(shared) + 1 and [e for f, e in powers.items() if shared.get(f) != e] == [1]
+
+
 def less(tree: Tree, part: Tree) -> Tree:
     """tree − part, where a term like the part becomes smaller, with the brackets that the tree has; else multiplied out."""
     if isinstance(tree, Add):

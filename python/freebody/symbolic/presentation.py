@@ -22,7 +22,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import Any
 
-from freebody.symbolic.algebra import equal, factored, pythagorean
+from freebody.symbolic.algebra import equal, factored, grouped, pythagorean
 from freebody.symbolic.decimals import is_measured, measured
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.nomenclature import Nomenclature
@@ -72,7 +72,7 @@ def _by_unknowns(tree: Tree, unknowns: Sequence[Sym]) -> Tree:
     except ValueError:
         return tree
     held = ((found.coefficients[x], x) for x in unknowns if x in found.coefficients)
-    return add(*(mul(factored(factor), x) for factor, x in held), factored(found.rest))
+    return add(*(mul(grouped(factor), x) for factor, x in held), factored(found.rest))
 
 
 def _by_loads(expression: Any, nomenclature: Nomenclature, patience: float) -> Tree:

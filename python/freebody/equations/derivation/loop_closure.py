@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, equations
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Written, equations
 from freebody.equations.derivation.form import Printed, System
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.symbolic_state import Row
 from freebody.symbolic.algebra import common_number, divided
+from freebody.symbolic.formula import word
 from freebody.symbolic.linear import Linear, linear_in
-from freebody.symbolic.tree import ONE, ZERO, Add, Sym, Tree, add, is_negative, is_zero, mul, negative, symbols
+from freebody.symbolic.tree import ONE, ZERO, Add, Fn, Sym, Tree, add, is_negative, is_zero, mul, negative, symbols, walk
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
@@ -53,14 +54,32 @@ def accelerations(rows: Sequence[Row], coordinates: Sequence[str], name: str = "
     return _together(System.of([row.linear for row in rows], coordinates), name)
 
 
-def separately(rows: Sequence[Row], coordinates: Sequence[str]) -> list[list[tuple[Tree, Tree]]]:
+def separately(rows: Sequence[Row], coordinates: Sequence[str]) -> list[list[tuple[Tree, Tree | Written]]]:
     """The rows as they are written, as a person puts them on two sides: places, velocities, accelerations."""
-    rates = ((row.rate, [Sym(name, 1) for name in coordinates]) for row in rows if row.rate is not None)
+    rates = {id(row): linear_in(row.rate, [Sym(name, 1) for name in coordinates]) for row in rows if row.rate is not None}
     return [
-        [_sides(row.value) for row in rows if row.value is not None],
-        [_sides(_spread(linear_in(*each))) for each in rates],
+        [
+            (_winds(row.value) and _kept(rates.get(id(row)), coordinates)) or _sides(row.value)
+            for row in rows
+            if row.value is not None
+        ],
+        [_sides(_spread(linear)) for linear in rates.values()],
         [_apart(row.linear) for row in rows],
     ]
+
+
+def _winds(tree: Tree) -> bool:
+    """Whether a function of something moving is in it, as of a rope the angle over which it lies."""
+    return any(isinstance(part, Fn) and part.name.startswith("atan") for part in walk(tree))
+
+
+def _kept(rate: Linear | None, coordinates: Sequence[str]) -> tuple[Tree, Written] | None:
+    """What stays as it is, x₁ + x₂ = const, where several rates have a sum that vanishes: of a rope over pulleys."""
+    if rate is None or len(rate.coefficients) < 2 or not is_zero(rate.rest):
+        return None
+    if {x.name for factor in rate.coefficients.values() for x in symbols(factor)} & {*coordinates, "t"}:
+        return None
+    return add(*(mul(factor, Sym(x.name)) for x, factor in rate.coefficients.items())), Written("const", word("const"))
 
 
 def _spread(linear: Linear) -> Tree:
