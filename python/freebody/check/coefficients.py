@@ -5,9 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from typing import TypeVar
 
-from freebody.symbolic.tree import Mul, Negative, Node, Num, Quotient, Sym
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Quotient, Sym, exchange, is_zero, walk
 
+from .language.statements import without_ones
+
+N = TypeVar("N", bound=Node)
 _SAME = 1e-8  # relative: below it a number is the one recognised
 _DENOMINATOR = 24
 _NUMERATOR = 60
@@ -66,3 +70,14 @@ def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None
 def product(factors: Sequence[Node]) -> Node:
     """A product, of one factor or none, too."""
     return Mul(tuple(factors)) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
+
+
+def tidied(node: N) -> N:
+    """The same without factors and denominators 1, and without 0 in sums."""
+    node = without_ones(node)
+    has_zero = lambda n: isinstance(n, Add) and any(map(is_zero, n.terms))
+    while (found := next(filter(has_zero, walk(node)), None)) is not None:
+        left = tuple(term for term in found.terms if not is_zero(term))
+        new = Add(left, span=found.span) if len(left) > 1 else left[0] if left else Num(0.0, "0")
+        node = exchange(node, found, new)
+    return node

@@ -10,13 +10,13 @@ import numpy as np
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, is_zero, walk
 
-from .coefficients import multiplied
+from .coefficients import multiplied, tidied
 from .correction import EQUAL, MOST, Correction, stated
 from .edits import Edit, depth, edits
 from .fitted_edits import FittedEdits, proportional
 from .language.dimensions import dimension
 from .language.spelling import spell
-from .language.statements import Equation, without_ones
+from .language.statements import Equation, symbols_in
 from .residual import magnitude
 from .slips import unlikely, why
 
@@ -37,7 +37,7 @@ def constant_corrections(case: Case, node: Node, runs: Sequence[Mapping[str, Arr
         if np.isfinite(size) and size <= found[0][0] + EQUAL:
             made.setdefault(search.mark(edit.after.left), (size, edit))
     return tuple(
-        Correction((stated(edit),), f"{spell(without_ones(edit.after.left))} = const", size, why=search.why(edit))
+        Correction((stated(edit),), f"{spell(tidied(edit.after.left))} = const", size, why=search.why(edit))
         for size, edit in [*made.values()][:MOST]
     )
 
@@ -107,7 +107,10 @@ class _Search:
         whole = self._changes(sampled(self.node, self.values))
         nodes, rows = FittedEdits(self.values, self.vocabulary, self.within).dictionary(self.equation, highest=1)
         changes = np.array([self._changes(row) for row in rows]).reshape(len(rows), -1)
+        forces = {n for n in self.vocabulary.others if (its := self.vocabulary.dimension(n)) is None or its.time == -2}
         for place in proportional(changes, whole, _STEADY):
+            if forces & {*symbols_in(nodes[place])}:
+                continue  # a force is none of what is constant
             number = -np.sum(whole * changes[place]) / np.sum(changes[place] ** 2)
             if (term := multiplied(nodes[place], float(number))) is not None:
                 after = Equation(Add((*self._terms(), term)), _ZERO)

@@ -14,12 +14,13 @@ import numpy as np
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Negative, Node, Num, Sym, exchange
+from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, walk
 
+from .coefficients import tidied
 from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
-from .language.statements import Equation, rows, symbols_in, without_ones
+from .language.statements import Equation, rows, symbols_in
 from .residual import HOLDS, Residual, residual, unreached
 from .slips import unlikely, why
 
@@ -92,7 +93,7 @@ class _Found:
     def correction(self, given: str, why: str) -> Correction:
         edits = self.edits
         where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
-        return Correction(tuple(map(stated, edits)), spell(without_ones(self.after)), self.size, where, given, why)
+        return Correction(tuple(map(stated, edits)), spell(tidied(self.after)), self.size, where, given, why)
 
 
 def stated(edit: Edit) -> tuple[str, str, str]:
@@ -223,12 +224,13 @@ class _Search:
 
     def _changes_the_subject(self, found: _Found) -> bool:
         """Whether two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
-        and what was said of forces, masses or weights is gone from it."""
+        after two edits, or with all gone from it that was said of forces, masses or weights."""
         own = {n.key for n in symbols_in(found.after)}
         solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
         lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own]
         mechanics = any(its is not None and (its.mass or its.time == -2) for its in lost)
-        return (len(found.edits) > 1 and bool(solved) and not solved & own) or (mechanics and self.case.is_kinematic(found.after))
+        two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
+        return (two and bool(solved) and not solved & own) or ((two or mechanics) and self.case.is_kinematic(found.after))
 
     def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
         """What is left of an equation where no balance holds; nothing where that is nothing."""
@@ -243,9 +245,23 @@ class _Search:
         nothing was said, long, and large."""
         sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
-        length = len(spell(without_ones(found.after))) + _WORTH * self._size(found)
+        length = len(spell(tidied(found.after))) + _WORTH * self._size(found)
+        strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
-        return any(edit.old in alone and edit.old is not None for edit in found.edits), len(new), length
+        solved = any(edit.old in alone and edit.old is not None for edit in found.edits)
+        return solved or any(map(self._is_elsewhere, found.edits)), len(new & {n.name for n in strange}), length
+
+    def _is_elsewhere(self, edit: Edit) -> bool:
+        """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round."""
+        if edit.old is None or not self._accelerates(self.equation):
+            return False
+        of_motion, has_number = self._accelerates(edit.old), any(isinstance(n, Num) for n in walk(edit.old))
+        return of_motion if edit.kind == "sign" else edit.kind == "factor" and not (of_motion or has_number)
+
+    def _accelerates(self, node: Node) -> bool:
+        """Whether an acceleration stands in it, which may have a letter of its own."""
+        known = {n: self.vocabulary.dimension(n) for n in symbols_in(node) if n not in self.vocabulary.parameters}
+        return any(its is not None and its.time == -2 and its.mass == 0 for its in known.values())
 
     def why(self, found: _Found) -> str:
         """What was wrong, a sentence for each edit."""

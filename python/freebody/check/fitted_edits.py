@@ -135,7 +135,7 @@ class FittedEdits:
         is_number = np.ptp(ratio) < _NEARLY * np.abs(ratio).max()
         found = self._monomials(equation).equal_to(required.missing) if scalar else self._matching(equation, required.missing)
         for term in found:
-            if is_number and {*symbols_in(term)} <= {*symbols_in(required.node)}:
+            if is_number and {*symbols_in(term)} <= {*symbols_in(equation)}:
                 continue  # another number is a factor
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, _more(required.node, term)), size)

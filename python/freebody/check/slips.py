@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, MASS
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, walk
 
@@ -49,8 +49,9 @@ def unlikely(
             forces = [n for n in vocabulary.parameters if vocabulary.dimension(n) in (FORCE, ENERGY)]
             strange = [n for n in (*vocabulary.coordinates, *vocabulary.others, *forces) if n.name in found]
             strange += [n for n in strange if vocabulary.dimension(n) in (FORCE, ENERGY)]
-            if edit.kind == "missing term" and isinstance(_bare(new), Quotient) and symbols_in(_bare(new).bottom):
-                strange += [_bare(new)] * (not any(isinstance(n, Quotient) for n in walk(equation)))
+            below = edit.kind == "missing term" and any(symbols_in(n.bottom) for n in walk(new) if isinstance(n, Quotient))
+            if below and (strange or not any(isinstance(n, Quotient) for n in walk(equation))):
+                strange += [new] * (2 if strange else 1)
             strange += [n for n in walk(new) if isinstance(n, Add) and n not in {*walk(equation)}] * 2
             again = edit.kind == "missing term" and any(_is_multiple(new, term, elsewhere) for term in terms(equation))
             return _NEW * len(strange) + _ODD * again
@@ -95,12 +96,17 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
         return f"{_what(part, equation, vocabulary)} {verb}"
     if edit.kind == "symbol" and isinstance(edit.new, Sym) and edit.new.dots == 1:
         return "one rate stands for another: that of the body for the relative one, or the other way round"
+    if edit.kind == "factor" and edit.old is not None and sum(n.dots == 1 for n in symbols_in(edit.old)) > 1:
+        return "the Coriolis part of an acceleration is twice the product of the two rates"
+    if edit.kind in ("factor", "sign", "symbol") and _is_constraint(equation, vocabulary):
+        return "the constraint between these motions is another: count what moves along, and differentiate it term by term"
     if edit.kind == "factor" and _is_of_inertia(edit.old, equation, vocabulary):
         return "the moment of inertia is about another point: I about P is I_G + m d²"
     return _WHY.get(edit.kind, "")
 
 
 _WHY = {
+    "convention": "two things stand for each other throughout",
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",
     "factor": "a number is wrong or forgotten: ½, 2, or one of an inertia or of a rotation that was left out",
@@ -130,15 +136,19 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
     rates = [n for n in found if order(n) == 1]
     squared = any(isinstance(n, Pow) and n.exponent == Num(2.0, "2") and n.base in rates for n in walk(term))
     balance = any(order(n) == 2 or vocabulary.dimension(n) in (FORCE, ENERGY) for n in symbols_in(equation))
+    its = dimension(term, vocabulary.dimensions)
+    if its == LENGTH:
+        return "a part of an arm"
+    if its is not None and its.time == 0 and its.length in (0, 2):
+        return "a part of the inertia, of what turns as well or m d² of a parallel axis,"
     if any(order(n) == 2 for n in found):
-        turns = dimension(term, vocabulary.dimensions) == ENERGY and any(
-            order(n) == 2 and _is_length(n, vocabulary) for n in found
-        )
         return (
-            "r × m a of a point that accelerates, about which the moment is taken," if turns else "a mass times its acceleration"
+            "r × m a of a point that accelerates, or of what moves as well," if its == ENERGY else "a mass times its acceleration"
         )
+    if rates and not balance:
+        return "a kinetic energy, of a rotation or of another body,"
     if squared:
-        return "the centripetal part of the acceleration" if balance else "a kinetic energy, of a rotation or of another body,"
+        return "the centripetal part of the acceleration"
     if len(rates) > 1:
         return "the Coriolis part of the acceleration"
     if any(n.name in ("g", "gravity") for n in found):
@@ -146,9 +156,12 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
     return "a force or a moment" if balance else "this part"
 
 
-def _is_length(symbol: Sym, vocabulary: Vocabulary) -> bool:
-    its = vocabulary.dimension(symbol)
-    return its is not None and its.length == 1
+def _is_constraint(equation: Equation, vocabulary: Vocabulary) -> bool:
+    """Whether an equation speaks of lengths and motions alone."""
+    found = [vocabulary.dimension(n) for n in symbols_in(equation)]
+    return all(its is not None and its.mass == 0 for its in found) and not any(
+        n.name in ("g", "gravity") for n in symbols_in(equation)
+    )
 
 
 def _is_of_inertia(old: Node | None, equation: Equation, vocabulary: Vocabulary) -> bool:

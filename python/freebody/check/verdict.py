@@ -271,7 +271,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         fixes = tuple(replace(each, given=given) for each in islice(corrections(beside, equation, SECOND), MOST))
     if not fixes or fixes[0].size > _FAR:
         near = nearest(case, equation)
-        fixes = (*([near.correction] if near and near.correction else ()), *fixes)[:MOST]
+        fixes = (near.correction,) if near and near.correction else fixes
     reason, first = (f"it would hold only if: {words}", assumed[0]) if assumed else ("", "")
     if fixes:
         return Verdict(Kind.WRONG, text, reason, first, fixes, seen)

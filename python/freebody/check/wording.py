@@ -45,7 +45,12 @@ def with_condition_first(text: str) -> str:
         return said
     if found := _LIMIT.fullmatch(said):
         return f"as {next(filter(None, found.groups()[:3]))}: {found[4]}"
-    if (found := _NUMBERED.fullmatch(said)) and _ENERGIES.fullmatch(said) and (same := _same_twice(*found.groups())):
+    if (
+        "+" in said
+        and (found := _NUMBERED.fullmatch(said))
+        and _ENERGIES.fullmatch(said)
+        and (same := _same_twice(*found.groups()))
+    ):
         return f"constant: {same}"
     if (found := _NAMED_VALUE.fullmatch(said)) and (name := _quantity(found[1])):
         return f"{name} = {found[2]}"
