@@ -84,7 +84,8 @@ def _beside_event(checker: Checker, declared: Declared, just: str, side: str, ev
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
     """``ΔT + ΔV = 0``: a sum that stays the same, each term of it a change."""
-    if "∫" in left + right or r"\int" in left + right:
+    alone = _CHANGED.fullmatch(left.strip()) and not _CHANGE.search(right) and right.strip() != "0"
+    if alone or "∫" in left + right or r"\int" in left + right:
         since = (_CHANGED.sub(r"(\1 - \1_0)", side) for side in (left, right))
         return checker.check(" = ".join(since), declared)
     case = _reading(checker, declared, f"({_CHANGE.sub('', left)}) - ({_CHANGE.sub('', right)})")

@@ -288,7 +288,8 @@ def _stays(case: Case, equation: Equation) -> bool:
     began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
     change = equation_sides(equation, case.values()).residual - equation_sides(equation, began).residual
     left = [equation_sides(equation, values).left for values in (case.values(), began)]
-    return bool(np.all(np.abs(change) <= FAILS * np.abs(left[0] - left[1]).reshape(change.shape)))
+    moved = np.abs(left[0] - left[1]).reshape(change.shape)
+    return bool(moved.any() and np.all(np.abs(change) <= FAILS * moved))
 
 
 def _sufficiency(case: Case) -> str:
