@@ -1,10 +1,12 @@
 """How far ``freebody check`` can be trusted: correct equations rearranged, and correct equations with one slip.
 
     python benchmarks/check.py [--count 2000] [--sample N] [--seed 1] [--show]
+    python benchmarks/check.py --sizes [3 6 10 20]
 
 A false alarm is a correct equation not called true. A mutant is left out where it is true as well, by its values at true
 states of another draw. A slip is found where the equation before it is among the smallest corrections, judged by values at
-places that are no true states. The models and their correct equations are in tests/check/corpus.py.
+places that are no true states. The models and their correct equations are in tests/check/corpus.py. With ``--sizes`` one statement is
+timed instead, right and wrong, about chains of so many bars, open and closed.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
@@ -26,8 +29,10 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "check"))
 
 from corpus import BENCHES, Outcome
+from derivations import SIZES, chain
 
 from freebody.check import Kind
+from freebody.equations import text
 
 _TRIES = 20  # for a mutant that is not true as well
 
@@ -82,6 +87,21 @@ def _times(done: Iterable[Outcome]) -> str:
     return f"{1e3 * np.median(taken):.0f} ms in the median, {1e3 * max(taken):.0f} ms at most"
 
 
+def sizes(numbers: Sequence[int]) -> Iterator[str]:
+    """Processor seconds for the last balance of a chain, and for that with a side of the wrong sign, each told of a fresh model."""
+    for number in numbers:
+        for closed in (False, True):
+            derived = chain(number, closed=closed).equations()
+            last = [part for part in derived.parts if "MB" in part.title][-1]
+            left, right = (text(side, derived.letters) for side in (last.left, last.right))
+            said, taken = (f"{left} = {right}", f"{left} = -({right})"), []
+            for statement in said:
+                began = time.process_time()
+                verdict = chain(number, closed=closed).check(statement)
+                taken.append(f"{time.process_time() - began:.2f} s {verdict.kind.value}")
+            yield f"{number:3} bars, {'closed' if closed else 'open'}: right {taken[0]}, wrong {taken[1]}"
+
+
 def main() -> None:
     """Print the table."""
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -90,7 +110,14 @@ def main() -> None:
     arguments.add_argument("--seed", type=int, default=1)
     arguments.add_argument("--models", nargs="*", default=[], help="words in the names of models; all without")
     arguments.add_argument("--show", action="store_true", help="print every slip that is not found")
+    arguments.add_argument(
+        "--sizes", nargs="*", type=int, help="bars of chains about which one statement is timed; 3 6 10 20 without"
+    )
     given = arguments.parse_args()
+    if given.sizes is not None:
+        for line in sizes(given.sizes or SIZES):
+            print(line, flush=True)
+        return
     models = [name for name in BENCHES if not given.models or any(word in name for word in given.models)]
     print("\n".join(table(list(every(given.sample or given.count, given.seed, models)), given.show)))
 
