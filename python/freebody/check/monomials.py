@@ -45,9 +45,9 @@ class Monomials:
         """Terms whose values are the ``wanted`` ones."""
         if wanted.ndim != 1 or not np.isfinite(wanted).all() or not wanted.all():
             return
-        solve, left, logs = self._solved
+        solve, left, logs, rests = self._solved
         log = np.log(np.abs(wanted))
-        off = np.abs((left @ log)[:, None] - left @ logs).max(axis=0)
+        off = np.abs((left @ log)[:, None] - rests).max(axis=0)
         for place in np.flatnonzero(off < _SAME).tolist():
             powers = (solve @ (log - logs[:, place]))[1:]
             whole = np.round(powers).astype(int)
@@ -56,13 +56,14 @@ class Monomials:
                 yield found
 
     @cached_property
-    def _solved(self) -> tuple[Array, Array, Array]:
-        """What gives the powers of a logarithm, what is left of it, and the logarithms of the shapes."""
+    def _solved(self) -> tuple[Array, Array, Array, Array]:
+        """What gives the powers of a logarithm, and what is left of it; the logarithms of the shapes, and what is left of these."""
         rows = np.array([self._value(shape) for shape in self._shapes])
         good = np.isfinite(rows).all(axis=1) & rows.all(axis=1)
         self._shapes = [shape for shape, ok in zip(self._shapes, good, strict=True) if ok]
-        solve = np.linalg.pinv(self._columns)
-        return solve, np.eye(len(self._columns)) - self._columns @ solve, np.log(np.abs(rows[good])).T
+        solve, logs = np.linalg.pinv(self._columns), np.log(np.abs(rows[good])).T
+        left = np.eye(len(self._columns)) - self._columns @ solve
+        return solve, left, logs, left @ logs
 
     def _value(self, factors: tuple[Node, ...]) -> Array:
         found = np.ones(len(self._columns))
