@@ -18,10 +18,12 @@ _START = re.compile(
     r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release|beginning)|being released|it is released)"
 )
 _CONSTANT = re.compile(
-    r"(?:[^=:;\n]+=\s*)*([^=:;\n]+?)\s*(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
+    r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n[ \t]+)+?)\s*(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
     r"(?=\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``."""
+_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|\\[\[\]]")
+"""What sets one formula apart in LaTeX and Markdown."""
 _NUMBERED = re.compile(r"([^=:;\n]+)=([^=:;\n]+)")
 _TWICE = {"1": re.compile(r"(?<=\w)_?\{?[1₁]\}?(?!\w)"), "2": re.compile(r"(?<=\w)_?\{?[2₂]\}?(?!\w)")}
 _ENERGIES = re.compile(r"[\sTVUEK+=()_{}12₁₂]+")
@@ -40,7 +42,9 @@ _FROM_TO = re.compile(
 
 def with_condition_first(text: str) -> str:
     """A statement with the condition that stands behind it before it, and what is said to be constant in the form of a claim."""
-    said = _FROM_TO.sub(r"\1_{\3}^{\4}\2", _COMPONENT.sub(lambda found: _component(*found.groups()), text.strip()))
+    said = _FROM_TO.sub(
+        r"\1_{\3}^{\4}\2", _COMPONENT.sub(lambda found: _component(*found.groups()), _DISPLAYED.sub("", text).strip())
+    )
     if said.startswith("limit:"):
         return said
     if found := _LIMIT.fullmatch(said):

@@ -6,6 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import pairwise
 
 from freebody.symbolic.alphabet import LATEX_WORDS, READ
 from freebody.symbolic.errors import Span, StatementError
@@ -93,7 +94,18 @@ def glyphs(text: str) -> list[Glyph]:
     """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and what fits the width
     read as blanks. Raises ``StatementError``."""
     fitted = _FITTED.sub(lambda found: f"{' ' * len(found[1])}{found[2]}  ", _COMMENT.sub(_blank, text))
-    return _Reader(_LABEL.sub(_blank, fitted)).all()
+    return _carried_on(_Reader(_LABEL.sub(_blank, fitted)).all())
+
+
+def _carried_on(row: list[Glyph]) -> list[Glyph]:
+    """The glyphs, where an indented line that begins within brackets goes on with the one before."""
+    out, depth = [], 0
+    for glyph, after in pairwise([*row, Glyph(Kind.LINE, "\n", (0, 0))]):
+        depth = max(0, depth + (glyph.text in ("(", "[")) - (glyph.text in (")", "]")))
+        goes_on = glyph.kind is Kind.LINE and depth > 0 and after.kind is Kind.SPACE
+        out.append(replace(glyph, kind=Kind.SPACE, text=" ") if goes_on else glyph)
+        depth = 0 if out[-1].kind is Kind.LINE else depth
+    return out
 
 
 def _blank(found: re.Match[str]) -> str:

@@ -48,7 +48,7 @@ def section(subject: SymbolicState, symbolically: bool = True) -> list[Block]:
     for integral in first_integrals(subject) if symbolically else ():
         made += [
             Paragraph(f"{while_idle} {integral.words} is conserved: {integral.reason}."),
-            Equation(Written.of(subject.symbols.taken.give(f"the {integral.words}", Name(integral.letter))), integral.quantity),
+            Equation(integral.quantity, Written("const", word("const"))),
         ]
     return made
 
