@@ -87,7 +87,8 @@ class State(SimpleNamespace):
 def states(path: str, count: int, seed: int = 1) -> Iterator[State]:
     """Random admissible states with random parameters: loops closed, motions obeyed."""
     mechanism, rng = model(path), np.random.default_rng(seed)
-    core, source, start = mechanism.compile(), mechanism.source(), mechanism.start()[0]
+    core, start = mechanism.source().as_it_holds(mechanism.start()[0])
+    source = core
     given = {item["name"]: item["value"] for item in source.spec["parameters"]}
     names = [c["name"] for c in source.metadata["coordinates"]]
     nominal = dict(zip((each["name"] for each in source.metadata["parameters"]), start.p, strict=True))

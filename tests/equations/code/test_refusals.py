@@ -29,7 +29,6 @@ initial: {s: 0.1}
         ("examples/tossed_box.yaml", r"contacts\.floor opens and closes"),
         ("systems/19.3.21/model.yaml", r"strings\.cable goes slack"),
         ("systems/GEN-CAR/model.yaml", r"joints\.first gear pair pushes with one flank or the other"),
-        ("systems/19.3.11/model.yaml", r"phi has no equation of its own"),
         ("examples/beam_held_twice.yaml", r"do not determine left\.Fx, right\.Fx"),
     ],
 )
