@@ -18,7 +18,8 @@ _START = re.compile(
     r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release|beginning)|being released|it is released)"
 )
 _CONSTANT = re.compile(
-    r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n[ \t]+)+?)\s*(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
+    r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
+    r"(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
     r"(?=\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``."""
