@@ -27,7 +27,9 @@ from freebody.check.verdict import Verdict
 from freebody.mechanism import Mechanism
 from freebody.symbolic.evaluate import Array
 
-_CONSTANT = re.compile(r"\s*constant:(.+)|(.+)=\s*const\s*")
+_CONSTANT = re.compile(r"\s*constant:(.+)|(.+)=\s*(?:\\text\{)?const\}?\s*")
+_CONDITION = re.compile(r"^(?!\s*constant:).*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
+"""What says of which motions an equation is."""
 
 
 def _files(half: str) -> dict[str, Path]:
@@ -64,7 +66,7 @@ class Book:
     def says_the_same(self, one: str, other: str) -> bool:
         """Whether two equations, or what two claims call constant, hold at the same places, whatever the values of their symbols, or are
         one but for a number where these are as joints and laws of forces allow: m R² α is m R a of what rolls."""
-        cases = [self.checker.case(_CONSTANT.sub(r"\1\2 = 0", text)) for text in (one, other)]
+        cases = [self.checker.case(_CONSTANT.sub(r"\1\2 = 0", _CONDITION.sub("", text))) for text in (one, other)]
         values = {**cases[0].values(), **cases[1].values()}
         one, other = (case.equations[0] for case in cases)
         places = cases[0].elsewhere(values)

@@ -61,7 +61,7 @@ def with_condition_first(text: str) -> str:
         return f"{name} = {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
         said = f"{found[2]}: {found[1]}"
-    return _CONSTANT.sub(r"constant: \1", said)
+    return _CONSTANT.sub(r"constant: \1", said) if "cons" in said else said
 
 
 def as_claim(text: str) -> str:
