@@ -103,7 +103,9 @@ def test_what_is_released_stands_in_no_answer(kind, tmp_path):
     """Neither its coordinate nor its reaction, and the freedom that it took is counted."""
     (tmp_path / "m.yaml").write_text(models(kind)[1].replace("until: 1 s", "until: 2 s"))
     path = str(tmp_path / "m.yaml")
-    solved, equations = (CliRunner().invoke(app, [word, path, "--after", "let go"]).stdout for word in ("solve", "equations"))
+    solved, equations = (
+        CliRunner().invoke(app, [*words, path, "--after", "let go"]).stdout for words in (["solve"], ["equations", "--long"])
+    )
     data = json.loads(CliRunner().invoke(app, ["solve", path, "--after", "let go", "--json"]).stdout)
     assert not {"X", "guide"} & {*data["state"], *data["accelerations"], *data["reactions"]} and "guide" not in solved
     assert data["freedom"] == 5 and f"has {data['freedom']} degrees of freedom" in " ".join(equations.split())

@@ -99,8 +99,8 @@ def test_three_routes_and_free_bodies_agree_on_a_turntable():
 def test_equations_and_checks_know_it():
     made = fb.Mechanism.loads(SLEIGH)
     for form in ("minimal", "brute", "constraints"):
-        assert "For the velocities" in (text := made.equations(form).text()) and "For the positions" not in text
-    assert "onstraints on rates" in made.equations().text()
+        assert "For the velocities" in (text := made.equations(form, long=True).text()) and "For the positions" not in text
+    assert "onstraints on rates" in made.equations(long=True).text()
     true = "(I + m*a^2)*accel(theta) = -m*a*rate(theta)*(vx(sleigh.A)*cos(theta) + vy(sleigh.A)*sin(theta))"
     assert made.check(true).ok and not made.check(true.replace("= -", "= ")).ok
     assert made.check("I*accel(theta) = -a*skate.Fn").ok

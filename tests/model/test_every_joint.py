@@ -105,7 +105,7 @@ def test_its_equations_are_true(card, alone):
     for form in FORMS:
         document = mechanism.equations(form)
         equations = [block for block in document.blocks if isinstance(block, Equation) and block.label]
-        assert equations or mechanism.solve().freedom == 0, form
+        assert equations or form == "first-order" or mechanism.solve().freedom == 0, form
         for block in equations:
             line = Document((replace(block, name="", note=""),), document.letters).text()
             assert checker.check(line).kind is Kind.TRUE, line

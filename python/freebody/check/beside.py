@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -82,7 +82,8 @@ def said_terms(equation: Equation, values: Mapping[str, Array]) -> list[Term]:
 class Letters:
     """The symbols of a model in those of a statement."""
 
-    def __init__(self, case: Case, equation: Equation) -> None:
+    def __init__(self, case: Case, equation: Equation, table: Mapping[str, Mapping[str, Any]]) -> None:
+        self._table = table
         self.samples = case.sampler.admissible.samples(count=len(next(iter(case.admissible.values()))))
         said, known = [Sym(n.name) for n in symbols_in(equation)], case.meaning.symbols
         gauges = {gauge["name"]: gauge["value"] for gauge in case.sampler.spec["gauges"]}
@@ -108,10 +109,15 @@ class Letters:
         """The terms of a balance, all on one side and multiplied out, in the letters of the statement."""
         found = [*addends(left, expand=True), *((-sign, term) for sign, term in addends(right, expand=True))]
         names = {n for _, term in found for n in symbols_in(term)}
-        texts = {n: _READ[n.dots].format(quote(n.name)) for n in names}
+        texts = {n: _READ[n.dots].format(self._read(n.name)) for n in names}
         read = self.samples.values([*texts.values()])
         values = {n.key: read[text] for n, text in texts.items()}
         yield from ((self.written(term, sign), sign * sampled(term, values)) for sign, term in found)
+
+    def _read(self, name: str) -> str:
+        """How a symbol of a balance is read: a load by itself, a mass without a name by its value."""
+        entry = self._table[name]
+        return {"unknown": name, "number": repr(entry["value"])}.get(entry["kind"]) or quote(name)
 
     def written(self, node: Node, sign: int = 1) -> Node:
         """A term as a person writes it: a number, what stands above and what below the line."""

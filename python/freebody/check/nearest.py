@@ -83,7 +83,7 @@ def nearest(case: Case, equation: Equation) -> Nearest | None:
     unknown = frozenset(s for s in said if s.dots == 2 or kinds[s.name] == "unknown")
     wanted = unknown or frozenset(s for s in said if s.dots == 1)
     level = max((s.dots for s in said), default=0)
-    letters = Letters(case, equation) if case.admissible else None
+    letters = Letters(case, equation, stated.symbols) if case.admissible else None
     own = said_terms(equation, case.admissible) if letters and not any(n in case.meaning.vocabulary.vectors for n in said) else []
     touched = Counter(part.body for load in free.loads if Sym(load.symbol) in said for part in load.on)
     joints = [joint for joint in case.sampler.metadata["joints"] if {Sym(n, 2) for n in joint["coordinates"]} & said]

@@ -101,7 +101,7 @@ class _Step:
             raise NoSymbolicMap(f"{', '.join(early[0].of)}: {early[0].kind} at t = {early[0].t:.6g} s, before the impact")
         self.returns, self.start = returns, returns.mechanism.lowered().start
         self.impact = ImpulsiveState.of(happened)
-        self.subject = SymbolicState(run.source, run.start)
+        self.subject = SymbolicState(run.source, run.start, given=run.source.free_bodies(run.start))
         kinetic, potential, lost = energy(self.subject)
         if lost:
             raise NoSymbolicMap(f"the energy does not stay on the way: {lost}")

@@ -37,7 +37,7 @@ def first_order(system: System, subject: SymbolicState, below: bool = False) -> 
 def _explicit(system: System, subject: SymbolicState) -> list[Tree]:
     """The accelerations by the state; none where they take pages, or other unknowns."""
     size = sum(operations(entry) for row in (*system.matrix, system.right) for entry in row)
-    if not system.gives_accelerations or size > 4 * _SHORT:
+    if not system.gives_accelerations or size > (4 if len(system.unknowns) < 3 else 1) * _SHORT:
         return []
     try:
         found = solve(system.matrix, system.right, subject.nomenclature, patience=_PATIENCE)
