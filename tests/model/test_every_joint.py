@@ -103,7 +103,7 @@ def test_its_equations_are_true(card, alone):
     mechanism = model(card, alone=alone)
     checker = Checker(mechanism)
     for form in FORMS:
-        document = mechanism.equations(form)
+        document = mechanism.equations(form, long=True)
         equations = [block for block in document.blocks if isinstance(block, Equation) and block.label]
         assert equations or form == "first-order" or mechanism.solve().freedom == 0, form
         for block in equations:

@@ -106,6 +106,8 @@ class _Search:
         """A sum that lacks a term."""
         whole = self._changes(sampled(self.node, self.values))
         nodes, rows = FittedEdits(self.values, self.vocabulary, self.within).dictionary(self.equation, highest=1)
+        if not len(rows):
+            return
         changes = np.array([self._changes(row) for row in rows]).reshape(len(rows), -1)
         forces = {n for n in self.vocabulary.others if (its := self.vocabulary.dimension(n)) is None or its.time == -2}
         for place in proportional(changes, whole, _STEADY):

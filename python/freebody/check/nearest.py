@@ -84,7 +84,8 @@ def nearest(case: Case, equation: Equation) -> Nearest | None:
     wanted = unknown or frozenset(s for s in said if s.dots == 1)
     level = max((s.dots for s in said), default=0)
     letters = Letters(case, equation, stated.symbols) if case.admissible else None
-    own = said_terms(equation, case.admissible) if letters and not any(n in case.meaning.vocabulary.vectors for n in said) else []
+    own = said_terms(equation, case.admissible) if letters else []
+    own = [] if any(value.ndim > 1 for _, value in own) else own  # no balance here is one of vectors
     touched = Counter(part.body for load in free.loads if Sym(load.symbol) in said for part in load.on)
     joints = [joint for joint in case.sampler.metadata["joints"] if {Sym(n, 2) for n in joint["coordinates"]} & said]
     touched.update(joint["second"] for joint in joints)
