@@ -94,14 +94,14 @@ def configuration(case):
 
 @ask("2. What are the named terms of the acceleration of a point, seen from a moving body?")
 def terms(case):
-    """v_rel = c (q̇₂ − q̇₁) across the second arm; 2 ω × v_rel lies along it; seen from the cart, which does not turn, there is none."""
+    """v_rel = c (q̇₂ − q̇₁) across the second arm; 2 ω × v_rel lies along it; seen from the cart there is none."""
     arm, bar = "rate(theta2) - rate(theta1)", "rate(phi2) - rate(phi1)"
     closed = {
         "EX-ARM": {"a_rel": [f"-l2*({arm})^2", "l2*(accel(theta2) - accel(theta1))"],
                    "2 ω × v_rel": [f"-2*l2*rate(theta1)*({arm})"]},
         "S19.18": {"a_O′": ["accel(s)"], "a_rel": ["-l*rate(theta)^2", "l*accel(theta)"]},
-        "19.3.28": {"a_rel": ["l/2*(accel(phi2) - accel(phi1))", f"l/2*({bar})^2"],
-                    "2 ω × v_rel": [f"l*rate(phi1)*({bar})"]},
+        "19.3.28": {"a_rel": [f"-l/2*({bar})^2", "l/2*(accel(phi2) - accel(phi1))"],
+                    "2 ω × v_rel": [f"-l*rate(phi1)*({bar})"]},
     }  # fmt: skip
     for name, parts in closed.items():
         document = topic(case.mechanism(model(name)), "frame")
