@@ -127,10 +127,12 @@ class CompiledModel:
 
     def as_it_holds(self, state: State) -> tuple[CompiledModel, State]:
         """The mechanism without its events, and a state before which nothing moved in its coordinates: joints that events release or
-        engage are out of the tree, and without those events their own coordinates describe what they join."""
+        engage are out of the tree, and without those events the coordinates that are declared at them describe what they join."""
         if state.history is not None or not self._switched:
             return self, state
         made = self._without_events
+        if any(name.startswith(f"{joint}.") for name in made.coordinate_names for joint in self._switched):
+            return self, state
         names = [quote(name) for name in made.coordinate_names]
         q, u = np.split(self.evaluate([*names, *(f"rate({name})" for name in names)], state), 2)
         return made, replace(state, q=q, u=u)
