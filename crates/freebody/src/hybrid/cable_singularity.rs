@@ -9,10 +9,11 @@ use crate::plane::Vec2;
 const VANISHED: f64 = 1e-9;
 
 impl HybridSystem<'_> {
-    /// The straight segments of unilateral constraint `l`, if it is a taut string.
+    /// The segments between points of unilateral constraint `l`, if it is a taut string. Where one at a drum comes to no length, as
+    /// its load comes to the rim, the string may go on in the other sense.
     pub(super) fn taut_segments(&self, l: usize) -> Vec<Vec2> {
         let carries = self.workspace.mode().contacts[l].mode.carries();
-        self.segments(l).into_iter().filter(|_| carries).map(|(segment, _)| segment).collect()
+        self.segments(l).into_iter().filter(|(_, points)| carries && *points).map(|(segment, _)| segment).collect()
     }
 
     /// Those of a string, and whether each joins two points.
