@@ -109,6 +109,8 @@ class _Search:
         if not len(rows):
             return
         changes = np.array([self._changes(row) for row in rows]).reshape(len(rows), -1)
+        if changes.shape[1] != whole.size:  # a vector lacks no number
+            return
         forces = {n for n in self.vocabulary.others if (its := self.vocabulary.dimension(n)) is None or its.time == -2}
         for place in proportional(changes, whole, _STEADY):
             if forces & {*symbols_in(nodes[place])}:
