@@ -135,6 +135,8 @@ def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correc
         return None
     lost = _sum([term.of if isinstance(term, Negative) else Negative(term) for term in found.missing])
     after = Equation(equation.left, lost if is_zero(equation.right) else _sum([equation.right, lost]))
+    if not {n.key for n in symbols_in(after)} <= case.values().keys():
+        return None  # it has symbols that nothing confirms
     if not case.meaning.fits(after) or not residual(after, case.values()).worst < HOLDS:
         return None
     vocabulary = case.meaning.vocabulary
