@@ -16,7 +16,7 @@ import numpy as np
 
 from freebody.core import GROUND, Array, Limit, MotionError, State, quote, there
 from freebody.views import shapes
-from freebody.views.impact_markers import LASTING, ImpactMarker
+from freebody.views.impact_markers import ImpactMarker
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import colour
 
@@ -282,39 +282,6 @@ class Sketch:
         """The size of what flashes up, in m: seen well, however small the symbols are beside the whole."""
         x0, x1, y0, y1 = self.bounds()
         return max(2.5 * self.size, 0.02 * float(np.hypot(x1 - x0, y1 - y0)))
-
-    def to_json(self) -> dict[str, Any]:
-        """What is drawn for the browser, figures rounded to what a screen can show."""
-        digits = 3 - int(np.floor(np.log10(self.size)))
-        places = np.concatenate([self.poses[..., :2].round(digits), self.poses[..., 2:].round(5)], axis=2)
-
-        def short(values: Any) -> Any:
-            return values.round(digits).tolist() if isinstance(values, np.ndarray) else values
-
-        def item(each: Stroke | Pair | Cord, **stated: Any) -> dict[str, Any]:
-            sometimes = {} if each.shown is None or each.shown.all() else {"shown": each.shown.tolist()}
-            return {key: short(value) for key, value in stated.items()} | sometimes
-
-        return {
-            "size": self.size,
-            "bounds": self.bounds(),
-            "t": self.t.tolist(),
-            "poses": places.reshape(len(self.t), -1).tolist(),
-            "figures": [
-                {"name": f.name, "strokes": [item(s, points=s.points, style=s.style, closed=s.closed) for s in f.strokes]}
-                for f in self.figures.values()
-            ],
-            "pairs": [item(p, kind=p.kind, ends=p.ends, lines=[line.round(max(digits, 4)).tolist() for line in p.lines])
-                      for p in self.pairs],
-            "cords": [item(c, path=c.path.reshape(len(self.t), -1), taut=c.taut.tolist()) for c in self.cords],
-            "traces": [
-                {"name": name, "figure": self.names.index(body), "at": self.figures[body].points[name]}
-                for name in self.traces
-                for body in [self.at[name][0]]
-            ],
-            "flashes": [{"t": each.t, "rays": short(each.rays(self.spark))} for each in self.impact_markers],
-            "lasting": LASTING,
-        }  # fmt: skip
 
 
 def sketch_of_state(source: CompiledModel, state: State) -> Sketch:

@@ -13,8 +13,7 @@ from markupsafe import Markup
 from freebody.document.templates import template
 from freebody.formats import write
 from freebody.views.report import tables
-from freebody.views.report.series import frames, plots
-from freebody.views.scene import of_run
+from freebody.views.report.data import report_data
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -31,20 +30,11 @@ def report_html(run: Run) -> str:
     The page's own policy forbids every script and style but the two it holds, and every address.
     All text of the model is escaped, or reaches the page as data that is only ever shown as text.
     """
-    style, script = _asset("style.css"), _asset("player.js") + _asset("plots.js")
-    events = [{"name": event.name, "t": event.t, "kind": "event"} for event in run.events]
-    events += [{"name": f"impact: {', '.join(change.of)}", "t": change.t, "kind": "impact"} for change in run.impacts]
-    ticks = [{"name": f"{each.kind}: {', '.join(each.of)}", "t": each.t} for each in run.changes if not each.impulses]
+    style, script = _bundled("report.css"), _bundled("report.js")
     return template(__package__, "page.html").render(
         policy=f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; img-src data:",
         run=run,
-        data={
-            "scene": of_run(run, frames(run)).to_json(),
-            "plots": plots(run),
-            "events": events,
-            "ticks": ticks,
-            "none_from": None if run.recorded else run.accuracy.none_from,
-        },
+        data=report_data(run),
         style=style,
         script=script,
         ending=tables.ending(run),
@@ -57,8 +47,9 @@ def report_html(run: Run) -> str:
     )
 
 
-def _asset(name: str) -> Markup:
-    return Markup(files(__package__).joinpath("templates", name).read_text(encoding="utf-8"))
+def _bundled(name: str) -> Markup:
+    """A file that ``./dev web`` has built of web/."""
+    return Markup(files(__package__).joinpath("bundle", name).read_text(encoding="utf-8"))
 
 
 def _digest(text: str) -> str:

@@ -1,4 +1,4 @@
-"""The curves of the report: which there are, and their values as short lists."""
+"""The curves of the report: which there are, and their values."""
 
 from __future__ import annotations
 
@@ -12,21 +12,13 @@ from freebody.run.records import plain
 from freebody.symbolic.symbols import unicode_name
 from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, held_by, pretty_unit, refined_at_jumps
+from freebody.views.report.floats import floats
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
 Curve = tuple[str, Array]
 _CURVES, _POINTS = 8, 900
-
-
-def frames(run: Run) -> Array:
-    """Times of the animation: 60 a second, yet enough for a short run and not too many for a browser."""
-    if run.recorded:
-        return _thinned(run.t, 1500)
-    most = int(np.clip(60_000 // max(len(run.bodies), 1), 120, 1500))
-    start, end = run.edges[0], run.edges[-1]
-    return np.linspace(start, end, int(np.clip(60 * (end - start), min(300, most), most)) + 1)
 
 
 def plots(run: Run) -> list[dict[str, Any]]:
@@ -61,15 +53,10 @@ def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = 
     return {
         "title": title,
         "unit": pretty_unit(unit),
-        "t": _short(breaks(run.t), 8),
-        "curves": [{"name": name, "y": _short(breaks(y, np.nan), 6)} for name, y in curves[:_CURVES]],
+        "t": floats(breaks(run.t)),
+        "curves": [{"name": name, "y": floats(breaks(y, np.nan))} for name, y in curves[:_CURVES]],
         "note": note,
     }
-
-
-def _short(values: Array, digits: int) -> list[float | None]:
-    """Numbers with as many digits as a plot shows; None where there is none."""
-    return [float(f"{x:.{digits}g}") if np.isfinite(x) else None for x in values]
 
 
 def _reactions(run: Run) -> list[dict[str, Any]]:

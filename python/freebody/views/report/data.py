@@ -1,0 +1,94 @@
+"""What the page holds as JSON for the player and the plots; the browser's side of it is web/src/data/types.ts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import Array
+from freebody.views.report.floats import floats
+from freebody.views.report.series import plots
+from freebody.views.scene import of_run
+from freebody.views.sketch import Cord, Pair, Sketch, Stroke
+
+if TYPE_CHECKING:
+    from freebody.run.simulation import Run
+
+_NUMBERS = 60_000
+"""Of all frames together: a third of a megabyte."""
+_STRING = 80
+"""About as many numbers say where a string is in one frame."""
+
+
+def report_data(run: Run) -> dict[str, Any]:
+    """All that moves, the plots, and the moments worth knowing."""
+    return {
+        "scene": _scene(of_run(run, frames(run))),
+        "plots": plots(run),
+        "marks": _marks(run),
+        "noneFrom": None if run.recorded else run.accuracy.none_from,
+    }
+
+
+def frames(run: Run) -> Array:
+    """Times of the animation: 60 a second, yet enough for a short run and not too many for a page."""
+    each = 3 * max(len(run.bodies), 1) + _STRING * len(run.source.spec.get("strings", []))
+    most = int(np.clip(_NUMBERS // each, 120, 1500))
+    if run.recorded:
+        return run.t if len(run.t) <= most else run.t[np.unique(np.linspace(0, len(run.t) - 1, most).astype(int))]
+    start, end = run.edges[0], run.edges[-1]
+    return np.linspace(start, end, int(np.clip(60 * (end - start), min(300, most), most)) + 1)
+
+
+def _marks(run: Run) -> list[dict[str, Any]]:
+    made = [{"name": event.name, "t": event.t, "kind": "event"} for event in run.events]
+    for change in run.changes:
+        kind = "impact" if change.impulses else "switch"
+        made.append({"name": f"{change.kind}: {', '.join(change.of)}", "t": change.t, "kind": kind})
+    return sorted(made, key=lambda mark: mark["t"])
+
+
+def _scene(sketch: Sketch) -> dict[str, Any]:
+    """The drawing, its outlines rounded to what a screen can show."""
+    digits = 3 - int(np.floor(np.log10(sketch.size)))
+
+    def short(points: Array) -> list[Any]:
+        return points.round(digits).tolist()
+
+    return {
+        "size": sketch.size,
+        "bounds": sketch.bounds(),
+        "t": sketch.t.tolist(),
+        "poses": floats(sketch.poses),
+        "figures": [
+            {
+                "name": figure.name,
+                "strokes": [
+                    {"points": short(each.points), "style": each.style, "closed": each.closed} | _passing(each)
+                    for each in figure.strokes
+                ],
+            }
+            for figure in sketch.figures.values()
+        ],
+        "pairs": [
+            {"name": pair.name, "kind": pair.kind, "ends": pair.ends, "lines": [line.round(5).tolist() for line in pair.lines]}
+            | _passing(pair)
+            for pair in sketch.pairs
+        ],
+        "cords": [
+            {"name": cord.name, "path": floats(cord.path), "taut": cord.taut.tolist()} | _passing(cord) for cord in sketch.cords
+        ],
+        "traces": [_trace(sketch, name) for name in sketch.traces],
+        "flashes": [{"t": each.t, "rays": short(each.rays(sketch.spark))} for each in sketch.impact_markers],
+    }
+
+
+def _passing(each: Stroke | Pair | Cord) -> dict[str, Any]:
+    """When it is there, of what comes and goes."""
+    return {} if each.shown is None or each.shown.all() else {"shown": each.shown.tolist()}
+
+
+def _trace(sketch: Sketch, name: str) -> dict[str, Any]:
+    body, at = sketch.at[name]
+    return {"name": name, "figure": sketch.names.index(body), "at": at.tolist()}

@@ -1,0 +1,13 @@
+import { mount } from "svelte";
+import Player from "./Player.svelte";
+import Plots from "./plots/Plots.svelte";
+import { Report } from "./report";
+import "./style.css";
+import { offerThemes } from "./theme";
+
+const byId = (id: string): HTMLElement => document.getElementById(id)!;
+
+offerThemes(byId("theme"));
+const report = new Report(JSON.parse(byId("data").textContent!));
+mount(Player, { target: byId("stage"), props: { report } });
+mount(Plots, { target: byId("plots"), props: { report } });

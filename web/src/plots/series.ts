@@ -1,0 +1,32 @@
+import { floats } from "../data/floats";
+import type { Plot } from "../data/types";
+import { placeIn } from "../time/between";
+
+/** A curve over time; NaN where it has a gap. */
+export interface Series {
+  name: string;
+  t: Float32Array;
+  y: Float32Array;
+}
+
+export function seriesOf(plot: Plot): Series[] {
+  const t = floats(plot.t);
+  return plot.curves.map(({ name, y }) => ({ name, t, y: floats(y) }));
+}
+
+/** Its value at a time; NaN within a gap. */
+export function valueAt({ t: times, y }: Series, t: number): number {
+  const { low, high, part } = placeIn(times, t);
+  return part === 0 ? y[low] : part === 1 ? y[high] : y[low] + part * (y[high] - y[low]);
+}
+
+/** The data of its SVG path, with places found by `x` and `y`. */
+export function pathOf(series: Series, x: (t: number) => number, y: (value: number) => number): string {
+  let path = "";
+  let fresh = true;
+  series.y.forEach((value, i) => {
+    if (!Number.isNaN(value)) path += `${fresh ? "M" : "L"}${x(series.t[i]).toFixed(1)} ${y(value).toFixed(1)}`;
+    fresh = Number.isNaN(value);
+  });
+  return path;
+}

@@ -1,0 +1,46 @@
+import type { Point, Scene } from "../data/types";
+
+/** From metres to pixels of the stage: everything fits, then as one has zoomed. */
+export class Camera {
+  width = $state(800);
+  height = $state(400);
+  zoom = $state.raw({ k: 1, x: 0, y: 0 });
+  readonly #box: { x: number; y: number; wide: number; tall: number };
+
+  constructor(scene: Scene) {
+    const [x0, x1, y0, y1] = scene.bounds;
+    const room = 4 * scene.size;
+    this.#box = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, wide: x1 - x0 + room, tall: y1 - y0 + room };
+  }
+
+  /** How tall the stage is at its width. */
+  tallness(innerHeight: number): number {
+    const wanted = (this.width * this.#box.tall) / this.#box.wide;
+    return Math.round(Math.min(Math.max(wanted, 220), Math.max(300, 0.62 * innerHeight)));
+  }
+
+  /** Pixels a metre. */
+  get scale(): number {
+    return this.zoom.k * this.#fit;
+  }
+
+  get #fit(): number {
+    return Math.min(this.width / this.#box.wide, this.height / this.#box.tall);
+  }
+
+  get #origin(): Point {
+    const { k, x, y } = this.zoom;
+    return [k * (this.width / 2 - this.#fit * this.#box.x) + x, k * (this.height / 2 + this.#fit * this.#box.y) + y];
+  }
+
+  /** The transform of what is given in metres, y up. */
+  get transform(): string {
+    const [x, y] = this.#origin;
+    return `matrix(${this.scale} 0 0 ${-this.scale} ${x} ${y})`;
+  }
+
+  screen([x, y]: Point): Point {
+    const [ox, oy] = this.#origin;
+    return [ox + this.scale * x, oy - this.scale * y];
+  }
+}

@@ -1,0 +1,58 @@
+/** The time that the mechanism and all plots share, and how it runs. */
+export class Clock {
+  readonly start: number;
+  readonly end: number;
+  t = $state(0);
+  playing = $state(false);
+  speed = $state(1);
+
+  constructor(times: number[]) {
+    this.start = times[0];
+    this.end = times[times.length - 1];
+    this.t = this.start;
+    this.speed = this.usualSpeed;
+  }
+
+  get lasting(): number {
+    return this.end - this.start;
+  }
+
+  /** From 0 at the start to 1 at the end. */
+  get part(): number {
+    return this.lasting > 0 ? (this.t - this.start) / this.lasting : 0;
+  }
+
+  /** Life's own where the run then takes some seconds, else a power of ten at which it takes about eight. */
+  get usualSpeed(): number {
+    return this.lasting >= 2 && this.lasting <= 30 ? 1 : 10 ** Math.round(Math.log10(Math.max(this.lasting, 1e-9) / 8));
+  }
+
+  /** Digits behind the point that show a thousandth of the run. */
+  get digits(): number {
+    return Math.min(9, Math.max(2, Math.ceil(3 - Math.log10(Math.max(this.lasting, 1e-9)))));
+  }
+
+  seek(t: number): void {
+    this.t = Math.min(Math.max(t, this.start), this.end);
+  }
+
+  pause(): void {
+    this.playing = false;
+  }
+
+  toggle(): void {
+    this.playing = !this.playing;
+    if (!this.playing) return;
+    if (this.t >= this.end) this.t = this.start;
+    requestAnimationFrame((now) => this.run(now));
+  }
+
+  private run(last: number): void {
+    requestAnimationFrame((now) => {
+      if (!this.playing) return;
+      this.seek(this.t + ((now - last) / 1000) * this.speed);
+      if (this.t >= this.end) this.pause();
+      else this.run(now);
+    });
+  }
+}
