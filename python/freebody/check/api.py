@@ -136,9 +136,12 @@ class Checker:
             found = [name for name in known if any(name == word or _alike(name, word) for word in words)]
             if len(found) == 1:
                 return found[0]
-        impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
+        later = [change for change in run.changes if change.t > run.t[0]]
+        impacts = dict.fromkeys(change.of[0] for change in later if change.kind == "impact" and change.of)
         if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):
             return next(iter(impacts))
+        if len(events) == 1 and not later:  # nothing else can be meant
+            return next(iter(events))
         what = ", ".join({**events, **parts}) or "nothing does"
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import ModelError
+from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
@@ -22,8 +22,9 @@ from freebody.symbolic.tree import Fn, Sym, walk
 
 from .case import Case
 from .families import Family, NoMotion
+from .figures import figures, rounding
 from .language.statements import Equation, symbols_in, terms
-from .residual import HOLDS, figures, residual, rounding, unreached
+from .residual import HOLDS, residual, unreached
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -108,7 +109,7 @@ def _to_first_order(case: Case, equation: Equation) -> str:
     words, family = _small(case, equation, SMALL)
     if not case.budget.lasts(_PART):
         return ""
-    with suppress(NoMotion, StatementError, ModelError):
+    with suppress(NoMotion, StatementError, ModelError, MotionError):
         if family.small and not case.hypothesis.small and first_order(case, equation, family):
             return f"{words}, to first order"
     return ""
@@ -150,7 +151,7 @@ def _holds(case: Case, equation: Equation, family: Family) -> bool:
     try:
         values = case.values(family, count=_STATES)
         found = residual(equation, values)
-    except (NoMotion, StatementError, ModelError):
+    except (NoMotion, StatementError, ModelError, MotionError):
         return False
     as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
@@ -219,7 +220,7 @@ def _limit(case: Case, equation: Equation) -> str:
     given = case.hypothesis
     for name, power in case.budget.within(_limits(case), _PART):
         families = (replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)
-        with suppress(NoMotion, StatementError, ModelError):
+        with suppress(NoMotion, StatementError, ModelError, MotionError):
             near, far = (case.values(family, count=_STATES) for family in families)
             first, last = (float(np.median(np.abs(residual(equation, values).ratio).max(axis=1))) for values in (near, far))
             shrinks = first < _SLOPE and last < max(_SLOPE * first, HOLDS)

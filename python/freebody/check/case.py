@@ -95,10 +95,6 @@ class StatementSymbols:
     def needs_past(self) -> bool:
         """Whether it reads works, or where a motion started, which a state has only as one of a motion from the start."""
         read = [self._one(n) for n in self.required]
-        moving = [n for n in self.required if self._moves(n)]
-        still = all(not n.dots and not any(map(_BEYOND.search, self._one(n).texts)) for n in self.required)
-        if self.sampler.rolls_in_loop and moving and still:
-            return True  # by how much that has turned says nothing but the start
         return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
 
     def names(self) -> Mapping[str, tuple[str, ...]]:

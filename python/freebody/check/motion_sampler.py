@@ -51,6 +51,7 @@ _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
 _LONG = 12.0  # of the time typical of the model: where within that something vanishes on a run it is found
+_LONGER = 0.3, 2.0, _LONG  # such runs one after the other: most of what vanishes does so soon
 _LOOKS, _FINER, _SHORTEST = (
     65,
     12,
@@ -161,6 +162,8 @@ class MotionSampler:
             found, start = self._since_start(rng, values, family)
         elif self.restricted:
             found = self._near_moment(rng, values, family)
+        elif self.rolls_in_loop and not family.at_start:
+            found, start = self._rolled_on(rng, values, family)
         else:
             found = self._started(values) if family.at_start else self._anywhere(rng, values, family)
         start = found if family.at_start else start
@@ -214,23 +217,52 @@ class MotionSampler:
         for done in np.arange(1, stages + 1) / stages:
             p, guess = self.first.p + done * (words["p"] - self.first.p), self._named(state.q + move / stages)
             state, _ = self.core.assemble(p, done * t, guess=guess, rates=rates, branch=words["branch"])
-        state = self._arranged(rng, family, state, list(rates), words["branch"])
-        solved = self.core.instant(state)
-        if changes_side(self.core, self._squares, own, state) or not all(
-            limit.is_open and limit.gap >= 0 for limit in solved.limits.values()
-        ):
-            return None
-        judges = solved.residual < _BALANCED and np.isfinite(solved.accelerations).all()
-        return state if judges and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
+        return self._judging(self._arranged(self._conditions(rng, family), state, list(rates), words["branch"]))
 
-    def _arranged(
-        self, rng: np.random.Generator, family: Family, state: State, free: Sequence[str], branch: Mapping[str, int] | None = None
-    ) -> State:
-        """The nearest state at which what vanishes in a family does so, and what is small there is. Raises ``NoMotion``."""
+    def _rolled_on(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
+        """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
+        start = self._at_moment(values, self._rates(rng, replace(family, at_rest=False)))
+        conditions, n = self._conditions(rng, family), len(self.names)
+        places = [text for text in conditions if not self.core.derivatives([text], start)[0, n + 1 : 2 * n + 1].any()]
+        for long in _LONGER if places else (rng.uniform(*_LONGER[:2]),):
+            motion = self._run(start, long / self.rate, _EXACT)
+            t = self._first_zero(places[0], motion, start) if places else motion.end.t
+            if t is not None:
+                break
+        else:
+            return None, start
+        rates = self._rates(rng, family)
+        state, _ = self.core.assemble(start.p, t, guess=self._named(motion.state(t).q), rates=rates)
+        return self._judging(self._arranged(conditions, state, list(rates))), start
+
+    def _judging(self, state: State) -> State | None:
+        """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""
+        solved = self.core.instant(state)
+        singular = (
+            solved.rank.freedom > self._freedom or solved.residual >= _BALANCED or not np.isfinite(solved.accelerations).all()
+        )
+        if singular or changes_side(self.core, self._squares, self.first.q, state):
+            return None
+        apart = all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values())
+        return state if apart and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
+
+    @cached_property
+    def _freedom(self) -> int:
+        """Degrees of freedom where the model starts."""
+        return self.core.instant(self.first).rank.freedom
+
+    def _conditions(self, rng: np.random.Generator, family: Family) -> list[str]:
+        """What is 0 in a family, and where what is small there is so."""
         sizes = [(text, size * self._size(text, self.first)) for text, size in family.small]
         small = [f"({text}) - ({size * _about(rng)!r})" for text, size in sizes]
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
-        for text in (*family.vanishing, *small, *slow):
+        return [*family.vanishing, *small, *slow]
+
+    def _arranged(
+        self, conditions: Sequence[str], state: State, free: Sequence[str], branch: Mapping[str, int] | None = None
+    ) -> State:
+        """The nearest state at which ``conditions`` are 0. Raises ``NoMotion``."""
+        for text in conditions:
             if not self._vanishes(text, state):
                 state = self._vanished(text, state, free, branch or {})
         return state
@@ -299,6 +331,11 @@ class MotionSampler:
         named = [event.get("opening") for event in self.spec["events"]] + [joint.get("friction") for joint in self.spec["joints"]]
         return bool(self.moment) or any(named) or not all(x.is_open for x in self.core.instant(self.first).limits.values())
 
+    @cached_property
+    def _puts_in_place(self) -> bool:
+        """Whether events fasten parts where they are: with other parameters these are elsewhere."""
+        return any("engage" in action for event in self.spec["events"] for action in event["then"] if isinstance(action, Mapping))
+
     def _run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
 
@@ -309,14 +346,15 @@ class MotionSampler:
         if family.at_start:
             state = self._at_moment(values)
         else:
-            own, p, random = self.own, self.core.bind(values), rng.random() < _ELSEWHERE
+            own = self._at_moment(values) if self._puts_in_place else self.own
+            p, random = self.core.bind(values), rng.random() < _ELSEWHERE
             q = own.q + _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
             rates, there = self._rates(rng, family), self._named(own.u)
             if not (random or family.at_rest):
                 rates = {name: there[name] for name in rates}
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state, _ = self.core.assemble(p, own.t, guess=self._named(q), rates=rates, history=own.history)
-            state = self._arranged(rng, family, state, list(rates))
+            state = self._arranged(self._conditions(rng, family), state, list(rates))
         if "before" in self.moment:
             return self._sampled(state)
         motion = self._run(state, max(late, 1e-6 / self.rate))
@@ -332,10 +370,13 @@ class MotionSampler:
         if not family.vanishing:
             return self._sampled(motion.state(start.t + 0.99 * (min(ends) - start.t))), start
         first = at_start(family.vanishing[0], self.core, start)
-        t = first_zero(lambda times: motion.evaluate([first], times)[:, 0], start.t, min(ends))
-        if t is None and self._vanishes(first, start):
-            return self._sampled(start), start
-        return (None if t is None else self._sampled(motion.state(t))), start
+        t = self._first_zero(first, motion, start, min(ends))
+        return (None if t is None else self._sampled(start if t == start.t else motion.state(t))), start
+
+    def _first_zero(self, text: str, motion: Trajectory, start: State, ends: float | None = None) -> float | None:
+        """When an expression is first 0 behind the start of a motion; at the start, where it is only so there."""
+        t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], start.t, motion.end.t if ends is None else ends)
+        return start.t if t is None and self._vanishes(text, start) else t
 
     def _sampled(self, found: State) -> State | None:
         """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge."""

@@ -1,4 +1,4 @@
-"""Both sides of an equation on true motions: how far they are apart, relative to its own terms and to the digits of its figures."""
+"""Both sides of an equation on true motions: how far they are apart, relative to its own terms."""
 
 from __future__ import annotations
 
@@ -20,15 +20,10 @@ from freebody.symbolic.tree import (
     Mul,
     Negative,
     Node,
-    Num,
-    Pow,
     Quotient,
-    Sym,
-    exchange,
-    walk,
 )
 
-from .language.statements import Equation, rows, symbols_in, terms
+from .language.statements import Equation, terms
 
 HOLDS = 1e-10
 """Below it, relative to the terms, an equation holds but for round-off."""
@@ -43,9 +38,6 @@ _THROUGH_ZERO = ("sin", "cos", "tan", "sinh", "asin", "atan")
 """Functions whose zero may be a difference of angles that are equal but for round-off."""
 _MANY = 400  # terms, beyond which brackets stay
 _STEP = 1e-4  # of a symbol's size, by which slopes are taken: they are exact where an equation is linear in it
-_DIRECTIONS = {Sym(name) for name in ("i", "j", "k")}
-_FIGURE = Sym("the figure")
-_SIGNIFICANT = 3  # digits of a whole number that count though they are zeros
 
 
 @dataclass(frozen=True)
@@ -158,41 +150,6 @@ def unreached(equation: Equation, values: Mapping[str, Array]) -> list[Node]:
 
 def _length(value: Array) -> Array:
     return np.linalg.norm(value.reshape(len(value), -1), axis=1) if value.ndim > 1 else np.abs(value)
-
-
-# -- figures that are printed to so many digits
-
-
-def rounding(equation: Equation, values: Mapping[str, Array]) -> Array:
-    """How far the sides may lie apart, by half the last printed digit of each measured figure; (K, n)."""
-    allowed = HOLDS * sizes(equation, values)
-    for figure in figures(equation):
-        allowed = allowed + np.abs(slope(equation, figure, values)) * last_digit(figure) / 2
-    return allowed
-
-
-def figures(equation: Equation) -> list[Num]:
-    """The figures that are measured: those with a decimal point or a power of ten, and where no symbol stands beside it, as in
-    T = 575 N, a whole number of two digits or more."""
-    alone = [term for row in rows(equation) for term in terms(row) if _DIRECTIONS.issuperset(symbols_in(term))]
-    exponents = [id(n.exponent) for term in alone for n in walk(term) if isinstance(n, Pow)]
-    plain = {id(n) for term in alone for n in walk(term) if isinstance(n, Num) and len(n.text) > 1 and id(n) not in exponents}
-    found = [n for n in walk(equation) if isinstance(n, Num) and n.text[:1].isdecimal()]
-    return [n for n in found if id(n) in plain or not n.text.isdecimal()]
-
-
-def last_digit(figure: Num) -> float:
-    """What one more in the last printed digit is worth; of a whole number zeros beyond the third digit only hold a place."""
-    digits, _, power = figure.text.lower().partition("e")
-    whole, point, decimals = digits.partition(".")
-    held = 0 if point else min(len(whole) - len(whole.rstrip("0")), max(len(whole) - _SIGNIFICANT, 0))
-    return 10.0 ** (int(power or 0) - len(decimals) + held)
-
-
-def slope(equation: Equation, figure: Num, values: Mapping[str, Array]) -> Array:
-    """How fast the sides part as a figure grows, (K, rows)."""
-    count, of = len(next(iter(values.values()), [0])), exchange(equation, figure, _FIGURE)
-    return jacobian([of], {**values, _FIGURE.key: np.full(count, figure.value)}, [_FIGURE.key])[1][:, :, 0]
 
 
 # -- how fast the sides part

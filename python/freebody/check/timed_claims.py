@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from functools import partial
-from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,22 +12,19 @@ from freebody.model.errors import ModelProblem
 from freebody.run.digits import SAFETY
 from freebody.run.records import Array
 from freebody.symbolic.evaluate import sampled
-from freebody.symbolic.tree import Num, exchange
 
 from .case import Case
-from .correction import Correction
 from .families import Samples
+from .figures import ROUND, corrected_figures, figures, rounding
 from .language.parser import parse
-from .language.spelling import spell
 from .language.statements import Equation
-from .residual import Sides, equation_sides, figures, last_digit, rounding, slope
+from .residual import Sides, equation_sides
 from .user_symbols import OF_START
 from .verdict import Evidence, Kind, Verdict
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
 
-_ROUND = 1e-9  # of half a digit, so that a figure that lies on the edge is accepted
 _KNOWN = (
     1e-6  # part of its sides to which a run knows an equation without figures, where agreeing as closely as that says something
 )
@@ -52,9 +47,9 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
         if np.any(unsure > allowed) and np.all(off <= allowed + unsure):
             reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}, and the run does not know it to so many digits: the motion "
             return Verdict(Kind.UNDECIDABLE, statement, reason + run.accuracy.sentence)
-        if np.any(off > allowed * (1 + _ROUND)):
+        if np.any(off > allowed * (1 + ROUND)):
             seen = Evidence.at(sides, values, 0, float(off.max()), 1)
-            corrections, last = _corrected(equation, values)
+            corrections, last = corrected_figures(equation, values)
             reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}" + (": off in the last digit" if last else "")
             return Verdict(Kind.WRONG, statement, reason, mends=corrections, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
@@ -71,7 +66,7 @@ def report(checker: Checker, declared: Declared, label: str, figure: str) -> Ver
     if allowed < unsure and abs(value - said) <= allowed + unsure:
         what = f"{label} is {value:.6g} against {said:g}, and the run does not know it to so many digits: the motion "
         return Verdict(Kind.UNDECIDABLE, label, what + run.accuracy.sentence)
-    kind = Kind.TRUE if abs(value - said) <= allowed * (1 + _ROUND) else Kind.WRONG
+    kind = Kind.TRUE if abs(value - said) <= allowed * (1 + ROUND) else Kind.WRONG
     return Verdict(kind, label, f"{label} is {value:.6g} against {said:g}" + (", as printed" if kind is Kind.TRUE else ""))
 
 
@@ -97,33 +92,6 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
     if np.ptp(every, axis=0).max() <= sum(each().max() for each in unsure):
         return Verdict(Kind.UNDECIDABLE, expression, f"at {moment} it is {stated}, and the runs do not know it to so many digits")
     return Verdict(Kind.WRONG, expression, f"at {moment} it is {stated}")
-
-
-def _corrected(equation: Equation, values: Mapping[str, Array]) -> tuple[tuple[Correction, ...], bool]:
-    """The fewest figures to be printed otherwise, and whether they are off by no more than one in the last digit."""
-    printed = figures(equation)
-    for count in range(1, len(printed) + 1):
-        if found := [each for some in combinations(printed, count) for each in _printed_again(equation, some, values)]:
-            return tuple(correction for correction, _ in found), all(last for _, last in found)
-    return (), False
-
-
-def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[str, Array]) -> Iterator[tuple[Correction, bool]]:
-    """The equation with other numbers for some figures, if these make it hold to its digits."""
-    slopes = np.stack([slope(equation, figure, values)[0] for figure in chosen], axis=-1)
-    steps = -np.linalg.pinv(slopes) @ equation_sides(equation, values).residual[0]
-    after, edits, last = equation, [], True
-    for figure, step in zip(chosen, steps, strict=True):
-        digits, unit = re.split("[eE]", figure.text)[0], last_digit(figure)
-        power = figure.text[len(digits) :]
-        rounded = round((figure.value + step) / unit) * unit / float(f"1{power}")
-        text = f"{rounded:.{len(digits.partition('.')[2])}f}{power}"
-        after = exchange(after, figure, Num(float(text), text))
-        edits.append(("figure", figure.text, text))
-        last &= abs(float(text) - figure.value) < 1.5 * unit
-    left = np.abs(equation_sides(after, values).residual)
-    if np.all(left <= rounding(after, values) * (1 + _ROUND)):
-        yield Correction(tuple(edits), spell(after), float(len(edits)), tuple(figure.span for figure in chosen)), last
 
 
 def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:

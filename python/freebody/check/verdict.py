@@ -17,10 +17,11 @@ from .assumptions import assumption, leaves_out, linearised, tiny
 from .case import Case
 from .correction import MOST, SECOND, Correction, corrections
 from .families import ALL, NoMotion, Samples
+from .figures import corrected_figures, rounding, says_a_figure
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .nearest import nearest
-from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, rounding, sizes, unreached
+from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, sizes, unreached
 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
@@ -141,8 +142,10 @@ def judged(case: Case) -> Verdict:
 
 
 def judged_one(case: Case, equation: Equation) -> Verdict:
-    """The verdict about one equation."""
+    """The verdict about one equation; a figure under a condition is that of the model's own numbers."""
     text = case.program.text[slice(*equation.span)].strip() or case.program.text
+    if case.hypothesis != ALL and says_a_figure(equation):
+        case = replace(case, hypothesis=replace(case.hypothesis, numbers=True, zeros=False), known={})
     try:
         found = case.residual(equation)
     except NoMotion as error:
@@ -172,8 +175,8 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
         few = np.mean(again >= HOLDS) <= _FEW and again.max() < _BLURRED
         worst = float(np.median(again) if few else again.max())
-    as_printed = HOLDS <= worst <= FAILS and np.all(np.abs(found.sides.residual) <= rounding(equation, case.values()))
-    if worst < HOLDS or as_printed:  # figures of many digits are as good as these
+    in_digits = HOLDS <= worst <= FAILS or (case.hypothesis.numbers and worst >= HOLDS)
+    if worst < HOLDS or (in_digits and np.all(np.abs(found.sides.residual) <= rounding(equation, case.values()))):
         return _true(case, equation, text, found)
     if worst <= FAILS:
         what = f"the two sides differ by {worst:.1e} of their terms: more than round-off, less than a mistake"
@@ -243,7 +246,8 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
         return Verdict(Kind.TRUE, text, "the two sides are the same by themselves: it says nothing of the motion")
     which = "from the start of this model " if case.hypothesis.since else ""
     share = f"{max(found.worst, 1e-16):.0e} of its terms"
-    reason = f"holds on {len(found.ratio)} random motions {which}with random parameters, to {share}"
+    numbers = "the model's own numbers" if case.hypothesis.numbers else "random parameters"
+    reason = f"holds on {len(found.ratio)} random motions {which}with {numbers}, to {share}"
     return Verdict(Kind.TRUE, text, reason, evidence=evidence(found, case.values()), untested=tuple(blind))
 
 
@@ -251,13 +255,16 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     """Under an assumption that a person would make; else wrong, with its corrections, also where what was left out would be 0 at
     rest or without a part of the model."""
     seen = evidence(found, case.values())
-    if case.sampler.rolls_in_loop and case.hypothesis.since and _stays(case, equation):
+    if case.sampler.rolls_in_loop and _stays(case, equation):
         what = "the angles of what rolls are measured from a place where both sides are equal"
         return Verdict(
             Kind.TRUE_IF, text, f"true only if {what}: they differ by what they differ by at the start", what, evidence=seen
         )
     if not case.correcting:
         return Verdict(Kind.WRONG, text, evidence=seen)
+    if case.hypothesis.numbers and says_a_figure(equation):
+        others, last = corrected_figures(equation, case.values())
+        return Verdict(Kind.WRONG, text, "off in the last digit" if last else "", mends=others, evidence=seen)
     fixes = tuple(islice(corrections(case, equation), MOST))
     if small := linearised(case, equation):
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)

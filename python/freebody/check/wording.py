@@ -70,12 +70,15 @@ def as_claim(text: str) -> str:
     if not found:
         return text
     word, said, statement = " ".join(found[1].split()), _plainly(found[2]), found[3]
+    if word == "with" and "=" not in said:
+        return f"if with {said}: {statement}"
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
     side = word.split()[-1]
-    if side in ("after", "before") and not (" " in word and side == "after" and _START.fullmatch(said)):
+    is_start = word == "initially" or (" " in word and side == "after" and (not said or _START.fullmatch(said)))
+    if side in ("after", "before") and not is_start:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
-    said = "at the start" if word == "initially" else said
+    said = "at the start" if is_start else said
     parts = [_condition(part) for part in re.split(r",|\band\b", said)]
     if any("->" in part or part == "small motions" for part in parts):
         inner = re.fullmatch(r"limit:\s*(.+)\s+as\s(.+)", as_claim(statement), re.S)
