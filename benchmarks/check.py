@@ -55,7 +55,8 @@ def _of_model(job: tuple[str, int], seed: int) -> list[Outcome]:
 
 def every(count: int, seed: int, models: Sequence[str]) -> Iterator[Outcome]:
     """``count`` correct equations and as many mutants, of all models alike, made by two processes."""
-    jobs = [(model, count // len(models) + (i < count % len(models))) for i, model in enumerate(models)]
+    shares = (count // len(models) + (i < count % len(models)) for i in range(len(models)))
+    jobs = [(model, share) for model, share in zip(models, shares, strict=True) if share]
     with get_context("spawn").Pool(2) as pool:
         for i, found in enumerate(pool.imap_unordered(partial(_of_model, seed=seed), jobs), 1):
             alarms = sum((o.kind is Kind.TRUE) == bool(o.slip) for o in found)

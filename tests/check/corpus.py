@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 import zlib
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import derived
@@ -18,11 +18,11 @@ from rearranged import arranged, in_other_symbols, rearranged
 from textbook import BOOKS, Book
 
 from freebody.check import Checker, Kind
+from freebody.check.budget import Budget
 from freebody.check.case import Case
 from freebody.check.correction import Correction, corrections
 from freebody.check.language.spelling import spell
 from freebody.check.language.statements import Equation, symbols_in
-from freebody.check.verdict import judged
 from freebody.check.vocabulary import Vocabulary
 from freebody.mechanism import Mechanism
 from freebody.symbolic.tree import Node, Sym, substitute
@@ -106,7 +106,7 @@ class Bench:
         equation = rearranged(rng, self.equations, self.vocabulary, self.others)
         text = spell(equation)
         began = time.perf_counter()
-        verdict = judged(self.checker.case(text, self._said(equation)))
+        verdict = self.checker.check(text, self._said(equation))
         seconds = time.perf_counter() - began
         return Outcome(self.name, "", text, text, verdict.kind, True, True, _edits(verdict.mends), seconds)
 
@@ -129,14 +129,18 @@ class Bench:
     def outcome(self, slip: str, before: Equation, after: Equation, rng: np.random.Generator) -> Outcome:
         """What the check says of ``after`` that should be ``before``."""
         text, said = spell(after), self._said(before) | self._said(after)
-        case = self.checker.case(text, said)
         began = time.perf_counter()
-        verdict = judged(case)
-        found = verdict.mends or tuple(corrections(case, case.equations[0]))
+        verdict = self.checker.check(text, said)
+        found = verdict.mends or tuple(self._corrections(text, said))
         seconds = time.perf_counter() - began
         right = [self.same(before, self.checker.case(mend.equation, said).equations[0], rng) for mend in found]
         first = bool(right) and right[0]
         return Outcome(self.name, slip, spell(before), text, verdict.kind, any(right), first, _edits(found), seconds)
+
+    def _corrections(self, text: str, said: Mapping[str, str]) -> Iterator[Correction]:
+        """Those of a statement that is true under an assumption, which is told instead of them."""
+        case = self.checker.case(text, said)
+        return corrections(replace(case, budget=Budget(self.checker.seconds)), case.equations[0])
 
 
 def _edits(found: tuple[Correction, ...]) -> tuple[str, ...]:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.core import quote
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends
+from freebody.symbolic.tree import Mul, Negative, Node, Quotient, Sym, addends
 
-from .coefficients import multiplied, product
+from .coefficients import multiplied
 from .language.statements import Equation, symbols_in
+from .powers import powers_of, written
 
 if TYPE_CHECKING:
     from .case import Case
@@ -120,57 +120,6 @@ class Letters:
         return {"unknown": name, "number": repr(entry["value"])}.get(entry["kind"]) or quote(name)
 
     def written(self, node: Node, sign: int = 1) -> Node:
-        """A term as a person writes it: a number, what stands above and what below the line."""
-        number, powers = _powers(node, self._own)
-        above = [_power(base, n) for base, n in powers.items() if n > 0]
-        below = [_power(base, -n) for base, n in powers.items() if n < 0]
-        term = Quotient(product(above), product(below)) if below else product(above)
-        return multiplied(term, sign * number) or Mul((Num(sign * number, repr(sign * number)), term))
-
-
-def _powers(node: Node, own: Mapping[Sym, Node]) -> tuple[float, dict[Node, int]]:
-    """The number of a product and the powers of its other factors."""
-    match node:
-        case Sym() if node in own:
-            return _powers(own[node], {})
-        case Num(value=value):
-            return float(value), {}
-        case Negative(of=of):
-            number, powers = _powers(of, own)
-            return -number, powers
-        case Mul(factors=factors):
-            return _times(_powers(factor, own) for factor in factors)
-        case Quotient(top=top, bottom=bottom):
-            number, powers = _powers(bottom, own)
-            return _times([_powers(top, own), (1 / number, {base: -n for base, n in powers.items()})])
-        case Pow(base=base, exponent=exponent):
-            n = Fraction(exponent.value if isinstance(exponent, Num) else exponent)
-            if n.denominator == 1:
-                number, powers = _powers(base, own)
-                return number ** int(n), {each: int(n) * m for each, m in powers.items()}
-        case Fn(name=name, args=args):
-            return 1.0, {Fn(name, tuple(_sum(arg, own) for arg in args)): 1}
-        case Add():
-            return 1.0, {_sum(node, own): 1}
-    return 1.0, {node: 1}
-
-
-def _sum(node: Node, own: Mapping[Sym, Node]) -> Node:
-    """A sum in other letters, term by term."""
-    written = Letters.__new__(Letters)
-    written._own = dict(own)
-    terms = tuple(written.written(term, sign) for sign, term in addends(node))
-    return Add(terms) if len(terms) > 1 else terms[0]
-
-
-def _times(parts: Iterable[tuple[float, dict[Node, int]]]) -> tuple[float, dict[Node, int]]:
-    number, powers = 1.0, Counter[Node]()
-    for its, of in parts:
-        number *= its
-        for base, n in of.items():
-            powers[base] += n
-    return number, {base: n for base, n in powers.items() if n}
-
-
-def _power(base: Node, n: int) -> Node:
-    return base if n == 1 else Pow(base, Num(float(n), str(n)))
+        """A term as a person writes it."""
+        number, powers = powers_of(node, self._own)
+        return written(sign * number, powers)

@@ -187,14 +187,14 @@ class StatementSymbols:
 
     @cached_property
     def _coordinates(self) -> list[Sym]:
-        """Symbols that measure the configuration, those of the statement first; the model's own where some are missing."""
+        """Symbols that measure the configuration, those of the statement first; then the model's own, and what else is declared where
+        some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         names = [c["name"] for c in self.sampler.coordinates if c["name"].isidentifier() and c["name"] in self.symbols.meanings]
-        own = [Sym(name) for name in names if (name,) not in said]
-        own += [n for n in map(Sym, self.symbols.of_kind("declared")) if self._moves(n)]
-        missing = max(len(self.sampler.coordinates) - len(movable), 0)
-        return [*movable, *[n for n in own if n not in movable][:missing]]
+        found = [*movable, *(Sym(name) for name in names if (name,) not in said)]
+        declared = [n for n in map(Sym, self.symbols.of_kind("declared")) if n not in found and self._moves(n)]
+        return [*found, *declared[: max(len(self.sampler.coordinates) - len(found), 0)]]
 
     def _moves(self, symbol: Sym) -> bool:
         """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""

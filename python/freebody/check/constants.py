@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +13,7 @@ from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, is_zero, walk
 
 from .coefficients import multiplied, tidied
 from .correction import EQUAL, MOST, Correction, stated
-from .edits import Edit, depth, edits
+from .edits import Edit, conventions, depth, edits
 from .fitted_edits import FittedEdits, proportional
 from .language.dimensions import dimension
 from .language.spelling import spell
@@ -51,7 +52,8 @@ class _Search:
     def found(self) -> Iterator[Edit]:
         """The edits after which it is constant."""
         with np.errstate(all="ignore"):
-            for edit in self.within((*edits(self.equation, self.vocabulary), *self._rates(), *self._factors(), *self._missing())):
+            plain = chain(edits(self.equation, self.vocabulary), conventions(self.equation, self.vocabulary))
+            for edit in self.within(chain(plain, self._rates(), self._factors(), self._missing())):
                 if self.fits(edit.after) and self._is_steady(edit.after.left):
                     yield edit
 

@@ -18,6 +18,7 @@ from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, walk
 
 from .coefficients import tidied
 from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
+from .families import NoMotion
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in
@@ -44,6 +45,7 @@ _CONFIRMING = 0.1  # of it, for what was found by then
 _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
+_LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
 _REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"))
@@ -127,7 +129,10 @@ def _of_row(
     case: Case, row: Equation, families: list[tuple[Family, str]], steps: Sequence[Step], part: float
 ) -> Iterator[Correction]:
     """The smallest corrections of an equation, in the widest family in which they are smallest."""
-    searches = [(_Search(case, row, family, part), given) for family, given in families]
+    searches = []
+    for family, given in families:
+        with suppress(NoMotion):
+            searches.append((_Search(case, row, family, part), given))
     if any(search.right for search, _ in searches):
         return
     tried: list[list[_Found]] = [[] for _ in searches]
@@ -156,7 +161,8 @@ class _Search:
         self.within = partial(case.budget.within, part=part)
         self.confirming = partial(case.budget.within, part=part + _CONFIRMING)
         self.fits = FittedEdits(self.values, self.vocabulary, self.within)
-        self.right = self._worst(equation, self.values) < HOLDS
+        self.holds = _LINEAR if family.small else HOLDS
+        self.right = self._worst(equation, self.values) < self.holds
 
     def singles(self) -> Iterator[_Found]:
         """Every single edit that may make it true."""
@@ -280,7 +286,7 @@ class _Search:
             return True
 
     def _confirmed(self, equation: Equation) -> bool:
-        holds = all(self._worst(equation, values) < HOLDS for values in (self.values, self.fresh))
+        holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
         return holds and not (self.family.held and unreached(equation, self.values))  # what is held at 0 may hide what is wrong
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:

@@ -48,6 +48,8 @@ _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
 _OTHER = {"sin": "cos", "cos": "sin"}
 _UNSIGNED = (LENGTH, MASS, Dimension(2, 1))
 """Dimensions of lengths, masses and moments of inertia, which have no sense."""
+_OF_BODIES = ((1.0, 12.0), (1.0, 4.0), (1.0, 3.0), (2.0, 5.0), (1.0, 2.0), (2.0, 3.0), (3.0, 2.0), (1.0, 1.0))
+"""Numbers of moments of inertia and of kinetic energies."""
 _QUARTER = Quotient(Num(math.pi, "pi"), Num(2.0, "2"))
 
 
@@ -208,6 +210,9 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     """
     yield from _products(equation)
     yield from _functions(equation)
+    yield from _powers(equation, vocabulary)
+    yield from _inertias(equation)
+    yield from _sizes(equation, vocabulary)
     found = [n for n in walk(equation) if isinstance(n, Sym)]
     often = [name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1]
     for name in often:
@@ -228,6 +233,14 @@ def _convention(equation: Equation, changes: Mapping[Sym, Node], words: str) -> 
     return Edit("convention", None, None, substitute(equation, changes), words=words)
 
 
+def _everywhere(equation: Equation, changes: Mapping[Node, Node], words: str) -> Edit:
+    """The edit of all parts that are one of some."""
+    after = equation
+    for part in [n for n in walk(equation) if n in changes]:
+        after = exchange(after, part, changes[part])
+    return Edit("convention", None, None, after, words=words)
+
+
 def _with_rates(name: str) -> list[Sym]:
     return [Sym(name, dots) for dots in range(3)]
 
@@ -243,15 +256,47 @@ def _products(equation: Equation) -> Iterator[Edit]:
 
 
 def _functions(equation: Equation) -> Iterator[Edit]:
-    """Sine and cosine of an angle exchanged wherever they stand, where both do."""
+    """Sine and cosine of an angle exchanged wherever they stand, where they do more than once."""
     calls = [n for n in walk(equation) if isinstance(n, Fn) and n.name in _OTHER]
     for angle in dict.fromkeys(n.args for n in calls):
         found = [n for n in calls if n.args == angle]
-        if {n.name for n in found} == set(_OTHER):
-            after = equation
-            for call in found:
-                after = exchange(after, call, Fn(_OTHER[call.name], angle))
-            yield Edit("convention", None, None, after, words=f"`sin` and `cos` of `{spell(angle[0])}` exchanged")
+        if len(found) > 1:
+            changes = {n: Fn(_OTHER[n.name], angle) for n in found}
+            yield _everywhere(equation, changes, f"`sin` and `cos` of `{spell(angle[0])}` exchanged")
+
+
+def _powers(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """Every square of a length the length itself, as where a momentum is written like an energy, and the other way round."""
+    lengths = {n for n, its in vocabulary.parameters.items() if its == LENGTH}
+    squares = {n: n.base for n in walk(equation) if isinstance(n, Pow) and n.base in lengths and n.exponent == Num(2.0)}
+    if len(squares) > 1:
+        yield _everywhere(equation, squares, "lengths that are squared, each by itself")
+    elif not squares and len(said := [n for n in lengths if any(n == part for part in walk(equation))]) > 1:
+        squared = {n: Pow(n, Num(2.0, "2")) for n in said}
+        yield _everywhere(equation, squared, "each length squared")
+
+
+def _inertias(equation: Equation) -> Iterator[Edit]:
+    """A number that stands more than once, each time another: that of an inertia, or ½."""
+    found = [n for n in walk(equation) if _is_number(n)]
+    for one in dict.fromkeys(n for n in found if found.count(n) > 1):
+        for above, below in _OF_BODIES:
+            other: Node = Quotient(Num(above, f"{above:g}"), Num(below, f"{below:g}")) if below != 1 else Num(above, f"{above:g}")
+            if other != one:
+                yield _everywhere(equation, {one: other}, f"`{spell(one)}` should be `{spell(other)}` each time")
+
+
+def _is_number(node: Node) -> bool:
+    """Whether it is a fraction of two figures."""
+    return isinstance(node, Quotient) and isinstance(node.top, Num) and isinstance(node.bottom, Num)
+
+
+def _sizes(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """A length that stands more than once, each time half or twice, as radius and diameter, or another one."""
+    found = [n for n in walk(equation) if isinstance(n, Sym) and vocabulary.parameters.get(n) == LENGTH]
+    for one in dict.fromkeys(n for n in found if found.count(n) > 1):
+        for other in (Mul((Num(2.0, "2"), one)), Quotient(one, Num(2.0, "2")), *vocabulary.alike(one)):
+            yield _everywhere(equation, {one: other}, f"`{spell(one)}` should be `{spell(other)}` each time")
 
 
 def _other_angles(equation: Equation, plain: Sym, vocabulary: Vocabulary) -> Iterator[Edit]:

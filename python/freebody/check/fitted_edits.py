@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -19,6 +20,7 @@ from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms
 from .monomials import Monomials
+from .powers import powers_of, written
 from .solve_for_term import RequiredTerm, required_terms
 from .vocabulary import Vocabulary
 
@@ -26,6 +28,7 @@ _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _NEARLY = 1e-5  # relative spread below which one is meant
 _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
+_HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_LENGTHS = 5  # of which sums and differences are thought of
 
 
@@ -39,6 +42,7 @@ class FittedEdits:
     within: Callable[[Iterable[Any]], Iterator[Any]] = iter
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
     _terms: dict[Equation, Monomials] = field(default_factory=dict)
+    _made_pairs: dict[object, tuple[list[tuple[Node, Node]], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
@@ -83,12 +87,45 @@ class FittedEdits:
             case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == 1:
                 found = (n for n in self._known if n != base and alike(self.values[n.key] ** 2))
                 yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in found)
-        if isinstance(node, Sym) and node in self.vocabulary.parameters:
-            for a, b in permutations((node, *self.vocabulary.alike(node)), 2):
-                one, two = self.values[a.key], self.values[b.key]
-                yield from (
-                    (Add((a, c), span=span), 0.2) for c, whole in ((b, one + two), (Negative(b), one - two)) if alike(whole)
-                )
+        yield from self._sums(required)
+
+    def _sums(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
+        """The sum or the difference of two symbols for one, for its square, or for twice one."""
+        node, needed = required.node, required.needed
+        match node:
+            case Sym() as own:
+                pass
+            case Pow(base=Sym() as own, exponent=Num(value=2.0)):
+                needed = np.sqrt(needed) if np.all(needed >= 0) else np.full(1, np.nan)
+            case Mul(factors=(Num(value=2.0), Sym() as own)):
+                pass
+            case _:
+                return
+        if needed.ndim != 1 or not np.isfinite(needed).all() or not needed.any():
+            return
+        pairs, rows = self._pairs(self.vocabulary.dimension(own))
+        size = np.abs(needed).max()
+        for sign in (1.0, -1.0) if isinstance(node, Pow) else (1.0,):
+            for place in np.flatnonzero(np.abs(rows - sign * needed).max(axis=1, initial=0.0) <= _SAME * size).tolist():
+                a, b = pairs[place]
+                if own in (a, _bare(b)):
+                    found = Add((a, b), span=node.span)
+                    yield (
+                        Pow(found, node.exponent) if isinstance(node, Pow) else found,
+                        0.2 if own in self.vocabulary.parameters else 0.1,
+                    )
+
+    def _pairs(self, its: Dimension | None) -> tuple[list[tuple[Node, Node]], Array]:
+        """Sums and differences of two symbols of a dimension, and their values."""
+        if its not in self._made_pairs:
+            known = [n for n in self._known if its is not None and self.vocabulary.dimension(n) == its]
+            apart = (
+                (a, b) for a, b in permutations(known, 2) if not np.allclose(*np.abs([self.values[a.key], self.values[b.key]]))
+            )
+            pairs = [(a, c) for a, b in apart for c in (*((b,) if a.key < b.key else ()), Negative(b))]
+            rows = [sampled(Add(pair), self.values) for pair in pairs]
+            self._made_pairs[its] = pairs, np.array(rows).reshape(len(rows), len(next(iter(self.values.values()))))
+        return self._made_pairs[its]
 
     @cached_property
     def _known(self) -> list[Sym]:
@@ -103,28 +140,37 @@ class FittedEdits:
             return
         found = _constant(factor)
         if found is None:
-            if (lacked := self._monomial(factor)) is not None and (new := powered(node, *lacked)) is not None:
-                number, powers = lacked
-                size = sum(map(abs, powers.values())) + (abs(number - 1) > _SAME)
-                yield Edit.at(equation, "missing factor", node, new, 0.2 * (size - 1))
+            yield from self._other_powers(equation, node, factor)
         elif abs(found + 1) < _SAME:
             yield Edit.at(equation, "sign", node, node.of if isinstance(node, Negative) else Negative(node, span=node.span))
         elif abs(found - 1) > _SAME and (new := multiplied(node, found)) is not None:
             own = 0.05 if any(isinstance(n, Num) for n in walk(node)) else 0.0
             yield Edit.at(equation, "factor", node, new, own)
 
-    def _monomial(self, factor: Array) -> tuple[float, dict[Sym, int]] | None:
-        """The number and the powers of symbols of which a factor is the product."""
-        known = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
-        used = [n for n in known if _varies(self.values[n.key])]
-        if not used or len(used) + 1 >= len(factor) or not (np.all(factor > 0) or np.all(factor < 0)):
-            return None
-        columns = np.column_stack([np.ones(len(factor)), *[np.log(np.abs(self.values[n.key])) for n in used]])
-        fit, *_ = np.linalg.lstsq(columns, np.log(np.abs(factor)), rcond=None)
-        powers = np.round(fit[1:]).astype(int)
-        if np.max(np.abs(fit[1:] - powers)) > 1e-6 or not powers.any() or np.abs(powers).max() > 3:
-            return None
-        return float(np.sign(factor[0]) * np.exp(fit[0])), {n: int(p) for n, p in zip(used, powers, strict=True) if p}
+    def _other_powers(self, equation: Equation, node: Node, factor: Array) -> Iterator[Edit]:
+        """A term that lacks a product of powers: a ratio of it upside down, a ratio that counts twice, or what is forgotten."""
+        if factor.ndim != 1:
+            return
+        number, own = powers_of(node)
+        sizes = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
+        still = [n for n in own if not isinstance(n, Sym) or n in sizes]
+        lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), ()).powers(factor)
+        if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
+            return
+        rest = _constant(factor / sampled(written(1.0, lacked), self.values))
+        if rest is None or recognised(number * rest) is None:
+            return
+        after = Counter(own)
+        after.update(lacked)
+        new = written(number * rest, {base: n for base, n in after.items() if n})
+        if len(lacked) > 1 and all(n == -2 * own.get(base, 0) for base, n in lacked.items()):
+            yield Edit.at(equation, "ratio", node, new)
+        elif len(lacked) > 1 and all(n == own.get(base) for base, n in lacked.items()) and {*lacked.values()} == {1, -1}:
+            yield Edit.at(equation, "ratio once", node, new)
+        else:
+            plain = powered(node, rest, lacked) if {*lacked} <= {*symbols_in(written(1.0, lacked))} else None
+            size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
+            yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1))
 
     # -- terms
 
@@ -159,7 +205,7 @@ class FittedEdits:
             bases = sorted(sizes, key=lambda n: (n in known.coordinates, n not in said))
             pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
             own = [n for n in bases if n in said]
-            shapes = known.shapes([n for n in said if n in known.others], self._angles(equation))
+            shapes = known.shapes(self._of(equation), [n for n in said if n in known.others], self._angles(equation))
             self._terms[equation] = Monomials(
                 self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *pairs, *bases)), shapes
             )
@@ -209,9 +255,8 @@ class FittedEdits:
 
     def dictionary(self, equation: Equation, less: Dimension = NUMBER_ONLY, highest: int = 2) -> tuple[list[Node], Array]:
         """Terms that an equation may hold, of its dimension over ``less`` and with derivatives up to the ``highest``, and their values."""
-        found = (dimension(term, self.vocabulary.dimensions) for term in terms(equation, expand=True))
-        known = [each for each in found if each is not None]
-        wanted: Known = max(known, key=known.count).times(less, -1) if known else None  # one of them may be wrong
+        its = self._of(equation)
+        wanted = None if its is None else its.times(less, -1)
         moving = tuple(n for n in symbols_in(equation) if n in self.vocabulary.others)
         long = self._angles(equation)
         key = (wanted, moving, long, highest)
@@ -223,6 +268,12 @@ class FittedEdits:
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
         return self._made[key]
+
+    def _of(self, equation: Equation) -> Known:
+        """The dimension of most terms of an equation: one of them may be wrong."""
+        found = (dimension(term, self.vocabulary.dimensions) for term in terms(equation, expand=True))
+        known = [each for each in found if each is not None]
+        return max(known, key=known.count) if known else None
 
     def _rows(self, nodes: Sequence[Node]) -> Array:
         """The value of each term; factors, of which there are few, are worked out once."""
@@ -249,10 +300,6 @@ def _constant(values: Array) -> float | None:
         return None
     mean = float(np.median(values))
     return mean if mean and np.max(np.abs(values - mean)) <= _SAME * abs(mean) else None
-
-
-def _varies(values: Array) -> bool:
-    return bool(values.ndim == 1 and np.all(values != 0) and np.ptp(np.log(np.abs(values))) > 1e-3)
 
 
 def proportional(rows: Array, wanted: Array, same: float = _SAME) -> list[int]:

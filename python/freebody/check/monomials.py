@@ -8,9 +8,10 @@ from functools import cached_property
 import numpy as np
 
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Node, Num, Pow, Quotient
+from freebody.symbolic.tree import Node, Quotient
 
 from .coefficients import multiplied, product
+from .powers import power_of
 
 _MOST_SHAPES = 4000
 _SAME = 1e-7  # of a logarithm: below it two values are one
@@ -49,11 +50,21 @@ class Monomials:
         log = np.log(np.abs(wanted))
         off = np.abs((left @ log)[:, None] - rests).max(axis=0)
         for place in np.flatnonzero(off < _SAME).tolist():
-            powers = (solve @ (log - logs[:, place]))[1:]
-            whole = np.round(powers).astype(int)
-            few = np.abs(whole).max(initial=0) <= _HIGHEST and np.abs(whole).sum() <= _MOST_POWERS
-            if few and np.abs(powers - whole).max(initial=0.0) < _WHOLE and (found := self._term(whole.tolist(), place, wanted)):
+            whole = _whole((solve @ (log - logs[:, place]))[1:])
+            few = whole is not None and max(map(abs, whole), default=0) <= _HIGHEST and sum(map(abs, whole)) <= _MOST_POWERS
+            if few and (found := self._term(whole, place, wanted)):
                 yield found
+
+    def powers(self, wanted: Array) -> dict[Node, int] | None:
+        """The powers of the bases whose product is ``wanted`` but for a number; None where it is none."""
+        if not np.isfinite(wanted).all() or not wanted.all():
+            return None
+        whole = _whole(np.linalg.lstsq(self._columns, np.log(np.abs(wanted)), rcond=None)[0][1:])
+        if whole is None:
+            return None
+        found = {node: power for node, power in zip(self.bases, whole, strict=True) if power}
+        ratio = wanted / self._value(tuple(power_of(node, power) for node, power in found.items()))
+        return found if np.ptp(ratio) <= _SAME * np.abs(ratio).max() else None
 
     @cached_property
     def _solved(self) -> tuple[Array, Array, Array, Array]:
@@ -83,16 +94,17 @@ class Monomials:
 
     def _term(self, powers: list[int], place: int, wanted: Array) -> Node | None:
         """The term of such powers; None where its number is none that a person writes."""
-        above = [
-            node if n == 1 else Pow(node, Num(float(n), str(n))) for node, n in zip(self.bases, powers, strict=True) if n > 0
-        ]
-        below = [
-            node if n == -1 else Pow(node, Num(float(-n), str(-n))) for node, n in zip(self.bases, powers, strict=True) if n < 0
-        ]
-        shape = self._shapes[place]
-        top = product([*above, *shape])
+        above = [power_of(node, n) for node, n in zip(self.bases, powers, strict=True) if n > 0]
+        below = [power_of(node, -n) for node, n in zip(self.bases, powers, strict=True) if n < 0]
+        top = product([*above, *self._shapes[place]])
         found = Quotient(top, product(below)) if below else top
         ratio = wanted / sampled(found, self.values)
         if np.ptp(ratio) > _SAME * np.abs(ratio).max():
             return None  # of changing sign
         return multiplied(found, float(np.median(ratio)))
+
+
+def _whole(powers: Array) -> list[int] | None:
+    """Powers that are whole numbers; None where one is not."""
+    whole = np.round(powers).astype(int)
+    return whole.tolist() if np.abs(powers - whole).max(initial=0.0) < _WHOLE else None

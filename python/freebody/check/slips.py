@@ -72,7 +72,10 @@ def _is_multiple(one: Node, other: Node, values: Mapping[str, Array]) -> bool:
 
 def _is_mistaken(old: Node, new: Node, values: Mapping[str, Array]) -> bool:
     """Whether a number is one that people take for another."""
-    before, after = (float(np.abs(_number(node, values)[0])) for node in (old, new))
+    before, after = (float(_number(node, values)[0]) for node in (old, new))
+    if before * after < 0:
+        return False
+    before, after = abs(before), abs(after)
     if isinstance(old, Num) and isinstance(new, Num) and before.is_integer() and after not in FIGURES:
         return False
     is_number = isinstance(old, Num | Quotient) and not symbols_in(old)
@@ -110,6 +113,8 @@ _WHY = {
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",
     "factor": "a number is wrong or forgotten: ½, 2, or one of an inertia or of a rotation that was left out",
+    "ratio": "the ratio is upside down: what turns or moves faster has the smaller radius or arm",
+    "ratio once": "the ratio counts twice: once for the motion and once for the force or moment, or squared with the rate",
     "symbol": "another quantity belongs here",
     "derivative": "the order of the derivative is another",
     "rates": "two rates are multiplied, or one is squared",
@@ -135,7 +140,8 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
     found = symbols_in(term)
     rates = [n for n in found if order(n) == 1]
     squared = any(isinstance(n, Pow) and n.exponent == Num(2.0, "2") and n.base in rates for n in walk(term))
-    balance = any(order(n) == 2 or vocabulary.dimension(n) in (FORCE, ENERGY) for n in symbols_in(equation))
+    loads = (n for n in symbols_in(equation) if n not in vocabulary.parameters and vocabulary.dimension(n) in (FORCE, ENERGY))
+    balance = any(loads) or any(order(n) == 2 for n in symbols_in(equation))
     its = dimension(term, vocabulary.dimensions)
     if its == LENGTH:
         return "a part of an arm"

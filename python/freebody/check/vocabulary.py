@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
-from itertools import combinations, combinations_with_replacement, islice, permutations
+from itertools import combinations, combinations_with_replacement, islice, permutations, product
 
 from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension, Known
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Negative, Node, Num, Pow, Sym
 
 _DEGREE = 4  # of the product of parameters in a term: m l² has three, m l r g four
 _MOST = 400  # products, each with all its sines and cosines
+_OF_POWER = -3  # of time in the dimension of a power
 _BLIND_DEGREE = 3  # where dimensions do not thin them out
 
 
@@ -76,16 +77,16 @@ class Vocabulary:
         derivatives up to the ``highest``."""
         shapes = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
         accelerated = {Sym(q.name, 2) for q in self.coordinates if highest < 2}
-        dynamic = [each for each in self._dynamic(moving) if not accelerated & {*each[0]}]
+        dynamic = [each for each in (*self._dynamic(moving), *self._powers(wanted)) if not accelerated & {*each[0]}]
         for monomial in islice(self._monomials(wanted, dynamic), _MOST):
             for shape in shapes:
                 factors = (*monomial, *shape)
                 yield Mul(factors) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
 
-    def shapes(self, moving: Sequence[Sym] = (), angles: Sequence[Node] = ()) -> Iterator[tuple[Node, ...]]:
-        """What changes with the motion, times sines and cosines; plain ones first."""
+    def shapes(self, wanted: Known, moving: Sequence[Sym] = (), angles: Sequence[Node] = ()) -> Iterator[tuple[Node, ...]]:
+        """What changes with the motion, in equations of a dimension, times sines and cosines; plain ones first."""
         functions = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
-        dynamic = dict.fromkeys(each for each, _ in self._dynamic(moving))
+        dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._powers(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
 
     def _is_rate(self, symbol: Sym) -> bool:
@@ -117,6 +118,20 @@ class Vocabulary:
             yield from (((_square(Add((a, c))),), _joined([self.dimension(a)] * 2)) for c in (b, Negative(b)))
         for q in self.coordinates:
             yield (Sym(q.name, 1),), self.dimension(Sym(q.name, 1))
+
+    def _powers(self, wanted: Known) -> Iterator[tuple[tuple[Node, ...], Known]]:
+        """What changes with the motion in a power: a rate times an acceleration or a force."""
+        if wanted is None or wanted.time != _OF_POWER:
+            return
+        rates = [Sym(q.name, 1) for q in self.coordinates] + [n for n in self.others if self._is_rate(n)]
+        loads = [Sym(q.name, 2) for q in self.coordinates] + [n for n in self.others if self._is_load(n)]
+        for rate, load in product(rates, loads):
+            yield (rate, load), _joined([self.dimension(rate), self.dimension(load)])
+
+    def _is_load(self, symbol: Sym) -> bool:
+        """Whether it is a force, a moment or an acceleration."""
+        its = self.dimension(symbol)
+        return its is not None and its.time == -2
 
     def _monomials(self, wanted: Known, dynamic: list[tuple[tuple[Node, ...], Known]]) -> Iterator[tuple[Node, ...]]:
         sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
