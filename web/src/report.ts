@@ -1,17 +1,28 @@
 import type { ReportData } from "./data/types";
+import { Choice } from "./loads/choice.svelte";
+import { LoadHistory } from "./loads/loads";
+import { LoadScale } from "./loads/scale.svelte";
 import { Camera } from "./scene/camera.svelte";
 import { Motion } from "./scene/motion";
 import { Clock } from "./time/clock.svelte";
+import { Moment } from "./time/moment.svelte";
 
 /** What the parts of the page share: the data, and the state that one part changes and all show. */
 export class Report {
   readonly clock: Clock;
   readonly motion: Motion;
   readonly camera: Camera;
+  readonly loads: LoadHistory | null;
+  readonly choice = new Choice();
+  readonly scale: LoadScale;
+  readonly moment: Moment;
 
   constructor(readonly data: ReportData) {
     this.clock = new Clock(data.scene.t);
     this.motion = new Motion(data.scene);
     this.camera = new Camera(data.scene);
+    this.loads = data.loads && new LoadHistory(data.loads);
+    this.scale = new LoadScale(this.loads?.usual() ?? { force: 0, couple: 0 }, this.choice);
+    this.moment = new Moment(data, this.clock, this.motion, this.loads, this.choice);
   }
 }

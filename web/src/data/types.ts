@@ -6,6 +6,8 @@ export type Point = [number, number];
 
 export interface ReportData {
   scene: Scene;
+  /** Null where what acts is not known, as of a run from a file. */
+  loads: Loads | null;
   plots: Plot[];
   marks: Mark[];
   /** From when on no digit holds. */
@@ -73,6 +75,71 @@ export interface Flash {
   rays: Point[][];
 }
 
+/** What acts on every body; forces in N along the fixed axes, couples in N·m counter-clockwise. */
+export interface Loads {
+  /** A time that stands twice is just before and just after a switch. */
+  t: number[];
+  tracks: Track[];
+  bodies: Effective[];
+  /** At every time, which of the balances hold. */
+  mode: number[];
+  /** Of each mode, as far as they are told. */
+  balances: Balance[][];
+  impulses: Impulse[];
+}
+
+/** A number that stays, or one for every time; NaN where there is none. */
+export type Column = number | Floats;
+
+export type Kind =
+  | "joint" | "motion" | "coupling" | "lock" | "weight" | "force" | "contact" | "string" | "stop" | "friction";
+
+/** What one load does to one body; x and y are in the frame of that. Tracks of one arrow are components of one force. */
+export interface Track {
+  symbol: string;
+  name: string;
+  kind: Kind;
+  label: string;
+  arrow: string;
+  figure: number;
+  /** The other figures that it touches. */
+  others: number[];
+  x: Column;
+  y: Column;
+  fx: Column;
+  fy: Column;
+  m: Column;
+}
+
+/** m a at the mass centre G and I α of a body, with what they are called. */
+export interface Effective {
+  figure: number;
+  G: Point;
+  ma: string;
+  ia: string;
+  fx: Column;
+  fy: Column;
+  m: Column;
+}
+
+/** Σ F along x or y, or Σ M about G. */
+export interface Balance {
+  figure: number;
+  about: "x" | "y" | "G";
+  terms: { symbol: string; negative: boolean; math: string }[];
+}
+
+/** Of all that something exerts at one point; in N·s and N·m·s, in the fixed axes. */
+export interface Impulse {
+  t: number;
+  name: string;
+  figure: number;
+  others: number[];
+  at: Point;
+  /** Fx, Fy, M. */
+  wrench: [number, number, number];
+}
+
 /** A moment worth knowing: on the time bar and in the plots. */
 export interface Mark {
   t: number;
@@ -92,4 +159,6 @@ export interface Plot {
 export interface Curve {
   name: string;
   y: Floats;
+  /** The name of what exerts it, of a force. */
+  of?: string;
 }

@@ -5,13 +5,15 @@ import { placeIn } from "../time/between";
 /** A curve over time; NaN where it has a gap. */
 export interface Series {
   name: string;
+  /** The name of what exerts it, of a force. */
+  of?: string;
   t: Float32Array;
   y: Float32Array;
 }
 
 export function seriesOf(plot: Plot): Series[] {
   const t = floats(plot.t);
-  return plot.curves.map(({ name, y }) => ({ name, t, y: floats(y) }));
+  return plot.curves.map((curve) => ({ ...curve, t, y: floats(curve.y) }));
 }
 
 /** Its value at a time; NaN within a gap. */

@@ -1,5 +1,7 @@
 import type { Point, Scene } from "../data/types";
 
+const ROOM = { aside: 40, above: 30, below: 62 }; // px, for arrows and the scales
+
 /** From metres to pixels of the stage: everything fits, then as one has zoomed. */
 export class Camera {
   width = $state(800);
@@ -9,14 +11,14 @@ export class Camera {
 
   constructor(scene: Scene) {
     const [x0, x1, y0, y1] = scene.bounds;
-    const room = 4 * scene.size;
+    const room = 2 * scene.size;
     this.#box = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, wide: x1 - x0 + room, tall: y1 - y0 + room };
   }
 
   /** How tall the stage is at its width. */
   tallness(innerHeight: number): number {
-    const wanted = (this.width * this.#box.tall) / this.#box.wide;
-    return Math.round(Math.min(Math.max(wanted, 220), Math.max(300, 0.62 * innerHeight)));
+    const wanted = ((this.width - 2 * ROOM.aside) * this.#box.tall) / this.#box.wide + ROOM.above + ROOM.below;
+    return Math.round(Math.min(Math.max(wanted, 240), Math.max(300, 0.62 * innerHeight)));
   }
 
   /** Pixels a metre. */
@@ -25,12 +27,14 @@ export class Camera {
   }
 
   get #fit(): number {
-    return Math.min(this.width / this.#box.wide, this.height / this.#box.tall);
+    const [wide, tall] = [this.width - 2 * ROOM.aside, this.height - ROOM.above - ROOM.below];
+    return Math.max(1, Math.min(wide / this.#box.wide, tall / this.#box.tall));
   }
 
   get #origin(): Point {
     const { k, x, y } = this.zoom;
-    return [k * (this.width / 2 - this.#fit * this.#box.x) + x, k * (this.height / 2 + this.#fit * this.#box.y) + y];
+    const middle = (this.height + ROOM.above - ROOM.below) / 2;
+    return [k * (this.width / 2 - this.#fit * this.#box.x) + x, k * (middle + this.#fit * this.#box.y) + y];
   }
 
   /** The transform of what is given in metres, y up. */

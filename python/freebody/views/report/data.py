@@ -8,6 +8,7 @@ import numpy as np
 
 from freebody.core import Array
 from freebody.views.report.floats import floats
+from freebody.views.report.loads import loads
 from freebody.views.report.series import plots
 from freebody.views.scene import of_run
 from freebody.views.sketch import Cord, Pair, Sketch, Stroke
@@ -23,8 +24,10 @@ _STRING = 80
 
 def report_data(run: Run) -> dict[str, Any]:
     """All that moves, the plots, and the moments worth knowing."""
+    sketch = of_run(run, frames(run))
     return {
-        "scene": _scene(of_run(run, frames(run))),
+        "scene": _scene(sketch),
+        "loads": loads(run, sketch),
         "plots": plots(run),
         "marks": _marks(run),
         "noneFrom": None if run.recorded else run.accuracy.none_from,

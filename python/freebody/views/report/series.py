@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -17,8 +17,15 @@ from freebody.views.report.floats import floats
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
-Curve = tuple[str, Array]
 _CURVES, _POINTS = 8, 900
+
+
+class Curve(NamedTuple):
+    """What is plotted; ``of``: the name of what exerts it, of a force."""
+
+    name: str
+    y: Array
+    of: str = ""
 
 
 def plots(run: Run) -> list[dict[str, Any]]:
@@ -30,13 +37,13 @@ def plots(run: Run) -> list[dict[str, Any]]:
         units = [column.unit for column in run.columns if column.kind == kind]
         units += [column.unit for column in run.columns if column.kind == "dependent"][dots * len(following) :][: len(following)]
         values = np.hstack([shown.blocks[kind], shown.blocks["dependent"].reshape(len(shown.t), 3, -1)[:, dots]])
-        curves = [(unicode_name(name, dots), y) for name, y in zip(names, values.T, strict=True)]
+        curves = [Curve(unicode_name(name, dots), y) for name, y in zip(names, values.T, strict=True)]
         for unit in dict.fromkeys(units):
             made.append(_plot(title, unit, shown, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
     made += _reactions(shown)
     ledger = shown.energy
-    stored = [*ledger.entries.items(), ("kinetic + potential", ledger.kinetic + ledger.potential)]
-    made += [_plot("Energy", "J", shown, stored), _plot("Energy error", "J", shown, [("balance", ledger.balance)])]
+    stored = [*(Curve(*entry) for entry in ledger.entries.items()), Curve("kinetic + potential", ledger.kinetic + ledger.potential)]
+    made += [_plot("Energy", "J", shown, stored), _plot("Energy error", "J", shown, [Curve("balance", ledger.balance)])]
     return made if run.recorded else made + _asked(shown)
 
 
@@ -54,7 +61,7 @@ def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = 
         "title": title,
         "unit": pretty_unit(unit),
         "t": floats(breaks(run.t)),
-        "curves": [{"name": name, "y": floats(breaks(y, np.nan))} for name, y in curves[:_CURVES]],
+        "curves": [{"name": name, "y": floats(breaks(y, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves[:_CURVES]],
         "note": note,
     }
 
@@ -64,11 +71,11 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     silent = [name for name, reaction in run.reactions.items() if not reaction.determinate]
     note = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
     noise = couple_noise(run)
-    couples = [(name, reaction.M) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
-    sizes = [(name, r.size) for name, r in known]
+    couples = [Curve(name, reaction.M, name) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
+    sizes = [Curve(name, r.size, name) for name, r in known]
     made = [_plot("Reactions, size of the force", "N", run, sizes, note)] if known or silent else []
     held, turned = (
-        [(plain(text), y) for each in held_by(run, unit).values() for text, y in each.items()] for unit in ("N", "N*m")
+        [Curve(plain(text), y, name) for name, each in held_by(run, unit).items() for text, y in each.items()] for unit in ("N", "N*m")
     )
     what = "Contacts, strings, stops, locks and motions"
     made += [_plot(what, "N", run, held)] if held else []
@@ -84,6 +91,6 @@ def _asked(run: Run) -> list[dict[str, Any]]:
     values = dict(zip(texts, run.motion.evaluate(texts, run.t).T, strict=True)) if texts else {}
     made = []
     for unit in dict.fromkeys(units.values()):
-        curves = [(plain(text), y) for text, y in values.items() if units[text] == unit and np.isfinite(y).any()]
+        curves = [Curve(plain(text), y) for text, y in values.items() if units[text] == unit and np.isfinite(y).any()]
         made += [_plot("Reported quantities", unit, run, curves)] if curves else []
     return made

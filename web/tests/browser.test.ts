@@ -1,0 +1,122 @@
+/** Reports in a browser; FREEBODY_REPORTS is a folder with some, which tests/views/test_front_end.py writes. */
+
+import { readdirSync } from "node:fs";
+import { join } from "node:path";
+import { type Browser, chromium, type Page } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, test } from "vitest";
+
+const folder = process.env.FREEBODY_REPORTS ?? "";
+const reports = folder ? readdirSync(folder).filter((name) => name.endsWith(".html")) : [];
+const DESKTOP = { width: 1280, height: 900 };
+const PHONE = { width: 390, height: 844 };
+
+let browser: Browser;
+beforeAll(async () => {
+  if (folder) browser = await chromium.launch({ executablePath: process.env.FREEBODY_CHROMIUM, args: ["--no-sandbox"] });
+});
+afterAll(async () => browser?.close());
+
+/** A report, opened; whatever it complains of fails the test. */
+async function open(name: string, viewport = DESKTOP, colorScheme: "light" | "dark" = "light"): Promise<Page> {
+  const page = await browser.newPage({ viewport, colorScheme });
+  page.on("pageerror", (error) => { throw error; });
+  page.on("console", (message) => { throw new Error(message.text()); });
+  await page.goto(`file://${join(folder, name)}`);
+  return page;
+}
+
+const clock = (page: Page): Promise<number> =>
+  page.locator("output").first().innerText().then((text) => Number(/t = ([\d.]+)/.exec(text)![1]));
+
+async function seek(page: Page, part: number): Promise<void> {
+  await page.locator('input[type="range"]').evaluate((bar: HTMLInputElement, value) => {
+    bar.value = String(value);
+    bar.dispatchEvent(new Event("input", { bubbles: true }));
+  }, part);
+}
+
+describe.runIf(folder)("every report", () => {
+  test.each(reports)("%s shows the mechanism and its plots, whatever the screen", async (name) => {
+    for (const [viewport, scheme] of [[DESKTOP, "light"], [PHONE, "dark"]] as const) {
+      const page = await open(name, viewport, scheme);
+      await seek(page, 0.4);
+      expect(await page.locator(".mechanism path.body, .mechanism path.mass, .mechanism path.band").count()).toBeGreaterThan(0);
+      expect(await page.locator(".plot svg path.curve").count()).toBeGreaterThan(2);
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(viewport.width);
+      await page.close();
+    }
+  });
+
+  test.each(reports)("%s prints in light colours", async (name) => {
+    const page = await open(name, DESKTOP, "dark");
+    await page.emulateMedia({ media: "print" });
+    expect(await page.locator(".card").first().evaluate((card) => getComputedStyle(card).backgroundColor)).toBe("rgb(255, 255, 255)");
+    expect(await page.locator(".controls").isVisible()).toBe(false);
+    await page.close();
+  });
+});
+
+describe.runIf(folder)("the four-bar", () => {
+  test("space plays and stops, wherever the focus is", async () => {
+    const page = await open("four_bar.html");
+    await page.locator("select").first().focus();
+    await page.keyboard.press("Space");
+    await page.waitForTimeout(300);
+    await page.keyboard.press("Space");
+    const stopped = await clock(page);
+    expect(stopped).toBeGreaterThan(0.1);
+    await page.waitForTimeout(100);
+    expect(await clock(page)).toBe(stopped);
+    await page.close();
+  });
+
+  test("a drag in a plot moves the mechanism", async () => {
+    const page = await open("four_bar.html");
+    const before = await page.locator(".mechanism path.body").nth(1).getAttribute("transform");
+    const plot = page.locator(".plot svg").first();
+    await plot.scrollIntoViewIfNeeded();
+    const box = (await plot.boundingBox())!;
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    expect(await clock(page)).toBeGreaterThan(3);
+    expect(await page.locator(".mechanism path.body").nth(1).getAttribute("transform")).not.toBe(before);
+    await page.close();
+  });
+
+  test("a body that is clicked is cut free, with its balances", async () => {
+    const page = await open("four_bar.html");
+    const place = await page.locator(".mechanism path.body").nth(1).evaluate((path: SVGPathElement) => {
+      const { x, y } = new DOMPoint(0.15, 0).matrixTransform(path.getScreenCTM()!); // of the coupler, beside its mass centre
+      return { x, y };
+    });
+    await page.mouse.click(place.x, place.y);
+    expect(await page.locator("figure.cut svg").count()).toBe(2);
+    expect(await page.locator(".balance").count()).toBe(3);
+    expect(await page.locator("figure.cut .arrow.effective").count()).toBe(1);
+    await page.close();
+  });
+
+  test("arrow, term and curve light up together", async () => {
+    const page = await open("four_bar.html");
+    await page.locator(".loads select").selectOption({ label: "crank" });
+    await seek(page, 0.07);
+    const lit = (selector: string): Promise<number> => page.locator(selector).count();
+
+    await page.locator("figure.cut .arrow[aria-label='A'] .wide").first().hover({ force: true });
+    expect(await lit(".balance .lit")).toBe(4); // A_x along x, A_y along y, both about G
+    expect(await lit(".plot .curve.lit")).toBe(1);
+    await page.mouse.move(0, 0);
+    expect(await lit(".lit")).toBe(0);
+
+    await page.locator(".balance").nth(0).locator("button").first().click();
+    await page.mouse.move(0, 0);
+    expect(await lit("figure.cut .arrow.lit")).toBe(1);
+    expect(await lit(".plot .curve.lit")).toBe(1);
+    await page.locator(".balance").nth(0).locator("button").first().click();
+    await page.mouse.move(0, 0);
+
+    await page.locator(".plot .near").first().dispatchEvent("click");
+    expect(await lit("figure.cut .arrow.lit")).toBe(1);
+    expect(await lit(".balance .lit")).toBe(4);
+    await page.close();
+  });
+});

@@ -1,0 +1,27 @@
+import { expect, test } from "vitest";
+import { figure, rangeOf, tickLabel, ticks } from "../src/plots/scale";
+import { pathOf, valueAt } from "../src/plots/series";
+
+const series = { name: "N", t: new Float32Array([0, 1, 1, 1, 2]), y: new Float32Array([0, 2, NaN, 6, 8]) };
+
+test("ticks are round and within the range", () => {
+  expect(ticks({ low: -1.2, high: 3.4 }, 5)).toEqual([-1, 0, 1, 2, 3]);
+  expect(ticks({ low: 2, high: 2 }, 5)).toEqual([2]);
+});
+
+test("a curve has a gap where something switched, and the later value there", () => {
+  expect(pathOf(series, (t) => t, (y) => y)).toBe("M0.0 0.0L1.0 2.0M1.0 6.0L2.0 8.0");
+  expect(valueAt(series, 0.5)).toBe(1);
+  expect(valueAt(series, 1)).toBe(6);
+});
+
+test("a range leaves room, and leaves out what is no number", () => {
+  expect(rangeOf([series.y])).toEqual({ low: expect.closeTo(-0.48), high: expect.closeTo(8.48) });
+  expect(rangeOf([new Float32Array([NaN])])).toEqual({ low: -1, high: 1 });
+});
+
+test("numbers have a true minus sign", () => {
+  expect(tickLabel(-0.5, 1)).toBe("−0.5");
+  expect(figure(-12.3456)).toBe("−12.35");
+  expect(figure(NaN)).toBe("–");
+});
