@@ -5,11 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from freebody.core import cards
 from freebody.model import meanings
 from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest, replace_names, spell
@@ -17,19 +15,18 @@ from freebody.model.writer import Writer
 from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Column, Matrix, Sym, exchange, substitute, walk
+from freebody.symbolic.tree import Sym, substitute, walk
 
-from . import integrals
-from .language.dimensions import check_dimensions, dimension, misfit
-from .language.elimination import Elimination, eliminated
-from .language.parser import parse, parse_expression
-from .language.sizes import with_sizes
+from .language.dimensions import misfit
+from .language.elimination import Elimination
+from .language.parser import parse_expression
 from .language.spelling import spell as written
-from .language.statements import Integral, Program, inlined, symbols_in
+from .language.statements import Program, inlined
 from .language.tokens import Names
 from .printed_symbols import PrintedSymbols
-from .user_symbols import INITIAL, OF_START, Array, Meaning, Reader
-from .usual_names import ENERGIES, senses, usual
+from .reading import Reading
+from .user_symbols import OF_START, Array, Meaning, Reader
+from .usual_names import senses, usual
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -43,16 +40,9 @@ _WITHOUT = {
     "stop": {"T", "tension", "slack", "x", "y", "slip"},
 }
 """Readings of every limit that say nothing of one kind."""
-_DAMPED = re.compile(r"\\?(omega|[ωTfτ])_(?:d(?!\w)|\{d\})")
-"""ω_d and the like, which would be rates as programs have them."""
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
-_OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])")
-_FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
-_READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _SHORT = {"Fx": "x", "Fy": "y"}
-_WORD = 3
-"""Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
 DOUBTFUL = re.compile(r"/\s*\d+[^\W\d]")
 """2k/3m, of which only a person knows whether m is below the stroke."""
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
@@ -102,7 +92,7 @@ class Symbols:
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         for name, said in (declared or {}).items():
             try:
-                self._declare(name, said)
+                self.declare(name, said)
             except ModelProblem as problem:
                 self._declare_as_stated(name, said, problem)
             self._hide_others(name)
@@ -129,153 +119,8 @@ class Symbols:
         return self.of_kind("parameter", "gravity", "direction", "initial", "vibration", "inertia")
 
     def read(self, text: str, units: bool = True, tight: bool = False) -> Program:
-        """The statement that a text is, ``tight`` or not as ``parse`` reads it, with ``units`` for symbols of their names where dimensions fit only so. What it asks of the
-        model in the model's own words, ``ax(rod.G)``, ``energy()``, ``accel(s)``, becomes a symbol, too. Raises ``StatementError``."""
-        for found in _READING.finditer(text):
-            name = "".join(found[0].split())
-            if name not in self.meanings:
-                with suppress(ModelProblem):
-                    measured, dimension = self._measure(name)
-                    self._put(name, Meaning("reading", (measured,), dimension))
-        for found in _OWNED.finditer(text):
-            owner, word = found.groups()
-            if owner in self.named.owners and found[0] not in self.meanings:
-                has = [name.removeprefix(f"{owner}.") for name in self.meanings if name.startswith(f"{owner}.")]
-                hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
-                raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, text)
-        self._vibrating(f"{'ω' if found[1] == 'omega' else found[1]}_d" for found in _DAMPED.finditer(text))
-        program = self._parsed(text, self.names, tight=tight)
-        # what printed equations call things comes after the symbols of the model, and then what letters usually mean
-        usual = (lambda: self._usual, lambda: self._initial(program))
-        for added in (lambda: self.printed.plain, lambda: self.printed.momenta, *usual):
-            if self._unknown(program):
-                self._add(added(), program, assumed=added in usual)
-                program = self._parsed(text, self.names, tight=tight)
-        names = self.names
-        if clashing := self._clashing(program):
-            names = tuple(name for name in names if name not in clashing)
-            program = self._parsed(text, names, tight=tight)
-        program = self._eliminated(program)
-        if self._unknown(program):
-            self._add(ENERGIES, program, assumed=True)
-            self._vibrating(n.name for n in self._unknown(program) if not n.dots)
-            names = (*names, *(name for name in self.names if name not in names))
-            program = self._eliminated(self._parsed(text, names, tight=tight))
-        self._require_written_out(program)
-        return self._sized(self._fitting(program, names, units))
-
-    def _require_written_out(self, program: Program) -> None:
-        """Raises ``StatementError`` where something is differentiated partially that holds a symbol of which it is not known how it
-        depends on coordinates."""
-        if not re.search(r"∂|\\partial", program.text):
-            return
-        lasting = ("initial", "inertia", "vibration")
-        for n in symbols_in(program):
-            if n.name in self.assumed and n.name in self.meanings and self.meanings[n.name].kind not in lasting:
-                what = f"what ∂ makes of `{n.name}` is not known: it is not written out"
-                raise StatementError(what, n.span, f"give it in a line: `{n.name} = …`", program.text)
-
-    def _parsed(self, text: str, names: Sequence[str], **way: bool) -> Program:
-        """The lines of a text, with integrals of what has a meaning as symbols of their own."""
-        program = parse(text, names, self.constants, **way)
-        constants = self.of_kind("parameter", "gravity")
-        for node in [n for n in walk(program) if isinstance(n, Integral)]:
-            if all(n.name in self.meanings for n in (*symbols_in(node.of), node.by)):
-                name = f"∫_({written(node.lower)})^({written(node.upper)}) {written(node.of)} d{node.by.name}"
-                found = integrals.meaning(node, self.meanings, lambda of: self._measured(written(of))[0], constants)
-                parts = [dimension(part, self.dimensions) for part in (node.of, node.by)]
-                size = parts[0].times(parts[1]) if None not in parts else None
-                self._put(name, replace(found, dimension=size))
-                program = exchange(program, node, Sym(name, span=node.span))
-        return program
-
-    def _fitting(self, program: Program, names: Sequence[str], units: bool) -> Program:
-        """The same, or where its dimensions do not fit, as it fits: T a period, 5 m/s a speed though m and s are symbols, 2k/3m with m below
-        the stroke."""
-        if not misfit(program, self.dimensions, strictly=True):
-            return program
-        ways: list[dict[str, bool]] = [{"units": True}, {"tight": True}] if units else [{"tight": True}]
-        energy = self.meanings.get("T") if "T" in self.assumed else None
-        period = self.vibration.meanings(["period"]).get("period") if energy and self.vibration else None
-        for meaning in (energy, period) if period else (None,):
-            if meaning:
-                self.meanings["T"] = meaning
-            for way in ([{}] if meaning and meaning is period else []) + ways:
-                with suppress(StatementError):
-                    other = self._eliminated(self._parsed(program.text, names, **way))
-                    check_dimensions(other, self.dimensions)
-                    if meaning and meaning is period:
-                        self._vibrates("T", meaning)
-                    return other
-        if energy:
-            self.meanings["T"] = energy
-        return program
-
-    def _sized(self, program: Program) -> Program:
-        """The same with letters that usually are vectors as their sizes, where it makes sense only so."""
-        vectors = {name for name, m in self.meanings.items() if m.is_vector}
-        loose = {name for name in vectors - self.own if re.match("[vra](_|$)", name)}
-        program, sized = with_sizes(program, vectors, loose)
-        self.assumed |= {name: f"the size of {self.assumed.get(name, name)}, without a sign" for name in sized}
-        return program
-
-    def _vibrating(self, names: Iterable[str]) -> None:
-        """What a small vibration has, where names without a meaning may be that."""
-        known = {folded(name) for name in self.meanings}
-        asked = [name for name in names if folded(name) not in known]
-        for name, meaning in self.vibration.meanings(asked).items() if self.vibration else ():
-            self._put(name, meaning)
-            self._vibrates(name, meaning)
-
-    def _vibrates(self, name: str, meaning: Meaning) -> None:
-        self.assumed[name] = f"the {meaning.texts[0]} of small vibrations about {self.vibration.place}"  # type: ignore[union-attr]
-
-    def _initial(self, program: Program) -> dict[str, str]:
-        """Of symbols with the index 0 what is asked: θ₀, v₀, of anything that has a meaning without it."""
-        known = {**{folded(name): name for name in self.meanings}, **{folded(name): said for name, said in ENERGIES.items()}}
-        found = {}
-        for name in (n.name for n in self._unknown(program) if not n.dots and n.name.endswith("0")):
-            base = known.get(folded(name[:-1].rstrip("_")))
-            if base in self.meanings and self.meanings[base].is_vector:
-                base = "hypot({}, {})".format(*self.meanings[base].texts[:2])
-            if base:
-                found[name] = INITIAL + base
-        return found
-
-    def _add(self, found: Mapping[str, str], program: Program, assumed: bool = False) -> None:
-        """Symbols that are not taken by what there is, or by a line of the statement; of those that are only ``assumed``, which a
-        statement needs."""
-        taken = {folded(name) for name in (*self.meanings, *(line.name.name for line in program.assignments))}
-        written = folded(re.sub(r"[\\{}\s]", "", program.text))
-        unknown = [folded(n.name) for n in self._unknown(program)]
-        for name, said in found.items():
-            if folded(name) not in taken and (not assumed or any(folded(name) in text for text in (written, *unknown))):
-                with suppress(ModelProblem):
-                    self._declare(name, said)
-                    self.assumed |= {name: said} if assumed else {}
-
-    def _unknown(self, program: Program) -> list[Sym]:
-        """The symbols of a program that have no meaning."""
-        given = {line.name for line in program.assignments}
-        return [n for n in symbols_in(program) if n.name not in self.meanings and n not in given]
-
-    def _eliminated(self, program: Program) -> Program:
-        """The lines without unknowns of the writer's own; a word that is nearly one of the model is a slip, and none of them."""
-        own = [n for n in self._unknown(program) if not n.dots and (len(n.name) < _WORD or not nearest(n.name, self.meanings))]
-        return eliminated(program, own) if own else program
-
-    def _clashing(self, program: Program) -> set[str]:
-        """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""
-        found = set()
-        for line in program.equations if len(program.lines) > 1 else ():
-            meaning = self.meanings.get(line.left.name) if isinstance(line.left, Sym) and not line.left.dots else None
-            if meaning is not None and line.left.name not in self.declared:
-                moves = any(isinstance(n, Sym) and n.name not in self.constants for n in walk(line.right))
-                other = meaning.kind == "direction" or (meaning.kind in ("parameter", "gravity") and moves)
-                other |= isinstance(line.right, Column | Matrix) and not meaning.is_vector
-                if other or misfit(Program((line,)), self.dimensions, strictly=True):
-                    found.add(line.left.name)
-        return found
+        """The statement that a text is, see ``Reading``. Raises ``StatementError``."""
+        return Reading(self, text, tight).program(units)
 
     def notes(self, program: Program) -> tuple[str, ...]:
         """Of each symbol of a program that usually means something else what that is called here."""
@@ -379,7 +224,7 @@ class Symbols:
                 out |= dict.fromkeys(names, Meaning("reaction" if force else "reading", (text,), dimension))
         return out
 
-    def _declare(self, name: str, said: str | Sequence[str | float]) -> None:
+    def declare(self, name: str, said: str | Sequence[str | float]) -> None:
         if not _NAME.fullmatch(name):
             hint = "begin it with a letter, and leave out blanks and signs"
             raise ModelProblem(f"`{' '.join(name.split())}` is no name of a symbol", hint)
@@ -387,8 +232,8 @@ class Symbols:
         particles = frozenset(b["name"] for b in self.metadata["bodies"] if b.get("particle"))
         joints = {j["name"]: (j["first"], j["second"]) for j in self.metadata["joints"]}
         try:
-            read = Reader(self._measured, joints, bodies, particles).read
-            self._put(name, read(" ".join(said.split()) if isinstance(said, str) else said))
+            read = Reader(self.measured, joints, bodies, particles).read
+            self.put(name, read(" ".join(said.split()) if isinstance(said, str) else said))
         except ModelProblem as problem:
             raise ModelProblem(f"symbol `{name}`: {problem.what}", problem.hint) from None
 
@@ -397,7 +242,7 @@ class Symbols:
         with suppress(StatementError, ModelProblem):
             text = self.expression(said) if isinstance(said, str) else ""
             if OF_START.search(text):
-                self._put(name, Meaning("initial", (text,)))
+                self.put(name, Meaning("initial", (text,)))
                 return
         raise problem
 
@@ -408,22 +253,22 @@ class Symbols:
             if meaning.texts != self.meanings[name].texts:
                 self.hidden[name] = f"the {meaning.kind} {other}"
 
-    def _put(self, name: str, meaning: Meaning) -> None:
+    def put(self, name: str, meaning: Meaning) -> None:
         self.meanings[name] = meaning
         self.declared.add(name)
         self.__dict__.pop("_spellings", None)
 
-    def _measure(self, said: str) -> tuple[str, Dimension | None]:
+    def measure(self, said: str) -> tuple[str, Dimension | None]:
         """An expression in SI with its dimension; symbols declared before, and Greek ones, are written out."""
         return self.writer.measured(replace_names(said, self._written_out))
 
-    def _measured(self, said: str) -> tuple[str, Dimension | None]:
+    def measured(self, said: str) -> tuple[str, Dimension | None]:
         """The same; what is none of the model language, like ``m g/k``, is read as in a statement."""
         try:
-            return self._measure(said)
+            return self.measure(said)
         except ModelProblem as problem:
             try:
-                return self._measure(written(parse_expression(said, self.names, self.constants)))
+                return self.measure(written(parse_expression(said, self.names, self.constants)))
             except (StatementError, ModelProblem):
                 raise problem from None
 
@@ -438,7 +283,7 @@ class Symbols:
         return "(" + found.needed(dots)[0] + ")"
 
     @cached_property
-    def _usual(self) -> dict[str, str]:
+    def usual(self) -> dict[str, str]:
         own = {name: m.texts[0] for name, m in self.meanings.items() if name in self.declared and len(m.texts) == 1}
         return usual(self.spec, self.metadata, own)
 

@@ -1,0 +1,201 @@
+"""A text read with the symbols of a model: what a statement says, in the ways in which its letters, units and arrows can be meant."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from freebody.core import cards
+from freebody.model.errors import ModelProblem
+from freebody.model.names import nearest
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.symbols import folded
+from freebody.symbolic.tree import Column, Matrix, Sym, exchange, walk
+
+from . import integrals
+from .language.dimensions import check_dimensions, dimension, misfit
+from .language.elimination import eliminated
+from .language.parser import parse
+from .language.sizes import with_sizes
+from .language.spelling import spell as written
+from .language.statements import Integral, Program, symbols_in
+from .user_symbols import INITIAL, Meaning
+from .usual_names import ENERGIES
+
+if TYPE_CHECKING:
+    from .symbols import Symbols
+
+_DAMPED = re.compile(r"\\?(omega|[ωTfτ])_(?:d(?!\w)|\{d\})")
+"""ω_d and the like, which would be rates as programs have them."""
+_OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])")
+_FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
+_READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
+_WORD = 3
+"""Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
+
+
+class Reading:
+    """A text that is read; what letters usually mean, where it needs that, becomes known as it goes. ``tight``: as ``parse`` has it."""
+
+    def __init__(self, known: Symbols, text: str, tight: bool = False) -> None:
+        self.known, self.text, self.tight = known, text, tight
+
+    def program(self, units: bool = True) -> Program:
+        """The statement that it is, with ``units`` for symbols of their names where dimensions fit only so. Raises ``StatementError``."""
+        self._in_words_of_the_model()
+        self._vibrating(f"{'ω' if found[1] == 'omega' else found[1]}_d" for found in _DAMPED.finditer(self.text))
+        program = self._parsed(self.known.names)
+        # what printed equations call things comes after the symbols of the model, and then what letters usually mean
+        usual = (lambda: self.known.usual, lambda: self._initial(program))
+        for added in (lambda: self.known.printed.plain, lambda: self.known.printed.momenta, *usual):
+            if self._unknown(program):
+                self._add(added(), program, assumed=added in usual)
+                program = self._parsed(self.known.names)
+        names = self.known.names
+        if clashing := self._clashing(program):
+            names = tuple(name for name in names if name not in clashing)
+            program = self._parsed(names)
+        program = self._eliminated(program)
+        if self._unknown(program):
+            self._add(ENERGIES, program, assumed=True)
+            self._vibrating(n.name for n in self._unknown(program) if not n.dots)
+            names = (*names, *(name for name in self.known.names if name not in names))
+            program = self._eliminated(self._parsed(names))
+        self._require_written_out(program)
+        return self._sized(self._fitting(program, names, units))
+
+    def _in_words_of_the_model(self) -> None:
+        """What is asked in the model's own words, ``ax(rod.G)``, ``energy()``, ``accel(s)``, becomes a symbol. Raises ``StatementError``."""
+        for found in _READING.finditer(self.text):
+            name = "".join(found[0].split())
+            if name not in self.known.meanings:
+                with suppress(ModelProblem):
+                    measured, dimension = self.known.measure(name)
+                    self.known.put(name, Meaning("reading", (measured,), dimension))
+        for found in _OWNED.finditer(self.text):
+            owner, word = found.groups()
+            if owner in self.known.named.owners and found[0] not in self.known.meanings:
+                has = [name.removeprefix(f"{owner}.") for name in self.known.meanings if name.startswith(f"{owner}.")]
+                hint = f"it has {', '.join(has)}" if has else "nothing can be read of it"
+                raise StatementError(f"`{owner}` has no `{word}`", found.span(), hint, self.text)
+
+    def _require_written_out(self, program: Program) -> None:
+        """Raises ``StatementError`` where something is differentiated partially that holds a symbol of which it is not known how it
+        depends on coordinates."""
+        if not re.search(r"∂|\\partial", program.text):
+            return
+        lasting = ("initial", "inertia", "vibration")
+        for n in symbols_in(program):
+            if n.name in self.known.assumed and n.name in self.known.meanings and self.known.meanings[n.name].kind not in lasting:
+                what = f"what ∂ makes of `{n.name}` is not known: it is not written out"
+                raise StatementError(what, n.span, f"give it in a line: `{n.name} = …`", program.text)
+
+    def _parsed(self, names: Sequence[str], **way: bool) -> Program:
+        """The lines of the text, with integrals of what has a meaning as symbols of their own."""
+        program = parse(self.text, names, self.known.constants, **{"tight": self.tight, **way})
+        constants = self.known.of_kind("parameter", "gravity")
+        for node in [n for n in walk(program) if isinstance(n, Integral)]:
+            if all(n.name in self.known.meanings for n in (*symbols_in(node.of), node.by)):
+                name = f"∫_({written(node.lower)})^({written(node.upper)}) {written(node.of)} d{node.by.name}"
+                found = integrals.meaning(node, self.known.meanings, lambda of: self.known.measured(written(of))[0], constants)
+                parts = [dimension(part, self.known.dimensions) for part in (node.of, node.by)]
+                size = parts[0].times(parts[1]) if None not in parts else None
+                self.known.put(name, replace(found, dimension=size))
+                program = exchange(program, node, Sym(name, span=node.span))
+        return program
+
+    def _fitting(self, program: Program, names: Sequence[str], units: bool) -> Program:
+        """The same, or where its dimensions do not fit, as it fits: T a period, 5 m/s a speed though m and s are symbols, 2k/3m with m below
+        the stroke."""
+        if not misfit(program, self.known.dimensions, strictly=True):
+            return program
+        ways: list[dict[str, bool]] = [{"units": True}, {"tight": True}] if units else [{"tight": True}]
+        energy = self.known.meanings.get("T") if "T" in self.known.assumed else None
+        period = self.known.vibration.meanings(["period"]).get("period") if energy and self.known.vibration else None
+        for meaning in (energy, period) if period else (None,):
+            if meaning:
+                self.known.meanings["T"] = meaning
+            for way in ([{}] if meaning and meaning is period else []) + ways:
+                with suppress(StatementError):
+                    other = self._eliminated(self._parsed(names, **way))
+                    check_dimensions(other, self.known.dimensions)
+                    if meaning and meaning is period:
+                        self._vibrates("T", meaning)
+                    return other
+        if energy:
+            self.known.meanings["T"] = energy
+        return program
+
+    def _sized(self, program: Program) -> Program:
+        """The same with letters that usually are vectors as their sizes, where it makes sense only so."""
+        vectors = {name for name, m in self.known.meanings.items() if m.is_vector}
+        loose = {name for name in vectors - self.known.own if re.match("[vra](_|$)", name)}
+        program, sized = with_sizes(program, vectors, loose)
+        self.known.assumed |= {name: f"the size of {self.known.assumed.get(name, name)}, without a sign" for name in sized}
+        return program
+
+    def _vibrating(self, names: Iterable[str]) -> None:
+        """What a small vibration has, where names without a meaning may be that."""
+        known = {folded(name) for name in self.known.meanings}
+        asked = [name for name in names if folded(name) not in known]
+        for name, meaning in self.known.vibration.meanings(asked).items() if self.known.vibration else ():
+            self.known.put(name, meaning)
+            self._vibrates(name, meaning)
+
+    def _vibrates(self, name: str, meaning: Meaning) -> None:
+        self.known.assumed[name] = f"the {meaning.texts[0]} of small vibrations about {self.known.vibration.place}"  # type: ignore[union-attr]
+
+    def _initial(self, program: Program) -> dict[str, str]:
+        """Of symbols with the index 0 what is asked: θ₀, v₀, of anything that has a meaning without it."""
+        known = {
+            **{folded(name): name for name in self.known.meanings},
+            **{folded(name): said for name, said in ENERGIES.items()},
+        }
+        found = {}
+        for name in (n.name for n in self._unknown(program) if not n.dots and n.name.endswith("0")):
+            base = known.get(folded(name[:-1].rstrip("_")))
+            if base in self.known.meanings and self.known.meanings[base].is_vector:
+                base = "hypot({}, {})".format(*self.known.meanings[base].texts[:2])
+            if base:
+                found[name] = INITIAL + base
+        return found
+
+    def _add(self, found: Mapping[str, str], program: Program, assumed: bool = False) -> None:
+        """Symbols that are not taken by what there is, or by a line of the statement; of those that are only ``assumed``, which a
+        statement needs."""
+        taken = {folded(name) for name in (*self.known.meanings, *(line.name.name for line in program.assignments))}
+        written = folded(re.sub(r"[\\{}\s]", "", program.text))
+        unknown = [folded(n.name) for n in self._unknown(program)]
+        for name, said in found.items():
+            if folded(name) not in taken and (not assumed or any(folded(name) in text for text in (written, *unknown))):
+                with suppress(ModelProblem):
+                    self.known.declare(name, said)
+                    self.known.assumed |= {name: said} if assumed else {}
+
+    def _unknown(self, program: Program) -> list[Sym]:
+        """The symbols of a program that have no meaning."""
+        given = {line.name for line in program.assignments}
+        return [n for n in symbols_in(program) if n.name not in self.known.meanings and n not in given]
+
+    def _eliminated(self, program: Program) -> Program:
+        """The lines without unknowns of the writer's own; a word that is nearly one of the model is a slip, and none of them."""
+        own = [
+            n for n in self._unknown(program) if not n.dots and (len(n.name) < _WORD or not nearest(n.name, self.known.meanings))
+        ]
+        return eliminated(program, own) if own else program
+
+    def _clashing(self, program: Program) -> set[str]:
+        """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""
+        found = set()
+        for line in program.equations if len(program.lines) > 1 else ():
+            meaning = self.known.meanings.get(line.left.name) if isinstance(line.left, Sym) and not line.left.dots else None
+            if meaning is not None and line.left.name not in self.known.declared:
+                moves = any(isinstance(n, Sym) and n.name not in self.known.constants for n in walk(line.right))
+                other = meaning.kind == "direction" or (meaning.kind in ("parameter", "gravity") and moves)
+                other |= isinstance(line.right, Column | Matrix) and not meaning.is_vector
+                if other or misfit(Program((line,)), self.known.dimensions, strictly=True):
+                    found.add(line.left.name)
+        return found
