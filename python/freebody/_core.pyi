@@ -51,6 +51,8 @@ class Mechanism:
         rates: dict[str, float],
         points: dict[str, Sequence[float]],
         branch: dict[str, int],
+        history: Any,
+        beginning: State | None,
     ) -> tuple[Array, Array, dict[str, Any]]:
         """q, u, and ``{"branch": [str], "adjusted": [str], "gap": float}``."""
 

@@ -4,7 +4,7 @@ use crate::data::{array, data, plain};
 use crate::errors;
 use crate::instant::solution;
 use crate::trajectory::Trajectory;
-use freebody::assembly::assemble;
+use freebody::assembly::{assemble, Closed};
 use freebody::builder::chosen;
 use freebody::compile::Compiled;
 use freebody::dynamics::{DynamicsError, Route, Source, Workspace};
@@ -113,8 +113,12 @@ impl Mechanism {
         points: BTreeMap<String, [f64; 2]>,
         branch: BTreeMap<String, i64>,
         past: Option<PyRef<'py, History>>,
+        from: Option<State<'py>>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyAny>)> {
-        let asked = Initial { fixed, guess, rates, points, branch };
+        let closed =
+            |(p, t, q, ..): State| PyResult::Ok(Closed { p: p.as_slice()?.to_vec(), t, q: q.as_slice()?.to_vec() });
+        let from = from.map(closed).transpose()?;
+        let asked = Initial { fixed, guess, rates, points, branch, from };
         let wish = self.0.names().wish(&asked).map_err(errors::model)?;
         let m = self.0.mechanism();
         m.check_state(p.as_slice()?, t, &wish.start, &wish.start_rates).map_err(errors::motion)?;

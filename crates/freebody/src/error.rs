@@ -45,6 +45,8 @@ pub enum DynamicsError {
     ForeignHistory,
     /// A loop opened during a motion: its name, gap (m), item.
     LoopOpened(String, f64, String),
+    /// The way from one state to another comes near a singular position.
+    SingularWay,
     /// A loop that motions drive on to where it cannot close: its name, how far it can in words, item.
     DeadPosition(String, String, String),
     /// An assembly leaves gaps: name and gap of each, the item of the widest.
@@ -200,6 +202,11 @@ impl DynamicsError {
                 "branch_lost",
                 format!("the loop at `{name}` opened by {gap:.3e} (m or rad) and could not be closed again"),
                 Some(at),
+            ),
+            Self::SingularWay => (
+                "branch_lost",
+                "on the way there loops come to a singular position, where they change over to another assembly; ask for a place on this side of it".into(),
+                None,
             ),
             Self::DeadPosition(name, place, at) => (
                 "dead_position",

@@ -1,6 +1,6 @@
 //! An initial state as it is asked for, by names; and what is worth saying about what was found.
 
-use crate::assembly::{Assembled, AssemblyRequest};
+use crate::assembly::{Assembled, AssemblyRequest, Closed};
 use crate::builder::unknown;
 use crate::compile::Compiled;
 use crate::error::CompileError;
@@ -28,6 +28,8 @@ pub struct Initial {
     pub points: BTreeMap<String, [f64; 2]>,
     /// Expressions that must be positive or negative.
     pub branch: BTreeMap<String, i64>,
+    /// A state of the assembly that is wished for: it is reached from there, and what is neither fixed nor guessed stays near.
+    pub from: Option<Closed>,
 }
 
 impl Compiled {
@@ -65,15 +67,19 @@ impl Compiled {
         let placed = self.read(places.map(|(text, x)| (text.clone(), text, x)).collect())?;
         let m = &self.mechanism;
         let names: Vec<&String> = (0..m.freedom()).map(|i| &m.coordinate(i).name).collect();
-        let value = |name: &&String| *asked.fixed.get(*name).or_else(|| asked.guess.get(*name)).unwrap_or(&0.0);
+        let known = |i: usize| asked.from.as_ref().map_or(0.0, |from| from.q[i]);
+        let value = |(i, name): (usize, &&String)| {
+            asked.fixed.get(*name).or_else(|| asked.guess.get(*name)).copied().unwrap_or_else(|| known(i))
+        };
         Ok(AssemblyRequest {
-            start: names.iter().map(value).collect(),
+            start: names.iter().enumerate().map(value).collect(),
             start_rates: names.iter().map(|name| *asked.rates.get(*name).unwrap_or(&0.0)).collect(),
             held: held.into_iter().chain(placed).collect(),
             near: near.into_iter().filter(|(name, ..)| !names.contains(&name)).collect(),
             held_rates,
             branch,
             free: names.iter().map(|name| !asked.fixed.contains_key(*name)).collect(),
+            from: asked.from.clone(),
         })
     }
 

@@ -182,7 +182,7 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
     sampler = checker.sampler
     motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
     change = next((each for each in motion.changes if each.t > state.t), None)
-    ends = change.t if change and until_change else motion.end.t
+    ends = sampler.staying(motion, state.t, change.t if change and until_change else motion.end.t)
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
     return Samples(sampler.core, [motion.state(t) for t in times.tolist()]), stated

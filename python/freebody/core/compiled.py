@@ -117,12 +117,14 @@ class CompiledModel:
         points: Mapping[str, Sequence[float]] | None = None,
         branch: Mapping[str, int] | None = None,
         history: _core.History | None = None,
+        beginning: State | None = None,
     ) -> tuple[State, list[str]]:
         """A state with all loops closed, that keeps what is ``fixed``, ``rates`` and places of ``points`` (m), near ``guess``, with
         expressions positive or negative as ``branch`` says; and what is worth saying about it. With the ``history`` of a motion what
-        it has brought in place, and what touches, stays so."""
+        it has brought in place, and what touches, stays so. From a ``beginning`` it is reached along the mechanism, past no singular
+        position of the loops with what is fixed, so that it is of the same assembly."""
         asked = (fixed or {}, guess or {}, rates or {}, points or {}, branch or {})
-        q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked), history)
+        q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked), history, beginning and beginning.arrays)
         return State(p, t, q, u, history), [*notes["adjusted"], *notes["branch"]]
 
     def as_it_holds(self, state: State) -> tuple[CompiledModel, State]:

@@ -6,7 +6,7 @@ use super::{DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
 use crate::mode::Mode;
-use crate::solve::{Lu, Matrix, Orthogonal};
+use crate::solve::{Lu, Matrix, Orthogonal, Rank};
 
 /// Corrections after which a position is given up.
 const CORRECTIONS: usize = 12;
@@ -318,17 +318,29 @@ impl Workspace<'_> {
         if self.rows.is_empty() {
             return 1.0;
         }
-        let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), &self.rows, self.length, &mut g, &mut b);
-        let columns = self.units();
-        let units: Vec<f64> = self.rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
-        let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j]);
+        let scaled = self.in_units(&self.rows);
         if self.many_loops {
-            let norms = (0..g.rows()).map(|i| scaled.row(i).iter().map(|x| x * x).sum::<f64>().sqrt());
+            let norms = (0..scaled.rows()).map(|i| scaled.row(i).iter().map(|x| x * x).sum::<f64>().sqrt());
             let (least, most) = norms.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
             return least / most;
         }
         Orthogonal::factor(&scaled).rank().kept
+    }
+
+    /// Rows in units of the characteristic length, and their rank.
+    pub(crate) fn independence_of(&self, rows: &[Row]) -> (Matrix, Rank) {
+        let scaled = self.in_units(rows);
+        let rank = Orthogonal::factor(&scaled).rank();
+        (scaled, rank)
+    }
+
+    /// Rows by coordinates, each over its unit, coordinates in theirs.
+    fn in_units(&self, rows: &[Row]) -> Matrix {
+        let (mut g, mut b) = (Matrix::default(), Matrix::default());
+        rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
+        let columns = self.units();
+        let units: Vec<f64> = rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
+        Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j])
     }
 
     fn size_of(&self, user: &[f64]) -> f64 {

@@ -1,9 +1,14 @@
 //! Assembly: coordinates and rates that close all loops and keep what was asked for.
 
-use crate::dynamics::{DynamicsError, Row, Workspace, CLOSED, OPEN};
+mod closing;
+mod continuation;
+
+use crate::dynamics::{DynamicsError, Workspace, OPEN};
 use crate::gauges::ModelExpr;
 use crate::kinematics::{jet, MotionView};
 use crate::scalar::real;
+use closing::{descend, rows};
+use continuation::follow;
 
 /// What an initial state is asked to be.
 #[derive(Clone, Debug, Default)]
@@ -22,6 +27,19 @@ pub struct AssemblyRequest {
     pub branch: Vec<(String, ModelExpr, i8)>,
     /// Of each coordinate, whether another assembly may be looked for by changing its start.
     pub free: Vec<bool>,
+    /// A state from which the one asked for is to be reached, so that it is of the same assembly.
+    pub from: Option<Closed>,
+}
+
+/// A state with all loops closed.
+#[derive(Clone, Debug)]
+pub struct Closed {
+    /// Parameters.
+    pub p: Vec<f64>,
+    /// Time, s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
 }
 
 /// An assembled state.
@@ -39,35 +57,30 @@ pub struct Assembled {
     pub others: Vec<Vec<f64>>,
 }
 
-/// Iterations of one attempt.
-const DESCENTS: usize = 300;
 /// Part of a radian, or of the characteristic length, within which two configurations are the same.
 const SAME_PLACE: f64 = 1e-6;
-/// Square of the part of a row below which damping changes no digit that counts: full steps again.
-const UNDAMPED: f64 = 1e-6;
-/// First damping where a full step does not help, in squares of rows of size 1, and that beyond which no step does.
-const DAMPED: f64 = 1e-4;
-const HOPELESS: f64 = 1e9;
-/// What a step that helps makes of the damping, and one that does not: it rises as fast as it falls (Marquardt's ν).
-const EASED: f64 = 0.2;
-const STIFFENED: f64 = 1.0 / EASED;
 /// Attempts from other starts.
 const ATTEMPTS: usize = 64;
 
 /// Assembles a mechanism at time `t`.
 ///
-/// Positions by damped least squares (Levenberg 1944, Marquardt 1963) from the starting values, then velocities by the
-/// least correction.
+/// Positions by damped least squares from the starting values, or step by step from a state of the assembly that is wished
+/// for; then velocities by the least correction.
 ///
 /// # Errors
-/// `cannot_assemble` with the gap at each joint, `branch_not_found`, `inconsistent_velocities`.
+/// `cannot_assemble` with the gap at each joint, `branch_not_found`, `branch_lost`, `inconsistent_velocities`.
 pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Result<Assembled, DynamicsError> {
-    let first = attempt(workspace, t, request, &request.start);
-    let q = match first {
-        Ok(q) if on_branch(workspace, t, &q, request) => q,
-        first => search(workspace, t, request, first)?,
+    let (q, others) = match &request.from {
+        Some(from) => (follow(workspace, t, request, from)?, vec![]),
+        None => {
+            let q = match attempt(workspace, t, request, &request.start) {
+                Ok(q) if on_branch(workspace, t, &q, request) => q,
+                first => search(workspace, t, request, first)?,
+            };
+            let others = other_assemblies(workspace, t, request, &q);
+            (q, others)
+        }
     };
-    let others = other_assemblies(workspace, t, request, &q);
     let u = velocities(workspace, t, request, &q)?;
     workspace.move_to(t, &q, &u);
     let gap = workspace.worst_gap();
@@ -75,23 +88,6 @@ pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) ->
     let values = workspace.evaluate(&laws, &[])?;
     let near = request.near.iter().map(|(name, ..)| name.clone()).zip(values).collect();
     Ok(Assembled { q, u, near, gap, others })
-}
-
-/// Rows to close: loops, drives and what is held.
-fn rows(workspace: &mut Workspace, held: &[(String, ModelExpr, f64)]) -> Vec<(Row, f64)> {
-    workspace.update_rows();
-    let mut rows: Vec<(Row, f64)> =
-        workspace.rows().iter().filter_map(|row| workspace.gap(row).map(|gap| (row.clone(), gap))).collect();
-    for (_, gauge, value) in held {
-        let row = workspace.target_row(gauge, *value, 0.0);
-        let gap = row.value.unwrap_or(0.0);
-        rows.push((row, gap));
-    }
-    rows
-}
-
-fn worst(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
-    rows.iter().map(|(row, gap)| gap.abs() / workspace.row_unit(row)).fold(0.0, f64::max)
 }
 
 /// One attempt from one start: first drawn to what should be near, then closed exactly.
@@ -111,44 +107,6 @@ fn attempt(
         return Ok(q);
     }
     Err(cannot_assemble(workspace, t, request, &q))
-}
-
-/// Damped least squares on all rows; returns the largest gap left.
-fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)], q: &mut Vec<f64>) -> f64 {
-    let at_rest = vec![0.0; q.len()];
-    workspace.move_to(t, q, &at_rest);
-    let mut present = rows(workspace, held);
-    // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
-    let mut damping = 0.0;
-    for _ in 0..DESCENTS {
-        let (gap, size) = (worst(workspace, &present), norm(workspace, &present));
-        if gap <= CLOSED || !gap.is_finite() {
-            break;
-        }
-        let step = workspace.damped_motion(&present, damping);
-        let mut user = vec![0.0; q.len()];
-        workspace.to_user(&step, &mut user);
-        let longest = user.iter().zip(workspace.units()).map(|(d, unit)| (d / unit).abs()).fold(1.0, f64::max);
-        let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
-        workspace.move_to(t, &trial, &at_rest);
-        let next = rows(workspace, held);
-        if norm(workspace, &next) < size {
-            (*q, present) = (trial, next);
-            damping = if damping < UNDAMPED { 0.0 } else { EASED * damping };
-        } else {
-            workspace.move_to(t, q, &at_rest);
-            if gap <= OPEN || damping > HOPELESS {
-                break;
-            }
-            damping = (STIFFENED * damping).max(DAMPED);
-        }
-    }
-    worst(workspace, &present)
-}
-
-fn norm(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
-    let square = |(row, gap): &(Row, f64)| (gap / workspace.row_unit(row)) * (gap / workspace.row_unit(row));
-    rows.iter().map(square).sum::<f64>().sqrt()
 }
 
 fn on_branch(workspace: &mut Workspace, t: f64, q: &[f64], request: &AssemblyRequest) -> bool {

@@ -1,0 +1,235 @@
+"""A model as it is asked about: its state at a moment, the parameters that are free, and what is typical of its size and speed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import replace
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from freebody.core import Array, CompiledModel, FreeBodies, MotionError, State, Trajectory, quote
+from freebody.model.start import Start, evaluate, initial_state
+from freebody.run.moments import START, state_of
+from freebody.solve.perturbed_states import independent
+from freebody.symbolic.dimensions import Dimension
+
+if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
+    from .admissible import UnderOtherLoads
+
+_AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
+_RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
+_STEPS = 2000  # of a run, which is short
+_MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
+_SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
+_DEPENDENT = (
+    0.05  # part of the motions by which loops stay closed that moves a coordinate: below it loops are near a dead position for it
+)
+
+
+class AskedModel:
+    """A model at a moment: by default the start, after the events there.
+
+    ``asked`` are ``at``, ``before``, ``after``, ``initial``, ``t`` and changes, as in ``Mechanism.solve``."""
+
+    def __init__(self, mechanism: Builder | UnderOtherLoads, **asked: Any) -> None:
+        lowered, self._asked = mechanism.lowered(), dict(asked)
+        self.mechanism, self.start, initial = mechanism, lowered.start, asked.pop("initial", None)
+        if initial is not None:
+            self.start = Start(coordinates=self.start.coordinates, parameters=self.start.parameters)
+        self.begins = asked.pop("t", 0.0)
+        self.moment = {word: asked.pop(word) for word in ("at", "before", "after") if asked.get(word) is not None}
+        self.changes = {**(initial or {}), **{name: value for name, value in asked.items() if value is not None}}
+        self.spec: dict[str, Any] = {**lowered.spec, "parameters": list(lowered.spec["parameters"])}
+        opening = [event["name"] for event in self.spec["events"] if event.get("opening")]
+        self.stated = ""  # of which moment the model is spoken, where it is none that a motion comes to
+        if opening and self.moment.get("before") in (START, *opening):
+            self.stated, self.moment = f"before {' and '.join(opening)}", {}
+            self.spec["events"] = []
+        self.gravity = self._parametrised_gravity()
+        self.core = CompiledModel.of(self.spec)
+        self.metadata = self.core.metadata
+        self.coordinates: list[Mapping[str, Any]] = list(self.metadata["coordinates"])
+        self.names: list[str] = [c["name"] for c in self.coordinates]
+        text = mechanism.model.model_dump_json(by_alias=True, exclude_unset=True)
+        own = [*self.spec["parameters"], *({"name": z["name"], "value": z["start"]} for z in self.spec["states"])]
+        numbers = {p["name"]: p["value"] for p in own if isinstance(p["value"], int | float)}
+        counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
+        changed = {name: evaluate(value, {}) for name, value in self.changes.items() if name in self.start.parameters}
+        self.free_parameters = {name: float(value) for name, value in (numbers | changed).items() if name not in counts}
+        """Parameters and states that are plain numbers in the model, with those; the others follow from them, or count items."""
+
+    def _parametrised_gravity(self) -> str | None:
+        """A gravity that is a plain number becomes a parameter, so that nothing is true by the number 9.81."""
+        given = self.spec.get("gravity")
+        if given is None or not all(isinstance(part, int | float) for part in given) or given[0] != 0 or given[1] == 0:
+            return None
+        taken = {p["name"] for p in self.spec["parameters"]} | set(self.start.coordinates)
+        name = next(name for name in ("g", "gravity", "gravity2") if name not in taken)
+        self.spec["parameters"] += [{"name": name, "value": -given[1], "unit": "m/s^2"}]
+        self.spec["gravity"] = [0.0, f"-{name}"]
+        self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
+        return name
+
+    @cached_property
+    def own(self) -> State:
+        """The state of the model at its moment. Raises ``ValueError`` where there is none."""
+        found = self._at_moment(self.first)
+        return replace(found, moment=self.stated or found.moment)
+
+    def _at_moment(self, state: State, rates: Mapping[str, float] | None = None) -> State:
+        """The state at the moment of the motion from a start, with ``rates`` or those there."""
+        if rates is not None:
+            state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
+        found = state_of(self.mechanism, state, self.core, **self.moment) if not self.stated else state
+        is_new = found.history is None and self.restricted  # what holds there shows as it begins to move
+        return replace(self._run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
+
+    @cached_property
+    def restricted(self) -> bool:
+        """Whether limits, joint friction, events at the start or the moment decide what moves, so that states lie near that."""
+        named = [event.get("opening") for event in self.spec["events"]] + [joint.get("friction") for joint in self.spec["joints"]]
+        return bool(self.moment) or any(named) or not all(x.is_open for x in self.core.instant(self.first).limits.values())
+
+    @cached_property
+    def _puts_in_place(self) -> bool:
+        """Whether events fasten parts where they are: with other parameters these are elsewhere."""
+        return any("engage" in action for event in self.spec["events"] for action in event["then"] if isinstance(action, Mapping))
+
+    def _run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
+        return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
+
+    @cached_property
+    def _loads(self) -> FreeBodies:
+        """All loads at the moment."""
+        return self.core.free_bodies(self.own)
+
+    def _named(self, q: Array) -> dict[str, float]:
+        """Coordinates, or rates, by their names."""
+        return dict(zip(self.names, q.tolist(), strict=True))
+
+    @cached_property
+    def first(self) -> State:
+        """The state in which the model starts."""
+        words = initial_state(self.start, self.core, self.changes)
+        return self.core.assemble(words.pop("p"), self.begins, **words)[0]
+
+    def _started(self, values: Mapping[str, float]) -> State:
+        """The start with other parameters, its loops in the same assembly. Raises ``MotionError`` and ``ModelProblem``."""
+        words = initial_state(self.start, self.core, self.changes | values)
+        if self.loops:
+            place = [words["fixed"].get(name, q) for name, q in self._named(self.first.q).items()]
+            words["guess"] |= self._named(self.moved(self.first, np.array(place), {}, p=words["p"]).q)
+        return self.core.assemble(words.pop("p"), self.begins, **words)[0]
+
+    def moved(self, state: State, q: Array, rates: Mapping[str, float], t: float | None = None, p: Array | None = None) -> State:
+        """A state of the same assembly and mode with coordinates ``q``, where loops leave them free. Raises ``MotionError``."""
+        p, t, named = state.p if p is None else p, state.t if t is None else t, self._named(q)
+        fixed = {self.names[i]: named.pop(self.names[i]) for i in self._places}
+        return self.core.assemble(p, t, fixed, named, rates, history=state.history, beginning=state)[0]
+
+    def staying(self, motion: Trajectory, begins: float, ends: float) -> float:
+        """An end of a motion before which its loops are of the assembly in which it begins: it may go on through a singular position."""
+        for _ in range(_HALVES if self.loops and not self.rolls_in_loop else 0):
+            states = [motion.state(t) for t in np.linspace(begins, ends, _MOMENTS).tolist()]
+            if all(self._joined(one, other) for one, other in pairwise(states)):
+                break
+            ends = (begins + ends) / 2
+        return ends
+
+    def _joined(self, one: State, other: State) -> bool:
+        try:
+            reached = self.moved(one, other.q, {}, t=other.t)
+        except MotionError:
+            return False
+        return bool(np.all(np.abs(reached.q - other.q) < _SAME_PLACE * self.sizes))
+
+    @cached_property
+    def _places(self) -> list[int]:
+        """Coordinates that say where closed loops are: those that the start gives as far as they are free, then those that move most."""
+        given = [i for i, name in enumerate(self.names) if name in self.start.fixed or name in self.changes]
+        rows, found = self._free_rates.copy(), list[int]()
+        for _ in range(rows.shape[1]):
+            sizes = np.linalg.norm(rows, axis=1)
+            found.append(next((i for i in given if sizes[i] > _DEPENDENT), int(np.argmax(sizes))))
+            along = rows[found[-1]] / sizes[found[-1]]
+            rows -= np.outer(rows @ along, along)
+        return found
+
+    @cached_property
+    def frictions(self) -> list[str]:
+        """Free parameters that are a coefficient of friction."""
+        rough = [*self.spec["contacts"], *(joint.get("friction") or {} for joint in self.spec["joints"])]
+        written = [item.get(word) for item in rough for word in ("friction", "static_friction", "kinetic", "fixed")]
+        return [name for name in self.free_parameters if name in written]
+
+    @cached_property
+    def gravities(self) -> list[str]:
+        """Free parameters that stand alone in the gravity of the model."""
+        parts = [str(part).strip("-() ") for part in self.spec.get("gravity") or ()]
+        return [name for name in self.free_parameters if name in parts]
+
+    @cached_property
+    def length(self) -> float:
+        """A length typical of the model, m."""
+        places = self.core.points(self.core.bind({}))
+        found = [math.hypot(x, y) for _, x, y in places.values()]
+        found += [abs(q) for q, c in zip(self.first.q, self.coordinates, strict=True) if c["dimension"] == "m"]
+        return max([x for x in found if x > 0], default=1.0)
+
+    @cached_property
+    def sizes(self) -> Array:
+        """By what each coordinate changes noticeably: 1 rad, or a length typical of the model."""
+        return np.array([1.0 if c["dimension"] == "rad" else self.length for c in self.coordinates])
+
+    @cached_property
+    def rate(self) -> float:
+        """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest; where these are round-off, in an
+        equilibrium, that of vibrations about it."""
+        found = float(np.max(np.abs(self.first.u / self.sizes), initial=0.0))
+        with suppress(MotionError):
+            n, falls = len(self.names), [f"rate(rate({quote(name)}))" for name in self.names]
+            accelerations, by = self.core.evaluate(falls, self.first), self.core.derivatives(falls, self.first)[:, 1 : n + 1]
+            found = max(found, math.sqrt(np.max(np.abs(accelerations / self.sizes), initial=0.0)))
+            stiff = np.abs(by * self.sizes / self.sizes[:, None]).max(axis=1, initial=0.0)
+            vibrations = math.sqrt(min((x for x in stiff if x > _AT_REST**2 * stiff.max()), default=0.0))  # the slowest
+            found = vibrations if found < _AT_REST * vibrations else found
+        return found or 1.0
+
+    def unit(self, dimension: Dimension | None) -> float:
+        """What is typical of a dimension, SI."""
+        if dimension is None:
+            return 1.0
+        mass = max([b["mass"] for b in self.metadata["bodies"] if b.get("mass")], default=1.0)
+        return mass**dimension.mass * self.length**dimension.length * self.rate ** (-dimension.time)
+
+    @cached_property
+    def _free_rates(self) -> Array:
+        """Rates over ``sizes`` that can be given at will, (n, f), one a column: those by which loops stay closed, what touches goes on
+        touching, and what is locked or driven stays so."""
+        free = [motion["name"] for motion in self.spec["motions"] if motion["level"] == "acceleration"]
+        rows = [[row.coefficients[name] for name in self.names] for row in self._loads.rows if row.name not in free]
+        held = np.array(rows).reshape(len(rows), len(self.names)) * self.sizes
+        return np.linalg.svd(held)[2][len(independent(held)) :].T
+
+    @cached_property
+    def loops(self) -> int:
+        """How many joints close a loop."""
+        return len(self.metadata.get("closure_coordinates", [])) + sum(1 for j in self.metadata["joints"] if j.get("cut"))
+
+    @cached_property
+    def rolls_in_loop(self) -> bool:
+        """Whether something that rolls closes a loop: that binds rates, and of the places only what follows from the start."""
+        cut = {joint["name"] for joint in self.metadata["joints"] if joint.get("cut")}
+        return any(joint["name"] in cut and joint["type"].startswith("rolling") for joint in self.spec["joints"])
+
+    def shapes_loop(self, name: str) -> bool:
+        """Whether a parameter may be a length of a closed loop."""
+        dimension = self.start.parameters.get(name)
+        return self.loops > 0 and (dimension is None or (dimension.mass == 0 and dimension.time == 0))
