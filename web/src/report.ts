@@ -1,9 +1,11 @@
-import type { ReportData } from "./data/types";
+import type { Point, ReportData } from "./data/types";
 import { Choice } from "./loads/choice.svelte";
 import { LoadHistory } from "./loads/loads";
 import { LoadScale } from "./loads/scale.svelte";
 import { Camera } from "./scene/camera.svelte";
 import { Motion } from "./scene/motion";
+import { Options } from "./scene/options.svelte";
+import { Zooming } from "./scene/zooming";
 import { Clock } from "./time/clock.svelte";
 import { Moment } from "./time/moment.svelte";
 
@@ -11,7 +13,9 @@ import { Moment } from "./time/moment.svelte";
 export class Report {
   readonly clock: Clock;
   readonly motion: Motion;
+  readonly options: Options;
   readonly camera: Camera;
+  readonly zooming: Zooming;
   readonly loads: LoadHistory | null;
   readonly choice = new Choice();
   readonly scale: LoadScale;
@@ -20,9 +24,16 @@ export class Report {
   constructor(readonly data: ReportData) {
     this.clock = new Clock(data.scene.t);
     this.motion = new Motion(data.scene);
-    this.camera = new Camera(data.scene);
+    this.options = new Options(data.scene);
     this.loads = data.loads && new LoadHistory(data.loads);
     this.scale = new LoadScale(this.loads?.usual() ?? { force: 0, couple: 0 }, this.choice);
     this.moment = new Moment(data, this.clock, this.motion, this.loads, this.choice);
+    this.camera = new Camera(data.scene, () => this.followed());
+    this.zooming = new Zooming(this.camera);
+  }
+
+  private followed(): Point | null {
+    const pose = this.options.follow === null ? null : this.moment.poses[this.options.follow];
+    return pose && [pose.x, pose.y];
   }
 }

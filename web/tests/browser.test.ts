@@ -51,7 +51,8 @@ describe.runIf(folder)("every report", () => {
     const page = await open(name, DESKTOP, "dark");
     await page.emulateMedia({ media: "print" });
     expect(await page.locator(".card").first().evaluate((card) => getComputedStyle(card).backgroundColor)).toBe("rgb(255, 255, 255)");
-    expect(await page.locator(".controls").isVisible()).toBe(false);
+    for (const control of [".play", ".bar", ".view", ".loads"]) expect(await page.locator(control).isVisible()).toBe(false);
+    expect(await page.locator("output").isVisible()).toBe(true);
     await page.close();
   });
 });
@@ -67,6 +68,83 @@ describe.runIf(folder)("the four-bar", () => {
     expect(stopped).toBeGreaterThan(0.1);
     await page.waitForTimeout(100);
     expect(await clock(page)).toBe(stopped);
+    await page.close();
+  });
+
+  test("arrows step by a frame, with Shift to the next event", async () => {
+    const page = await open("four_bar.html");
+    await page.locator(".loads select").focus();
+    await page.keyboard.press("ArrowRight");
+    expect(await clock(page)).toBeCloseTo(1 / 60, 2);
+    await page.keyboard.press("ArrowLeft");
+    expect(await clock(page)).toBe(0);
+    await page.keyboard.press("Shift+ArrowRight");
+    expect(await clock(page)).toBeCloseTo(0.48, 2); // the crank is level
+    expect(await page.locator(".loads select").inputValue()).not.toBe("1");
+    await page.close();
+  });
+
+  test("backwards from the start it runs from the end", async () => {
+    const page = await open("four_bar.html");
+    await page.getByLabel("backwards").click();
+    await page.getByLabel("play or pause").click();
+    await page.waitForTimeout(200);
+    expect(await clock(page)).toBeGreaterThan(9);
+    await page.close();
+  });
+
+  test("the wheel with Ctrl zooms, a drag pans, fit shows all again", async () => {
+    const page = await open("four_bar.html");
+    const transform = (): Promise<string | null> => page.locator(".mechanism .world").getAttribute("transform");
+    const before = await transform();
+    const box = (await page.locator(".mechanism svg").boundingBox())!;
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.wheel(0, -200);
+    expect(await transform()).toBe(before);
+    await page.evaluate(() => scrollTo(0, 0));
+    await page.keyboard.down("Control");
+    await page.mouse.wheel(0, -200);
+    await page.keyboard.up("Control");
+    const zoomed = await transform();
+    expect(zoomed).not.toBe(before);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 50, box.y + box.height / 2 + 20, { steps: 4 });
+    await page.mouse.up();
+    expect(await transform()).not.toBe(zoomed);
+    await page.getByRole("button", { name: "fit" }).click();
+    expect(await transform()).toBe(before);
+    await page.close();
+  });
+
+  test("a body that is followed stays in the middle", async () => {
+    const page = await open("four_bar.html");
+    await page.locator(".view select").selectOption({ label: "coupler" });
+    const places = [];
+    for (const part of [0.1, 0.35]) {
+      await seek(page, part);
+      places.push(await page.locator(".mechanism path.body").nth(1).evaluate((path: SVGPathElement) => {
+        const { x, y } = new DOMPoint(0, 0).matrixTransform(path.getScreenCTM()!);
+        return [Math.round(x), Math.round(y)];
+      }));
+    }
+    expect(places[0]).toEqual(places[1]);
+    await page.close();
+  });
+
+  test("names, paths and ghosts come when they are asked for", async () => {
+    const page = await open("four_bar.html");
+    const count = (selector: string): Promise<number> => page.locator(`.mechanism ${selector}`).count();
+    expect(await count("text.bodies")).toBe(0);
+    await page.getByRole("button", { name: "bodies" }).click();
+    expect(await count("text.bodies")).toBe(3);
+    const before = await count(".world > path");
+    await page.getByLabel("ghosts").check();
+    expect(await count(".world > path")).toBe(before + 27);
+    await page.getByText("paths").click();
+    const box = page.locator(".points input:not(:checked)").first();
+    const paths = await count("path.all");
+    await box.check();
+    expect(await count("path.all")).toBe(paths + 1);
     await page.close();
   });
 

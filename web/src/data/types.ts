@@ -26,7 +26,10 @@ export interface Scene {
   figures: Figure[];
   pairs: Pair[];
   cords: Cord[];
-  traces: Trace[];
+  points: Named[];
+  joints: Named[];
+  /** Names of the points that are traced unless the reader chooses others. */
+  traced: string[];
   flashes: Flash[];
 }
 
@@ -63,7 +66,8 @@ export interface Cord extends Passing {
   taut: boolean[];
 }
 
-export interface Trace {
+/** A place on a figure that has a name. */
+export interface Named {
   name: string;
   figure: number;
   at: Point;

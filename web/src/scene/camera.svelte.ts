@@ -7,12 +7,20 @@ export class Camera {
   width = $state(800);
   height = $state(400);
   zoom = $state.raw({ k: 1, x: 0, y: 0 });
-  readonly #box: { x: number; y: number; wide: number; tall: number };
+  readonly #box: { middle: Point; wide: number; tall: number };
 
-  constructor(scene: Scene) {
+  /** `followed` is what stays in the middle of the stage, if anything. */
+  constructor(
+    scene: Scene,
+    private readonly followed: () => Point | null,
+  ) {
     const [x0, x1, y0, y1] = scene.bounds;
     const room = 2 * scene.size;
-    this.#box = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, wide: x1 - x0 + room, tall: y1 - y0 + room };
+    this.#box = { middle: [(x0 + x1) / 2, (y0 + y1) / 2], wide: x1 - x0 + room, tall: y1 - y0 + room };
+  }
+
+  get zoomed(): boolean {
+    return this.zoom.k !== 1;
   }
 
   /** How tall the stage is at its width. */
@@ -21,21 +29,21 @@ export class Camera {
     return Math.round(Math.min(Math.max(wanted, 240), Math.max(300, 0.62 * innerHeight)));
   }
 
-  /** Pixels a metre. */
-  get scale(): number {
-    return this.zoom.k * this.#fit;
-  }
-
-  get #fit(): number {
+  /** Pixels a metre when everything fits. */
+  get fit(): number {
     const [wide, tall] = [this.width - 2 * ROOM.aside, this.height - ROOM.above - ROOM.below];
     return Math.max(1, Math.min(wide / this.#box.wide, tall / this.#box.tall));
   }
 
-  get #origin(): Point {
+  /** Pixels a metre. */
+  readonly scale = $derived.by(() => this.zoom.k * this.fit);
+
+  readonly #origin: Point = $derived.by(() => {
     const { k, x, y } = this.zoom;
+    const [mx, my] = this.followed() ?? this.#box.middle;
     const middle = (this.height + ROOM.above - ROOM.below) / 2;
-    return [k * (this.width / 2 - this.#fit * this.#box.x) + x, k * (middle + this.#fit * this.#box.y) + y];
-  }
+    return [k * (this.width / 2 - this.fit * mx) + x, k * (middle + this.fit * my) + y];
+  });
 
   /** The transform of what is given in metres, y up. */
   get transform(): string {

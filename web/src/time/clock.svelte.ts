@@ -5,8 +5,11 @@ export class Clock {
   t = $state(0);
   playing = $state(false);
   speed = $state(1);
+  /** −1 where it runs backwards. */
+  direction = $state<1 | -1>(1);
+  loop = $state(false);
 
-  constructor(times: number[]) {
+  constructor(private readonly times: number[]) {
     this.start = times[0];
     this.end = times[times.length - 1];
     this.t = this.start;
@@ -19,7 +22,11 @@ export class Clock {
 
   /** From 0 at the start to 1 at the end. */
   get part(): number {
-    return this.lasting > 0 ? (this.t - this.start) / this.lasting : 0;
+    return this.partOf(this.t);
+  }
+
+  partOf(t: number): number {
+    return this.lasting > 0 ? (t - this.start) / this.lasting : 0;
   }
 
   /** Life's own where the run then takes some seconds, else a power of ten at which it takes about eight. */
@@ -36,22 +43,44 @@ export class Clock {
     this.t = Math.min(Math.max(t, this.start), this.end);
   }
 
-  pause(): void {
+  /** Stops there. */
+  stopAt(t: number): void {
     this.playing = false;
+    this.seek(t);
+  }
+
+  /** To the next or the last of ascending times. */
+  stepTo(times: number[], way: 1 | -1): void {
+    const room = 1e-9 * this.lasting;
+    const next = way > 0 ? times.find((t) => t > this.t + room) : times.findLast((t) => t < this.t - room);
+    this.stopAt(next ?? (way > 0 ? this.end : this.start));
+  }
+
+  stepFrame(way: 1 | -1): void {
+    this.stepTo(this.times, way);
   }
 
   toggle(): void {
     this.playing = !this.playing;
     if (!this.playing) return;
-    if (this.t >= this.end) this.t = this.start;
+    if (this.over) this.rewind();
     requestAnimationFrame((now) => this.run(now));
+  }
+
+  private get over(): boolean {
+    return this.direction > 0 ? this.t >= this.end : this.t <= this.start;
+  }
+
+  private rewind(): void {
+    this.t = this.direction > 0 ? this.start : this.end;
   }
 
   private run(last: number): void {
     requestAnimationFrame((now) => {
       if (!this.playing) return;
-      this.seek(this.t + ((now - last) / 1000) * this.speed);
-      if (this.t >= this.end) this.pause();
+      this.seek(this.t + (this.direction * this.speed * (now - last)) / 1000);
+      if (this.over && this.loop) this.rewind();
+      if (this.over) this.playing = false;
       else this.run(now);
     });
   }

@@ -11,7 +11,7 @@ from freebody.views.report.floats import floats
 from freebody.views.report.loads import loads
 from freebody.views.report.series import plots
 from freebody.views.scene import of_run
-from freebody.views.sketch import Cord, Pair, Sketch, Stroke
+from freebody.views.sketch import Cord, Pair, Sketch, Stroke, named_points
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -20,6 +20,8 @@ _NUMBERS = 60_000
 """Of all frames together: a third of a megabyte."""
 _STRING = 80
 """About as many numbers say where a string is in one frame."""
+_UNNAMED = ("origin",)
+"""Points that a reader does not ask for."""
 
 
 def report_data(run: Run) -> dict[str, Any]:
@@ -82,7 +84,13 @@ def _scene(sketch: Sketch) -> dict[str, Any]:
         "cords": [
             {"name": cord.name, "path": floats(cord.path), "taut": cord.taut.tolist()} | _passing(cord) for cord in sketch.cords
         ],
-        "traces": [_trace(sketch, name) for name in sketch.traces],
+        "points": [_point(sketch, name, name) for name in sketch.at if name.rpartition(".")[2] not in _UNNAMED],
+        "joints": [
+            _point(sketch, joint["name"], points[0])
+            for joint in sketch.spec["joints"]
+            if (points := [name for name in named_points(joint["with"]) if name in sketch.at])
+        ],
+        "traced": sketch.traces,
         "flashes": [{"t": each.t, "rays": short(each.rays(sketch.spark))} for each in sketch.impact_markers],
     }
 
@@ -92,6 +100,7 @@ def _passing(each: Stroke | Pair | Cord) -> dict[str, Any]:
     return {} if each.shown is None or each.shown.all() else {"shown": each.shown.tolist()}
 
 
-def _trace(sketch: Sketch, name: str) -> dict[str, Any]:
-    body, at = sketch.at[name]
+def _point(sketch: Sketch, name: str, point: str) -> dict[str, Any]:
+    """A named place on a figure, which is that of a point of the model."""
+    body, at = sketch.at[point]
     return {"name": name, "figure": sketch.names.index(body), "at": at.tolist()}
