@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from freebody.core import CompiledModel, State
+from freebody.model.names import unquote
 from freebody.run.records import Array, quote
 
 from .integrals import summed
@@ -140,6 +141,7 @@ def admissible(core: CompiledModel, state: State, rng: np.random.Generator, size
 def with_numbers(text: str, values: Mapping[str, float]) -> str:
     """An expression with numbers for the reactions of which values are given."""
     for symbol, value in values.items():
-        for name in {symbol, f"{quote(symbol.rpartition('.')[0])}.{symbol.rpartition('.')[2]}"}:
+        owner, _, part = symbol.rpartition(".")
+        for name in {symbol, f"{quote(unquote(owner))}.{part}"}:
             text = re.sub(rf"(?<![\w.]){re.escape(name)}(?![\w.])", f"({value!r})", text)
     return text

@@ -48,6 +48,9 @@ class Reading:
         self._in_words_of_the_model()
         self._vibrating(f"{'ω' if found[1] == 'omega' else found[1]}_d" for found in _DAMPED.finditer(self.text))
         program = self._parsed(self.known.names)
+        if {"d", "dd"} & self.known.bodies:  # x_d is a place, not ẋ as programs have it
+            self._add(self.known.printed.plain, program)
+            program = self._parsed(self.known.names)
         # what printed equations call things comes after the symbols of the model, and then what letters usually mean
         usual = (lambda: self.known.usual, lambda: self._initial(program))
         for added in (lambda: self.known.printed.plain, lambda: self.known.printed.momenta, *usual):

@@ -33,6 +33,7 @@ REACH = 1e-3
 """A term below it, relative to all, cannot be judged right or wrong."""
 OFTEN = 8
 """Samples in which a term must reach that far."""
+_ROUND_OFF = 1e-11  # of the terms on the sample where they are largest: on one where all are below it they are round-off
 _FLOOR = 1e-6  # of a component of a vector against its largest: below it is round-off of directions
 _THROUGH_ZERO = ("sin", "cos", "tan", "sinh", "asin", "atan")
 """Functions whose zero may be a difference of angles that are equal but for round-off."""
@@ -87,7 +88,8 @@ def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
         found, size = equation_sides(equation, values), sizes(equation, values)
         if found.left.ndim == 2:
             size = np.maximum(size, _FLOOR * size.max(axis=1, keepdims=True))
-        ratio = np.divide(found.residual, size, out=np.zeros_like(size), where=size != 0)
+        nothing = _ROUND_OFF * np.max(size, axis=0, where=np.isfinite(size), initial=0.0)
+        ratio = np.divide(found.residual, size, out=np.zeros_like(size), where=~(size <= nothing))
     return Residual(found, ratio)
 
 

@@ -84,7 +84,7 @@ class Symbols:
             self.named.values.setdefault(gravity, ("parameter", LENGTH.times(TIME, -2)))
         self.writer = Writer(lowered.root, self.named, {})
         self.metadata = mechanism.source().metadata
-        self._bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
+        self.bodies = frozenset(spell(body["name"]) for body in self.metadata["bodies"])
         self.meanings: dict[str, Meaning] = self._own(gravity)
         self.declared: set[str] = set()
         self.own = frozenset(declared or ())
@@ -273,7 +273,7 @@ class Symbols:
                 raise problem from None
 
     def _written_out(self, token: str, is_call: bool) -> str:
-        if is_call or (token in self.named.values and token not in self.declared) or token in self._bodies:
+        if is_call or (token in self.named.values and token not in self.declared) or token in self.bodies:
             return token
         name = token if token in self.meanings else self._spellings.find(folded(token)) if "." not in token else None
         found = self.meanings.get(name[0] if isinstance(name, tuple) else name or "")

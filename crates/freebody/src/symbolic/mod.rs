@@ -143,6 +143,11 @@ fn name_numbers(
         for id in [x, y] {
             name(id, ["g".into(), "gravity".into()], "m/s^2", "gravity".into());
         }
+    } else {
+        for (id, axis) in [(x, "x"), (y, "y")] {
+            let sign = if n.values[id] < 0.0 { "−" } else { "" };
+            name(id, [format!("g_{axis}"), format!("gravity_{axis}")], "m/s^2", format!("gravity along {sign}{axis}"));
+        }
     }
     for body in m.bodies.iter().filter(|body| body.mass_elements.len() == 1) {
         let (piece, of) = (&body.mass_elements[0], &body.name);

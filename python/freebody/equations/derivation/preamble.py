@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -113,8 +114,10 @@ def directions(subject: SymbolicState, arrows: Sequence[Arrow] = ()) -> Directio
             x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first
             links.append(Link(joint["name"], joint["first"], joint["second"], joint["coordinates"][0], float(np.arctan2(-y, -x))))
     motions = subject.motions
-    arrows = arrows or [a for b in motions for a in (b.r, b.v, b.a)]
-    return Directions.of(motions, arrows, [*subject.names, "t"], links, subject.values, subject.symbols.taken)
+    every = [*(a for b in motions for a in (b.r, b.v, b.a)), *arrows]  # so that each has one name, whatever is written in it
+    found = Directions.of(motions, every, [*subject.names, "t"], links, subject.values, subject.symbols.taken)
+    wanted = {part.angle for arrow in arrows or every for part in arrow.parts}
+    return replace(found, pairs=tuple(pair for pair in found.pairs if pair.angle in wanted))
 
 
 def nomenclature(known: Nomenclature, used: Collection[str]) -> list[Block]:
