@@ -136,7 +136,10 @@ def _tracks_data(tracks: Sequence[_Track], sketch: Sketch) -> list[dict[str, Any
             "figure": sketch.names.index(track.part.body),
             "others": [sketch.names.index(name) for name in sorted(track.load.touched - {track.part.body})],
         }
-        | {name: _column(values, least) for name, values, least in zip(("x", "y", "fx", "fy", "m"), track.columns.T, noise, strict=True)}
+        | {
+            name: _column(values, least)
+            for name, values, least in zip(("x", "y", "fx", "fy", "m"), track.columns.T, noise, strict=True)
+        }
         for track in tracks
     ]
 

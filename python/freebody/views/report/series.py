@@ -42,7 +42,10 @@ def plots(run: Run) -> list[dict[str, Any]]:
             made.append(_plot(title, unit, shown, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
     made += _reactions(shown)
     ledger = shown.energy
-    stored = [*(Curve(*entry) for entry in ledger.entries.items()), Curve("kinetic + potential", ledger.kinetic + ledger.potential)]
+    stored = [
+        *(Curve(*entry) for entry in ledger.entries.items()),
+        Curve("kinetic + potential", ledger.kinetic + ledger.potential),
+    ]
     made += [_plot("Energy", "J", shown, stored), _plot("Energy error", "J", shown, [Curve("balance", ledger.balance)])]
     return made if run.recorded else made + _asked(shown)
 
@@ -61,7 +64,9 @@ def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = 
         "title": title,
         "unit": pretty_unit(unit),
         "t": floats(breaks(run.t)),
-        "curves": [{"name": name, "y": floats(breaks(y, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves[:_CURVES]],
+        "curves": [
+            {"name": name, "y": floats(breaks(y, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves[:_CURVES]
+        ],
         "note": note,
     }
 
@@ -75,7 +80,8 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     sizes = [Curve(name, r.size, name) for name, r in known]
     made = [_plot("Reactions, size of the force", "N", run, sizes, note)] if known or silent else []
     held, turned = (
-        [Curve(plain(text), y, name) for name, each in held_by(run, unit).items() for text, y in each.items()] for unit in ("N", "N*m")
+        [Curve(plain(text), y, name) for name, each in held_by(run, unit).items() for text, y in each.items()]
+        for unit in ("N", "N*m")
     )
     what = "Contacts, strings, stops, locks and motions"
     made += [_plot(what, "N", run, held)] if held else []
