@@ -110,7 +110,15 @@ class StatementSymbols:
         """The symbols of the statement and of the vocabulary, with their rates."""
         known = self.vocabulary
         dotted = [Sym(n.name, dots) for n in known.coordinates for dots in range(3)]
-        return list(dict.fromkeys([*self.required, *known.parameters, *dotted, *known.others, *known.vectors]))
+        changing = [n for n in (Sym(n.name, 1) for n in known.others) if known.is_load(n) and self._has_rate(n)]
+        return list(dict.fromkeys([*self.required, *known.parameters, *dotted, *known.others, *changing, *known.vectors]))
+
+    def _has_rate(self, symbol: Sym) -> bool:
+        """Whether the model has what a symbol stands for, with its dots."""
+        try:
+            return bool(self._one(symbol).needed(symbol.dots))
+        except ModelProblem:
+            return False
 
     @cached_property
     def vocabulary(self) -> Vocabulary:

@@ -17,12 +17,13 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, walk
 
 from .coefficients import tidied
+from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
 from .families import NoMotion
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in
-from .residual import HOLDS, Residual, residual, unreached
+from .residual import HOLDS, Residual, magnitude, residual, unreached
 from .slips import unlikely, why
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 EQUAL = 0.35
 """Edits whose sizes differ by less are equally small."""
 _VAIN = 0.3  # more, for a correction by what is always 0
+_WITHIN = 0.5  # more, for one of what has been differentiated
 _FEW = 5  # states on which an edit is tried first
 _PROMISING = 1e-7  # worst residual there of one that is tried on all
 _BEST = 40  # single edits of which pairs are tried
@@ -46,6 +48,7 @@ _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
+_ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
 _REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"))
@@ -95,7 +98,8 @@ class _Found:
     def correction(self, given: str, why: str) -> Correction:
         edits = self.edits
         where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
-        return Correction(tuple(map(stated, edits)), spell(tidied(self.after)), self.size, where, given, why)
+        shown = edits[0].shown if len(edits) == 1 and edits[0].shown else self.after
+        return Correction(tuple(map(stated, edits)), spell(tidied(shown)), self.size, where, given, why)
 
 
 def stated(edit: Edit) -> tuple[str, str, str]:
@@ -161,6 +165,7 @@ class _Search:
         self.within = partial(case.budget.within, part=part)
         self.confirming = partial(case.budget.within, part=part + _CONFIRMING)
         self.fits = FittedEdits(self.values, self.vocabulary, self.within)
+        self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
         self.holds = _LINEAR if family.small else HOLDS
         self.right = self._worst(equation, self.values) < self.holds
 
@@ -173,6 +178,7 @@ class _Search:
             edits(self.equation, self.vocabulary),
             conventions(self.equation, self.vocabulary),
             self._fitted(self.equation) if readable else (),
+            self.differentiated,
         )
         return (_Found((edit,)) for edit in self._promising(found))
 
@@ -182,7 +188,8 @@ class _Search:
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def pairs(self) -> Iterator[_Found]:
-        """Pairs of the edits that bring it nearest, and of one of them and what is then found to be lacking."""
+        """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
+        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
         every = list(edits(self.equation, self.vocabulary))
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
@@ -194,7 +201,6 @@ class _Search:
         for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
             found = self._promising(self._fitted(first.after))
             yield from (_Found((first, edit)) for edit in found if (first.kind, edit.kind) not in _REPLACED)
-        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
         """The edits after which the least is left."""
@@ -216,7 +222,7 @@ class _Search:
             if (kept and size > least + EQUAL) or np.isinf(size):
                 break
             mark = self._mark(each.after)
-            idle = any(e.kind in _SWAPPED and e.new is not None and not self._moves(e.new) for e in each.edits)
+            idle = any(self._is_idle(edit, len(each.edits) > 1) for edit in each.edits)
             # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
             own = self.said & {n.key for n in symbols_in(each.after)}
             vacuous = own and self._worst(each.after, self.few | {key: self.free[key] for key in own}) < HOLDS
@@ -276,12 +282,17 @@ class _Search:
     def _size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
         odd = sum(unlikely(edit, self.equation, self.vocabulary, self.few, self.other) for edit in found.edits)
+        odd += _WITHIN * any(map(self.differentiated.is_within, found.edits))
         return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
+
+    def _is_idle(self, edit: Edit, beside_another: bool) -> bool:
+        """Whether an edit puts 0 in the place of something."""
+        return (beside_another or edit.kind in _SWAPPED) and edit.new is not None and not self._moves(edit.new)
 
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""
         try:
-            return bool(np.any(sampled(node, self.few)))
+            return bool(np.any(np.abs(sampled(node, self.few)) > _ROUND_OFF * magnitude(node, self.few)))
         except (KeyError, ValueError):
             return True
 

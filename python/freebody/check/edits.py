@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
+from typing import TypeVar
 
 from freebody.symbolic.dimensions import LENGTH, MASS, Dimension
 from freebody.symbolic.tree import (
@@ -29,10 +30,12 @@ from freebody.symbolic.tree import (
     walk,
 )
 
+from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation
 from .vocabulary import Vocabulary
 
+N = TypeVar("N", bound=Node)
 _LARGER = {
     "extra factor": 0.1,
     "missing factor": 0.1,
@@ -63,6 +66,7 @@ class Edit:
     after: Equation
     extra: float = 0.0
     words: str = ""
+    shown: Equation | None = None  # how the equation is printed, if not as it is evaluated
 
     @classmethod
     def at(cls, equation: Equation, kind: str, old: Node, new: Node, extra: float = 0.0) -> Edit:
@@ -211,6 +215,7 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     yield from _products(equation)
     yield from _functions(equation)
     yield from _powers(equation, vocabulary)
+    yield from _energies(equation, vocabulary)
     yield from _inertias(equation)
     yield from _sizes(equation, vocabulary)
     found = [n for n in walk(equation) if isinstance(n, Sym)]
@@ -235,10 +240,13 @@ def _convention(equation: Equation, changes: Mapping[Sym, Node], words: str) -> 
 
 def _everywhere(equation: Equation, changes: Mapping[Node, Node], words: str) -> Edit:
     """The edit of all parts that are one of some."""
-    after = equation
-    for part in [n for n in walk(equation) if n in changes]:
-        after = exchange(after, part, changes[part])
-    return Edit("convention", None, None, after, words=words)
+    return Edit("convention", None, None, _exchanged(equation, changes), words=words)
+
+
+def _exchanged(tree: N, changes: Mapping[Node, Node]) -> N:
+    for part in [n for n in walk(tree) if n in changes]:
+        tree = exchange(tree, part, changes[part])
+    return tree
 
 
 def _with_rates(name: str) -> list[Sym]:
@@ -266,14 +274,30 @@ def _functions(equation: Equation) -> Iterator[Edit]:
 
 
 def _powers(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """Every square of a length the length itself, as where a momentum is written like an energy, and the other way round."""
+    """Every square of a length the length itself, as where a momentum is written like an energy, and the other way round in a sum."""
     lengths = {n for n, its in vocabulary.parameters.items() if its == LENGTH}
     squares = {n: n.base for n in walk(equation) if isinstance(n, Pow) and n.base in lengths and n.exponent == Num(2.0)}
     if len(squares) > 1:
         yield _everywhere(equation, squares, "lengths that are squared, each by itself")
-    elif not squares and len(said := [n for n in lengths if any(n == part for part in walk(equation))]) > 1:
-        squared = {n: Pow(n, Num(2.0, "2")) for n in said}
-        yield _everywhere(equation, squared, "each length squared")
+    for whole in (n for n in walk(equation) if isinstance(n, Add)):
+        said = {n: Pow(n, Num(2.0, "2")) for n in walk(whole) if n in lengths}
+        if len(said) > 1 and not any(isinstance(n, Pow) and n.base in said for n in walk(whole)):
+            yield Edit.at(equation, "power", whole, _exchanged(whole, said))
+
+
+def _energies(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """½ of each kinetic energy, or twice."""
+    squared = lambda n: any(isinstance(p, Pow) and p.exponent == Num(2.0) and _is_speed(p.base, vocabulary) for p in walk(n))
+    sides = ((side.terms if isinstance(side, Add) else (side,)) for side in (equation.left, equation.right))
+    found = [term for side in sides for term in side if squared(term)]
+    if len(found) > 1:
+        for words, change in (("½ of", lambda n: Quotient(n, Num(2.0, "2"))), ("twice", lambda n: Mul((Num(2.0, "2"), n)))):
+            yield _everywhere(equation, {term: change(term) for term in found}, f"{words} each kinetic energy")
+
+
+def _is_speed(node: Node, vocabulary: Vocabulary) -> bool:
+    its = dimension(node, vocabulary.dimensions)
+    return its is not None and its.mass == 0 and its.time == -1
 
 
 def _inertias(equation: Equation) -> Iterator[Edit]:

@@ -304,8 +304,9 @@ def _constant(values: Array) -> float | None:
 
 def proportional(rows: Array, wanted: Array, same: float = _SAME) -> list[int]:
     """Rows that are ``wanted`` but for a factor."""
-    dots, sizes = rows @ wanted, np.sum(rows**2, axis=1)
-    off = np.abs(rows * (dots / sizes)[:, None] - wanted).max(axis=1)
+    with np.errstate(all="ignore"):
+        dots, sizes = rows @ wanted, np.sum(rows**2, axis=1)
+        off = np.abs(rows * (dots / sizes)[:, None] - wanted).max(axis=1)
     return np.flatnonzero(off <= same * np.abs(wanted).max()).tolist()
 
 

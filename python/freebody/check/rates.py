@@ -50,6 +50,10 @@ def _in_readings(expression: syntax.Expression) -> tuple[Node, dict[Sym, Node]]:
         elif not _moves(node) and not isinstance(node, Num):
             text = f"({expression.show(node)})"
             reading, rate = Sym(text), Sym("rate" + text)
+        elif isinstance(node, Fn) and node.name == "speed":  # v² = v · v, so v̇ = v · a/v
+            point = expression.show(node.args[0])
+            reading = Sym(f"speed({point})")
+            rate = Sym(f"((vx({point})*ax({point}) + vy({point})*ay({point}))/speed({point}))")
         else:
             waiting += children(node)
             continue

@@ -22,6 +22,7 @@ _OF_BODIES = (1 / 12, 1 / 4, 1 / 3, 2 / 5, 2 / 3)
 """Factors of moments of inertia, any of which is taken for another."""
 _ODD = 0.5
 _NEW = 0.15  # for each coordinate of which the equation did not speak, twice that for a force
+_PARTNER = 0.15  # by which a centripetal term is likelier beside its own second derivative
 _SAME = 1e-9
 
 
@@ -30,8 +31,9 @@ def unlikely(
 ) -> float:
     """By how much an edit is larger than its kind says; without bound where it would be no correction: a mass or an inertia below 0,
     another name of the same or of its opposite. ``values`` are those of true states, ``elsewhere`` of others."""
-    if edit.new is None:
-        return 0.0
+    if edit.new is None:  # what an equation is solved for does not go
+        sides = [_bare(side) for side in (equation.left, equation.right)]
+        return _ODD * (edit.kind == "extra term" and isinstance(edit.old, Sym) and edit.old in sides)
     if isinstance(edit.new, Negative) and dimension(edit.new, vocabulary.dimensions) in (MASS, INERTIA):
         return math.inf
     match edit.kind, edit.old, edit.new:
@@ -44,6 +46,8 @@ def unlikely(
             mixed = old in vocabulary.parameters and new not in vocabulary.parameters and not turns
             unsaid = new in vocabulary.others and new not in symbols_in(equation)
             return math.inf if same else _ODD * mixed + _NEW * unsaid
+        case "symbol", _, Add() as new:
+            return 3 * _NEW * sum(n not in symbols_in(equation) for n in symbols_in(new))
         case "missing term" | "other term", _, new:
             found = {n.name for n in symbols_in(new)} - {n.name for n in symbols_in(equation)}
             forces = [n for n in vocabulary.parameters if vocabulary.dimension(n) in (FORCE, ENERGY)]
@@ -54,8 +58,20 @@ def unlikely(
                 strange += [new] * (2 if strange else 1)
             strange += [n for n in walk(new) if isinstance(n, Add) and n not in {*walk(equation)}] * 2
             again = edit.kind == "missing term" and any(_is_multiple(new, term, elsewhere) for term in terms(equation))
-            return _NEW * len(strange) + _ODD * again
+            return _NEW * len(strange) + _ODD * again - _PARTNER * _is_centripetal(new, equation)
     return 0.0
+
+
+def _is_centripetal(term: Node, equation: Equation) -> bool:
+    """Whether the square of a rate stands in it beside the same as the second derivative in the equation."""
+    (squared, *others) = [n.base for n in walk(term) if isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1] or [
+        None
+    ]
+    if squared is None or others:
+        return False
+    sizes = {n for n in symbols_in(term) if not n.dots}
+    partners = (part for part in terms(equation, expand=True) if Sym(squared.name, 2) in symbols_in(part))
+    return any(sizes <= {*symbols_in(part)} for part in partners)
 
 
 def _bare(node: Node) -> Node:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from itertools import combinations, combinations_with_replacement, islice, permutations, product
 
-from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension, Known
+from freebody.symbolic.dimensions import ENERGY, LENGTH, NUMBER_ONLY, TIME, Dimension, Known
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Negative, Node, Num, Pow, Sym
 
 _DEGREE = 4  # of the product of parameters in a term: m l² has three, m l r g four
@@ -77,7 +77,7 @@ class Vocabulary:
         derivatives up to the ``highest``."""
         shapes = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
         accelerated = {Sym(q.name, 2) for q in self.coordinates if highest < 2}
-        dynamic = [each for each in (*self._dynamic(moving), *self._powers(wanted)) if not accelerated & {*each[0]}]
+        dynamic = [each for each in (*self._dynamic(moving), *self._works(wanted)) if not accelerated & {*each[0]}]
         for monomial in islice(self._monomials(wanted, dynamic), _MOST):
             for shape in shapes:
                 factors = (*monomial, *shape)
@@ -86,7 +86,7 @@ class Vocabulary:
     def shapes(self, wanted: Known, moving: Sequence[Sym] = (), angles: Sequence[Node] = ()) -> Iterator[tuple[Node, ...]]:
         """What changes with the motion, in equations of a dimension, times sines and cosines; plain ones first."""
         functions = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
-        dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._powers(wanted)))
+        dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
 
     def _is_rate(self, symbol: Sym) -> bool:
@@ -119,17 +119,22 @@ class Vocabulary:
         for q in self.coordinates:
             yield (Sym(q.name, 1),), self.dimension(Sym(q.name, 1))
 
-    def _powers(self, wanted: Known) -> Iterator[tuple[tuple[Node, ...], Known]]:
-        """What changes with the motion in a power: a rate times an acceleration or a force."""
+    def _works(self, wanted: Known) -> Iterator[tuple[tuple[Node, ...], Known]]:
+        """What changes with the motion in an energy, a couple times an angle, and in a power, a rate times an acceleration or a force."""
+        if wanted == ENERGY:
+            couples = (n for n in (*self.parameters, *self.others) if self.dimension(n) == ENERGY)
+            yield from (
+                ((couple, angle), ENERGY) for couple, angle in product(couples, self.coordinates) if angle in self.angular
+            )
         if wanted is None or wanted.time != _OF_POWER:
             return
         rates = [Sym(q.name, 1) for q in self.coordinates] + [n for n in self.others if self._is_rate(n)]
-        loads = [Sym(q.name, 2) for q in self.coordinates] + [n for n in self.others if self._is_load(n)]
+        loads = [Sym(q.name, 2) for q in self.coordinates] + [n for n in self.others if self.is_load(n)]
         for rate, load in product(rates, loads):
             yield (rate, load), _joined([self.dimension(rate), self.dimension(load)])
 
-    def _is_load(self, symbol: Sym) -> bool:
-        """Whether it is a force, a moment or an acceleration."""
+    def is_load(self, symbol: Sym) -> bool:
+        """Whether it is a force, a moment or an acceleration, by its dimension."""
         its = self.dimension(symbol)
         return its is not None and its.time == -2
 
