@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -17,8 +17,10 @@ _ROUND_OFF = 1e-7  # sizes of symbols, below which a length is what assembly lea
 _NO_TURN = 1e-9  # degrees, or of a curve's parameter: the same
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
 _LEAST = 0.35  # rad, the arc that shows the sense of an angle whose own cannot be seen
-_LEVELS = 5  # places further and further out where an arrow may keep off others
-_APART = 1.6  # sizes of symbols between two arrows
+_LEVELS = np.arange(5)  # places further and further out where an arrow may keep off others
+_NEARER = -0.9  # one for an angle that meets others on all of them
+_APART, _TOUCH = 1.6, 0.2  # sizes of symbols between two arrows, between an arc and an arrow
+_STUB = 5.2  # sizes of symbols that are shown of an arrow from far away
 _TWO_POINTS = "direction"
 _GAP = "gap"  # of a follower from its curve
 _OWN_ANGLE = "phi"  # of a body by itself
@@ -60,32 +62,40 @@ class _Asked:
     zero: float = 0.0
 
 
-def dimension_lines(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
-    """Every coordinate that can be drawn at the sketched state, off each other; ``radius`` of the arcs in sizes of symbols."""
-    return _apart(sketch, _asked(sketch), radius)
+@dataclass(frozen=True)
+class Paper:
+    """What coordinates are drawn on: ``radius`` of arcs in sizes of symbols; ``cut``: the bodies that are seen, None: all; ``far``
+    in m: of a longer arrow only the end is drawn; ``taken``: lines (k, 2) that are there already."""
+
+    radius: float = 3.4
+    cut: Collection[str] | None = None
+    far: float = np.inf
+    taken: Sequence[Array] = ()
 
 
-def places(sketch: Sketch, radius: float = 3.4) -> Iterator[DimensionLine]:
+_PAPER = Paper()
+
+
+def dimension_lines(sketch: Sketch, paper: Paper = _PAPER) -> Iterator[DimensionLine]:
+    """Every coordinate that can be drawn at the sketched state, off each other."""
+    return _apart(sketch, _asked(sketch), paper)
+
+
+def places(sketch: Sketch, paper: Paper = _PAPER) -> Iterator[DimensionLine]:
     """x and y of every mass centre from ``ground.O`` and the angle of every body that has one, as if each were free."""
-    return _apart(sketch, _as_if_free(sketch), radius)
+    return _apart(sketch, _as_if_free(sketch), paper)
 
 
-def _apart(sketch: Sketch, wanted: Iterable[_Asked], radius: float) -> Iterator[DimensionLine]:
-    taken: list[Array] = []
-    gap = _APART * sketch.size
+def _apart(sketch: Sketch, wanted: Iterable[_Asked], paper: Paper) -> Iterator[DimensionLine]:
+    taken = list(paper.taken)
     for asked in wanted:
         place = place_of(sketch, asked.joint)
-        if place is None:
+        if place is None or (paper.cut is not None and asked.second not in paper.cut):
             continue
-        angle, offered = asked.dimension == "rad", []
-        for level in range(_LEVELS):  # those of a higher one lie further out
-            aside = (2.6 + 2.4 * level) * sketch.size
-            if angle:
-                offered.append(_angle(sketch, asked, place, (1 + 0.35 * level) * radius * sketch.size))
-            else:
-                offered.append(_length(sketch, asked, place, aside) if asked.dimension else _along_curve(sketch, asked, aside))
-        clear = (each for each in offered if all(_distance(each[0], other, gap) > gap for other in taken))
-        arrow, guides, shown = next(clear, offered[0])
+        angle, offered = asked.dimension == "rad", list(_offers(sketch, asked, place, paper))
+        gap, ends = (_TOUCH * sketch.size, slice(1, -1)) if angle else (_APART * sketch.size, slice(None))
+        met = [sum(_distance(each[0][ends], other, gap) <= gap for other in taken) for each in offered]
+        arrow, guides, shown = offered[int(np.argmin(met))]
         taken.append(arrow)
         value, unit = (float(np.degrees(asked.value)), "°") if angle else (asked.value, f" {asked.dimension}".rstrip())
         stated = digits(value, _ROUND_OFF * sketch.size if asked.dimension == "m" else _NO_TURN) + unit
@@ -132,11 +142,26 @@ _Offered: TypeAlias = tuple[Array, list[Array], float]
 """A line from the zero of a coordinate on, its guides, and how far it goes: the value, or of one that is nearly 0 a little more."""
 
 
-def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Offered:
-    """About the joint to the second body's x axis, or about the first of two points to the second."""
+def _offers(sketch: Sketch, asked: _Asked, place: Array, paper: Paper) -> Iterator[_Offered]:
+    """The ways to draw a coordinate, further and further out, a length on either side."""
+    if asked.dimension == "rad":
+        for level in (*_LEVELS, _NEARER):
+            yield _angle(sketch, asked, place, (1 + 0.35 * level) * paper.radius * sketch.size, paper)
+        return
+    for aside in (2.6 + 2.4 * _LEVELS) * sketch.size:
+        if asked.dimension:
+            yield from (_length(sketch, asked, place, side * aside, paper.far) for side in (1, -1))
+        else:
+            yield _along_curve(sketch, asked, aside, paper.far)
+
+
+def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float, paper: Paper) -> _Offered:
+    """About the joint to the second body's x axis, or about the first of two points to the second; where the first is on no body
+    that is seen, about the second, which they hold."""
     if asked.word == _TWO_POINTS:
         at, along = _outwards(sketch, asked.joint)
         end = float(np.arctan2(*along[::-1]))
+        at = at if paper.cut is None or asked.first in paper.cut else place
     else:
         at, end = place, float(sketch.poses[0, sketch.names.index(asked.second), 2])
     turn = float(np.fmod(asked.value, 2 * np.pi))
@@ -145,7 +170,7 @@ def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float) -> _Offer
     return shapes.arc(at, radius, start, start + asked.sense * shown), guides, shown
 
 
-def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offered:
+def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float, far: float) -> _Offered:
     """Beside the way from where the joint would be at 0."""
     along = _way(sketch, asked)
     if asked.word == _GAP:  # measured to the rim of the follower
@@ -156,10 +181,13 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float) -> _Offer
     arrow = np.array([zero, zero + shown * asked.sense * along]) + left
     foot = sketch.place(asked.joint["with"]["of"][0]) if asked.word in _AXES else zero
     guides = [np.array([foot, arrow[0] + 0.2 * left])]
-    return arrow, [*guides, np.array([place, place + 1.2 * left])] if shown == asked.value else guides, shown
+    guides += [np.array([place, place + 1.2 * left])] * (shown == asked.value)
+    if abs(shown) > far:
+        return _end(arrow, _STUB * sketch.size), [], shown
+    return arrow, [guide for guide in guides if shapes.length(guide) <= far], shown
 
 
-def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:
+def _along_curve(sketch: Sketch, asked: _Asked, aside: float, far: float) -> _Offered:
     """Beside the curve from where the coordinate is 0."""
     curve = _curve_of(sketch, asked.joint)
     start = points_of_curve(sketch, curve, asked.zero + np.array([0.0, 1e-4]))
@@ -168,7 +196,16 @@ def _along_curve(sketch: Sketch, asked: _Asked, aside: float) -> _Offered:
     line = sketch.moved(curve["body"], points_of_curve(sketch, curve, asked.zero + asked.sense * np.linspace(0.0, end, 61)))
     slopes = np.gradient(line, axis=0) * np.sign(end) * asked.sense
     left = aside * np.column_stack([-slopes[:, 1], slopes[:, 0]]) / np.hypot(*slopes.T)[:, None]
+    if shapes.length(line) > far:
+        return _end(line + left, _STUB * sketch.size), [], end
     return line + left, [np.array([line[0], line[0] + 1.2 * left[0]])], end
+
+
+def _end(line: Array, length: float) -> Array:
+    """The last stretch of a polyline."""
+    left = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line[::-1], axis=0).T))])
+    shown = np.linspace(length, 0.0, len(line))
+    return np.column_stack([np.interp(shown, left, coordinate) for coordinate in line[::-1].T])
 
 
 def _curve_of(sketch: Sketch, joint: Mapping[str, Any]) -> Mapping[str, Any]:

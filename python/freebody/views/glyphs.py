@@ -15,6 +15,7 @@ from freebody.views import shapes
 from freebody.views.sketch import Cord, Sketch, Stroke
 
 Fields = Mapping[str, Any]
+_SLENDER, _WHEEL = 2.5, 0.9  # sizes of symbols: the width of a bar or particle at most; the radius of a roller
 
 
 def draw_joints(sketch: Sketch) -> None:
@@ -87,13 +88,14 @@ def _track(sketch: Sketch, line: Any, points: list[str], below: float) -> None:
 
 def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
     body, point, along = sketch.line(fields["line"])
-    height, right = 1.1 * sketch.size, np.array([along[1], -along[0]])
-    above = height
-    if any(len(stroke.points) == 4 for stroke in sketch.figures[body].strokes):  # the body is a block of its own
-        across = np.concatenate([(stroke.points - point) @ right for stroke in sketch.figures[body].strokes])
+    half, right = sketch.size * np.array(sketch.block), np.array([along[1], -along[0]])
+    height = above = float(half[1])
+    own = [stroke.points for stroke in sketch.figures[body].strokes if stroke.closed]
+    if any(shapes.width(outline) > _SLENDER * sketch.size for outline in own):  # the body is a block of its own
+        across = (np.vstack(own) - point) @ right
         height, above = float(across.max()), float(-across.min())
     else:
-        block = shapes.turn(shapes.box(3.6 * sketch.size, 2 * height), float(np.arctan2(along[1], along[0])), point)
+        block = shapes.turn(shapes.box(*2 * half), float(np.arctan2(along[1], along[0])), point)
         sketch.figures[body].add(block, "block")
     sketch.faces[name] = body, point + np.outer([height, -above], right)
     if isinstance(fields["line"], Mapping) and fields["line"]["point"]:
@@ -101,9 +103,12 @@ def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
 
 
 def _rollers(sketch: Sketch, name: str, fields: Fields) -> None:
-    for point in fields["points"]:
-        sketch.pin(point, 0.6)
-    _track(sketch, fields["along"], list(fields["points"]), 0.6 * sketch.size)
+    radius, (body, _) = _WHEEL * sketch.size, sketch.at[fields["points"][0]]
+    wheels = [shapes.circle(sketch.at[point][1], radius) for point in fields["points"]]
+    for wheel in wheels:
+        sketch.figures[body].add(wheel, "slot")
+    sketch.faces[name] = body, np.vstack(wheels)
+    _track(sketch, fields["along"], list(fields["points"]), radius)
 
 
 def _slot(sketch: Sketch, name: str, fields: Fields) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,10 +21,12 @@ if TYPE_CHECKING:
 AIR = 2.0  # pt about a label
 _FINE = 4  # text is measured on a grid this much finer than a point
 _DIRECTIONS = np.linspace(0, 2 * np.pi, 16, endpoint=False)
-_DISTANCES = (3.0, 7.0, 13.0, 22.0, 34.0, 48.0)
+_DISTANCES = (3.0, 7.0, 13.0, 22.0, 34.0, 48.0, 66.0, 90.0)
 _LED = 14.0  # pt from which a thin line leads to what is labelled
-_ALONG = np.linspace(0.1, 1.0, 8)  # of a leader, where it is looked at
+_ALONG = np.linspace(0.1, 1.0, 16)  # of a leader, where it is looked at
 _CROSSED = 1e3  # what a leader through a label costs
+_OWN = 5.0  # pt from its anchor, where a leader may be on a line
+_CELL = 2.0  # pt, by which it is looked up what a leader is on
 _OUTSIDE = 60.0  # what a pt beyond the frame costs
 _SWEEPS = 6
 _SIGN = re.compile(r"\\text(?:backslash|asciicircum|asciitilde)\{\}|\\[$#&]")
@@ -63,6 +65,24 @@ class Obstacles:
         """Layers of places with a weight each."""
         return cls(np.vstack([places for places, _ in layers]), np.concatenate([np.full(len(p), w) for p, w in layers]))
 
+    @cached_property
+    def _cells(self) -> tuple[Array, Array]:
+        """A lower left corner, and the worst of what is drawn in each cell of a grid from there on."""
+        low = self.places.min(axis=0)
+        cells = ((self.places - low) / _CELL).astype(int)
+        worst = np.zeros(cells.max(axis=0) + 1)
+        np.maximum.at(worst, tuple(cells.T), self.weights)
+        return low, worst
+
+    def at(self, places: Array) -> Array:
+        """How bad it is to draw over places (…, 2)."""
+        if not len(self.places):
+            return np.zeros(places.shape[:-1])
+        low, worst = self._cells
+        cells = np.floor((np.nan_to_num(places, nan=-1e9) - low) / _CELL).astype(int)
+        there = ((cells >= 0) & (cells < worst.shape)).all(axis=-1)
+        return np.where(there, worst[tuple(np.where(there[..., None], cells, 0).T)].T, 0.0)
+
 
 @dataclass(frozen=True)
 class _Choice:
@@ -79,24 +99,35 @@ class _Choice:
 def placed(labels: Sequence[Label], obstacles: Obstacles, frame: Array | None = None) -> list[Placed]:
     """Places for all labels, which should stay within a ``frame``, its lower left and upper right corner, if there is one."""
     choices = [_choice(label, obstacles, frame) for label in labels]
-    chosen = [-1] * len(labels)
-    order = sorted(range(len(labels)), key=lambda i: -float(np.prod(choices[i].half)))
-    for _ in range(_SWEEPS):
-        before = list(chosen)
-        for i in order:
-            mine, cost = choices[i], choices[i].cost.copy()
-            for j, at in enumerate(chosen):
-                if j != i and at >= 0:
-                    other, centre = choices[j], choices[j].centres[at]
-                    shared = np.prod(np.clip(mine.half + other.half - np.abs(mine.centres - centre), 0, None), axis=1)
-                    cost += 1e3 * shared
-                    cost += _CROSSED * (np.abs(mine.along - centre) < other.half).all(axis=2).any(axis=1)
-                    cost += _CROSSED * (np.abs(mine.centres[:, None] - other.along[at]) < mine.half).all(axis=2).any(axis=1)
-            chosen[i] = int(np.argmin(cost))
-        if chosen == before:
-            break
+    largest = sorted(range(len(labels)), key=lambda i: -float(np.prod(choices[i].half)))
+    forced = sorted(largest, key=lambda i: -float(np.median(choices[i].cost)))
+    _, chosen = min((_swept(choices, order) for order in (largest, forced, largest[::-1])), key=lambda found: found[0])
     found = [(label, c.centres[i], c.half, c.leaders[i]) for label, c, i in zip(labels, choices, chosen, strict=True)]
     return [Placed(*place, None if np.isnan(leader).any() else leader) for *place, leader in found]
+
+
+def _swept(choices: Sequence[_Choice], order: Sequence[int]) -> tuple[float, list[int]]:
+    """The cost of a set of places, and the set: each label in its turn takes its cheapest place beside the others, again and again."""
+    chosen = [-1] * len(choices)
+    for _ in range(_SWEEPS):
+        before, total = list(chosen), 0.0
+        for i in order:
+            others = [(choices[j], at) for j, at in enumerate(chosen) if j != i and at >= 0]
+            cost = choices[i].cost + sum(_between(choices[i], *other) for other in others)
+            chosen[i] = int(np.argmin(cost))
+            total += float(cost[chosen[i]])
+        if chosen == before:
+            break
+    return total, chosen
+
+
+def _between(mine: _Choice, other: _Choice, at: int) -> Array:
+    """What each place of a label costs (k,) beside another that has its place."""
+    centre = other.centres[at]
+    shared: Array = np.prod(np.clip(mine.half + other.half - np.abs(mine.centres - centre), 0, None), axis=1)
+    led = (np.abs(mine.along - centre) < other.half).all(axis=2).any(axis=1)
+    crossed = (np.abs(mine.centres[:, None] - other.along[at]) < mine.half).all(axis=2).any(axis=1)
+    return 1e3 * shared + _CROSSED * led + _CROSSED * crossed
 
 
 def _choice(label: Label, obstacles: Obstacles, frame: Array | None) -> _Choice:
@@ -121,6 +152,7 @@ def _choice(label: Label, obstacles: Obstacles, frame: Array | None) -> _Choice:
     leaders = np.stack([anchors, edges], axis=1)
     leaders[np.hypot(*(edges - anchors).T) <= _LED] = np.nan
     along = leaders[:, :1] + _ALONG[:, None] * (leaders[:, 1:] - leaders[:, :1])
+    cost += (obstacles.at(along) * (np.hypot(*(along - anchors[:, None]).T).T > _OWN)).sum(axis=1)
     return _Choice(half, centres, leaders, along, cost)
 
 

@@ -62,6 +62,9 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
         for points, style in shapes.piece_outlines(piece["shape"], sizes, corners, thickness):
             figure.add(shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), style, len(points) > 2)
+    masses = [stroke.points.mean(axis=0) for stroke in figure.strokes if stroke.style == "mass"]
+    if 1 < len(masses) == len(figure.strokes):  # held together by a bar without mass
+        figure.strokes.insert(0, Stroke(shapes.rounded_hull(np.array(masses), 0.6 * thickness), "body"))
     joined = {name for joint in sketch.spec["joints"] for name in named_points(joint["with"])}
     own = np.array([at for name, at in figure.points.items() if not name.endswith(".origin") or name in joined] or [(0.0, 0.0)])
     if any(stroke.style in ("body", "band", "mass") for stroke in figure.strokes):

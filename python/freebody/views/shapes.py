@@ -24,6 +24,12 @@ def length(line: Array) -> float:
     return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
+def width(outline: Array) -> float:
+    """How wide it is on the whole: its area by its largest extent."""
+    x, y = outline.T
+    return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2 / np.hypot(*(outline - outline[0]).T).max())
+
+
 def inside(outline: Array, places: Array) -> Array:
     """Which of some places (k, 2) are within an outline, (k,)."""
     from matplotlib.path import Path

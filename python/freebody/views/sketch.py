@@ -109,7 +109,9 @@ class Sketch:
         self.names = [GROUND, *(body["name"] for body in self.metadata["bodies"])]
         self.figures = {name: Figure(name) for name in self.names}
         self.faces: dict[str, tuple[str, Array]] = {}
-        """Of a slider by the name of its joint: its body, and where its two faces are (2, 2) in the body's frame, beside the joint's point."""
+        """Of sliders and rollers by the name of the joint: their body, and places (k, 2) in its frame that lie on what guides it."""
+        self.block = (1.8, 1.1)
+        """Half the length and height of the block of a slider, in sizes of symbols."""
         self.pairs: list[Pair] = []
         self.cords: list[Cord] = []
         self.traces: list[str] = []

@@ -94,7 +94,7 @@ def diagram(
 ) -> Diagram:
     """Free-body diagrams of groups of bodies (by default every body by itself) at a state, on a sheet as wide as a ``column`` in
     pt."""
-    near = free if scaled else _further(source, state, free)
+    near = _further(source, state, free)
     laws = None if scaled else Laws(source, state, free)
     chosen = chosen_groups(groups, free)
     labels = Labels(SymbolicState(source, state, given=free), free)
@@ -126,7 +126,7 @@ class DiagramBuilder:
     def per_newton(self) -> float | None:
         """The one scale of a sheet to scale, pt for each N: the largest of all its forces and m a is as long as the paper allows."""
         sketch = sketch_of_state(self.source, self.state)
-        sides = (acting.to_scale(self.free, group, self.labels, sketch, self.effective) for group in self.groups)
+        sides = (acting.to_scale(self.free, self.near, group, self.labels, sketch, self.effective) for group in self.groups)
         longest = max((each.size for forces, terms, _ in sides for each in forces + terms if not each.turns), default=0.0)
         return LONGEST / longest if longest > 0 else None
 
@@ -138,7 +138,7 @@ class DiagramBuilder:
         return cut
 
     def _cut(self, group: tuple[str, ...], size: float) -> Cut:
-        drawn = scenery(self.source, self.state, self.free, group, self.scaled, size)
+        drawn = scenery(self.source, self.state, self.free, group, size)
         crowd = len(group) > CROWD
         forces, terms, notes = self._sides(group, drawn)
         pushes = [action for action in forces + terms if not action.turns]
@@ -146,10 +146,13 @@ class DiagramBuilder:
         if per_newton is not None:
             short = [action.sign.plain for action in pushes if action.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
-        loaded, bare = replace(drawn, dimensions=[]) if crowd else drawn, drawn.bare()
-        panels = [Panel(loaded, arranged(forces, loaded, per_newton), group if len(group) > 1 else (), oriented=True)]
+        bare = drawn.bare()
+        angles = [each for each in drawn.measured(group, self.scaled, []).dimensions if each.angle and not crowd]
+        marks = arranged(forces, replace(drawn, dimensions=angles), per_newton)
+        measured = drawn.measured(group, self.scaled, [] if crowd else [mark.line for mark in marks])
+        panels = [Panel(drawn if crowd else measured, marks, group if len(group) > 1 else ())]
         if terms:
-            panels.append(Panel(bare, arranged(terms, bare, per_newton), (), oriented=False))
+            panels.append(Panel(bare, arranged(terms, bare, per_newton), ()))
         return Cut(
             "all bodies" if len(group) == len(self.free.bodies) > CROWD else " + ".join(group),
             panels,
@@ -157,7 +160,7 @@ class DiagramBuilder:
             notes + self.labels.renamed,
             vanishes=self.effective and not terms,
             unit=self.labels.unit,
-            apart=Panel(drawn, [], (), oriented=False) if crowd and drawn.dimensions else None,
+            apart=Panel(measured, [], ()) if crowd and measured.dimensions else None,
             column=self.column,
             laws=self.laws.stated(forces, self.column - 2 * MARGIN) if self.laws else (),
             group=group,
@@ -166,7 +169,7 @@ class DiagramBuilder:
     def _sides(self, group: tuple[str, ...], drawn: Scenery) -> tuple[list[Action], list[Action], list[str]]:
         """What acts, m a and I α, and remarks."""
         if self.scaled:
-            return acting.to_scale(self.free, group, self.labels, drawn.sketch, self.effective)
+            return acting.to_scale(self.free, self.near, group, self.labels, drawn.sketch, self.effective)
         forces = list(acting.symbolic(self.free, self.near, group, self.labels, drawn.sketch))
         return forces, list(acting.effective(self.free, self.near, group, self.labels)) if self.effective else [], []
 

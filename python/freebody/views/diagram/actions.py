@@ -15,6 +15,9 @@ from freebody.views.sketch import Sketch
 _ROUND_OFF = 1e-9
 """Relative to the largest force of a diagram, below which an arrow would show only round-off."""
 
+_NOTHING = 1e-12
+"""Relative to the largest force a little further on, below which there is none."""
+
 _ACROSS = 50.0
 """Sizes of symbols in a mechanism: how far a force may be from where its moment is taken."""
 _WAYS = ("to the right", "up and to the right", "up", "up and to the left", "to the left", "down and to the left", "down",
@@ -27,8 +30,7 @@ class Action:
     symbolic diagram ``force`` is a unit direction and ``couple`` a sign; to scale they are in N and N·m.
 
     ``name`` and ``kind`` are those of the load; ``kind`` ``effective`` is a term m a or I α. ``pulls``: it can only be drawn away
-    from its body, as the pull of a string is; ``presses``: it is drawn towards the surface that it presses on; ``bound``: a couple
-    that stands at the joint that passes it on or that it drives.
+    from its body, as the pull of a string is; ``presses``: it is drawn towards the surface that it presses on.
     """
 
     name: str
@@ -40,7 +42,6 @@ class Action:
     couple: float = 0.0
     loads: tuple[Load, ...] = ()
     pulls: bool = False
-    bound: bool = False
     presses: bool = False
 
     @property
@@ -86,19 +87,18 @@ def symbolic(free: FreeBodies, near: FreeBodies, group: Collection[str], labels:
 
 def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketch: Sketch) -> Action:
     at = attached(load, part, sketch)
-    bound = load.kind in ("joint", "friction", "motion", "lock") or not np.array_equal(at, part.point)
     others = [other.point for other in load.on if other is not part]
     pulls = load.card.pulls and force @ part.force > 0  # a string or a link; else a spring between two points
     if not load.card.pulls and load.kind == "force" and len(others) == 1:
         pulls = force @ np.subtract(others[0], part.point) > 0
     presses, size = load.card.presses and load.kind != "joint", float(np.hypot(*force))
     if load.kind == "joint" and load.name in sketch.faces and size > 0:
-        # A slider is pressed on the face that lies on its guide, not in its middle.
+        # A slider or roller is pressed where it lies on its guide, not in its middle.
         presses = True
         body, faces = sketch.faces[load.name]
         push = force / size if part.body == body else -force / size
         at = at + push * ((sketch.moved(body, faces) - at) @ push).min()
-    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), bool(pulls), bound, presses)
+    return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), bool(pulls), presses)
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
@@ -144,16 +144,17 @@ def _sense(load: Load, part: Part, sketch: Sketch) -> tuple[Array, float]:
 
 
 def to_scale(
-    free: FreeBodies, group: Collection[str], labels: Labels, sketch: Sketch, effective: bool
+    free: FreeBodies, near: FreeBodies, group: Collection[str], labels: Labels, sketch: Sketch, effective: bool
 ) -> tuple[list[Action], list[Action], list[str]]:
     """What acts on a group at the instant, the components of a pin's force together; m a and I α where asked for; and what
-    cannot be drawn, in words."""
+    cannot be drawn, in words. ``near``: the same a little further on, beside whose forces those of a mechanism at rest are 0."""
     loads = free.on(*group)
     forces = list(_acting(loads, group, labels, sketch))
-    terms = [term for name in group for term in _terms(free.bodies[name], labels, len(group) == 1)] if effective else []
+    terms = [term for name in group for term in _terms(free.bodies[name], labels)] if effective else []
     largest = max((action.size for action in forces + terms if not action.turns), default=0.0)
     turning = max([action.size for action in forces + terms if action.turns] + [largest * _ACROSS * sketch.size])
-    least = _ROUND_OFF * largest, _ROUND_OFF * turning
+    usual = max((abs(load.value) * float(np.hypot(*part.force)) for load in near.loads for part in load.on), default=0.0)
+    least = max(_ROUND_OFF * largest, _NOTHING * usual), max(_ROUND_OFF * turning, _NOTHING * usual * sketch.size)
 
     def seen(actions: list[Action]) -> list[Action]:
         return [action for action in actions if action.size > least[action.turns]]
@@ -196,21 +197,21 @@ def effective(free: FreeBodies, near: FreeBodies, group: Collection[str], labels
     that is massless only by a parameter's value, as ``near`` tells, they are there."""
     for name in group:
         body = replace(free.bodies[name], mass=near.bodies[name].mass, inertia=near.bodies[name].inertia, alpha=1.0)
-        for term in _terms(body if any(body.a) else replace(body, a=(1.0, 1.0)), labels, len(group) == 1):
+        for term in _terms(body if any(body.a) else replace(body, a=(1.0, 1.0)), labels):
             if term.turns:
                 yield replace(term, couple=1.0)
             elif len(group) > 1:
                 yield replace(term, force=term.force / np.hypot(*term.force))
             else:
                 for part, way in (("x", (1.0, 0.0)), ("y", (0.0, 1.0))):
-                    yield replace(term, sign=labels.mass(name) * labels.component(part), force=np.array(way))
+                    yield replace(term, sign=labels.mass(name) * labels.component(name, part), force=np.array(way))
 
 
-def _terms(body: Body, labels: Labels, alone: bool) -> Iterator[Action]:
+def _terms(body: Body, labels: Labels) -> Iterator[Action]:
     """m a and I α of a body, as far as they are not 0."""
     name = body.name
     plain = Action(name, "effective", Sign("", ""), name, np.array(body.G), np.zeros(2))
     if body.mass and any(body.a):
-        yield replace(plain, sign=labels.mass(name) * labels.acceleration(name, alone), force=body.mass * np.array(body.a))
+        yield replace(plain, sign=labels.mass(name) * labels.acceleration(name), force=body.mass * np.array(body.a))
     if body.inertia and not body.particle and body.alpha:
-        yield replace(plain, sign=labels.inertia(name) * labels.angular(name, alone), couple=body.inertia * body.alpha)
+        yield replace(plain, sign=labels.inertia(name) * labels.angular(name), couple=body.inertia * body.alpha)

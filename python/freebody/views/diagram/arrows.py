@@ -1,4 +1,4 @@
-"""Where arrows go on paper: forces at their points, couples as open circles, each where it covers least."""
+"""Where the arrows of forces go on paper: at their points, each where it covers least."""
 
 from __future__ import annotations
 
@@ -10,12 +10,14 @@ import numpy as np
 from freebody.core import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action
+from freebody.views.diagram.couples import CoupleArrow, couple_arrow
 from freebody.views.diagram.scenery import Scenery
 from freebody.views.shapes import dense
 
 LENGTH = 36.0  # pt of a symbolic arrow
 LONGEST = 72.0  # pt of the largest force to scale
-SHORTEST = 9.0  # pt below which an arrow is all head
+HEAD = 9.0  # pt, what an arrow head is scaled by
+SHORTEST = 14.0 + 0.62 * HEAD  # pt, with a shaft of 14
 _LONGER = (1.0, 1.5, 2.0)
 _ASIDES = (0.0, 6.0, -6.0, 11.0, -11.0)  # pt that one may be moved which else would be hidden
 _MOVED = 5.0  # what a pt of that costs; of a slider, whose couple makes up for it, less
@@ -27,11 +29,7 @@ _PASSING = 0.3  # what it costs of that to lie on each other at all: more than t
 _PARALLEL = 0.05  # rad, between arrows that could be taken for one
 _SWEEPS = 3
 _HEAD_ROOM = 13.0  # pt between two heads
-_RADII = (11.0, 15.0, 19.0, 23.0)
 _OWN = 6.0  # pt about its own point, where an arrow may meet others
-_TOWARDS = (0.0, 8.0, 16.0, 24.0)  # pt from its joint to the middle of its body at which the couple of a motor may stand
-_OPEN = np.deg2rad(80.0)
-_GAPS = np.linspace(0, 2 * np.pi, 8, endpoint=False)
 
 
 @dataclass(frozen=True)
@@ -59,15 +57,6 @@ class Arrow:
         return self.head if np.array_equal(self.tail, self.at) else self.tail
 
 
-@dataclass(frozen=True)
-class CoupleArrow:
-    """A couple on paper, in pt: an open circle with a head at the end of its ``line`` (k, 2)."""
-
-    action: Action
-    centre: Array
-    line: Array
-
-
 Mark = Arrow | CoupleArrow
 
 
@@ -87,7 +76,7 @@ def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | No
             break
     marks: list[Mark] = [arrow for arrow in chosen if arrow is not None]
     for action in (each for each in actions if each.turns):
-        marks.append(_bow(action, scenery, marks))
+        marks.append(couple_arrow(action, scenery, [mark.line for mark in marks]))
     return marks
 
 
@@ -150,27 +139,3 @@ def _near(places: Array, obstacles: Array, distance: float) -> int:
         return 0
     squares = np.subtract.outer(places[:, 0], obstacles[:, 0]) ** 2 + np.subtract.outer(places[:, 1], obstacles[:, 1]) ** 2
     return int((squares.min(axis=1) < distance**2).sum())
-
-
-def _bow(action: Action, scenery: Scenery, marks: Sequence[Mark]) -> CoupleArrow:
-    """A couple may stand anywhere on its body: that of a joint at it, that of its motor near it; else its own point comes first,
-    then the mass centre."""
-    own, centre = scenery.scale * action.at, scenery.centres[action.body]
-    parts = [min(0.5, step / (float(np.hypot(*(centre - own))) or 1.0)) for step in _TOWARDS]
-    parts = [0.0] if action.kind in ("joint", "friction") else parts if action.bound else [0.0, 1.0, 0.5, 0.75, 1.4]
-    places = [own + part * (centre - own) for part in parts]
-    turn, obstacles, others = np.sign(action.couple), scenery.obstacles, dense([mark.line for mark in marks])
-    best: tuple[float, CoupleArrow] | None = None
-    for rank, place in enumerate(places):
-        for radius in _RADII:
-            if best is not None and 5.0 * rank + 0.6 * radius >= best[0]:
-                break
-            for gap in _GAPS:
-                start = gap + turn * _OPEN / 2
-                line = shapes.arc(place, radius, start, start + turn * (2 * np.pi - _OPEN))
-                covered = 5.0 * _near(line[::2], others, 3.5) + _near(line[::2], obstacles, 2.5)
-                cost = covered + 12.0 * _near(line[-2:], others, 7.0) + 5.0 * rank + 0.6 * radius
-                if best is None or cost < best[0]:
-                    best = cost, CoupleArrow(action, place, line)
-    assert best is not None
-    return best[1]

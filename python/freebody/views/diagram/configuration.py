@@ -47,7 +47,7 @@ class Configuration(Picture):
     def rows(self) -> list[Row]:
         """One row of one panel."""
         names = [body["name"] for body in self.source.metadata["bodies"]]
-        return [Row("", [Panel(self.scenery, [], names, oriented=True)], None, [])]
+        return [Row("", [Panel(self.scenery, [], names)], None, [])]
 
     @property
     def description(self) -> str:

@@ -28,21 +28,22 @@ class _Jumps(Labels):
         assert isinstance(self.subject, ImpulsiveState)
         return self.subject.impulses
 
-    def acceleration(self, body: str, alone: bool) -> Sign:
+    def acceleration(self, body: str) -> Sign:
         """Of the jump of the velocity of a body's mass centre."""
-        return _jump(Sign.of(self._of_body("v", body, alone), bold=True))
+        return _jump(Sign.of(self._of_body("v", body), bold=True))
 
-    def component(self, part: str) -> Sign:
+    def component(self, body: str, part: str) -> Sign:
         """Of a component of that jump."""
-        return Sign(rf"\Delta v_{part}", f"Δv_{part}")
+        name = self._of_body("v", body)
+        return _jump(Sign.of(replace(name, below=(*name.below, part))))
 
-    def angular(self, body: str, alone: bool) -> Sign:
+    def angular(self, body: str) -> Sign:
         """Of the jump of the angular velocity."""
-        return _jump(Sign.of(self._of_body("omega", body, alone)))
+        return _jump(Sign.of(self._of_body("omega", body)))
 
 
 def _jump(of: Sign) -> Sign:
-    return Sign(rf"\Delta{of.latex}", f"Δ{of.plain}")
+    return Sign(rf"\Delta {of.latex}", f"Δ{of.plain}")
 
 
 def impulse_diagram(

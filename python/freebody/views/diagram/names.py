@@ -98,23 +98,24 @@ class Labels:
     def _written(self, tree: Tree) -> Sign:
         return Sign(latex(tree, self.subject.nomenclature), text(tree, self.subject.nomenclature))
 
-    def acceleration(self, body: str, alone: bool) -> Sign:
-        """Of the acceleration of a body's mass centre, by itself or among several."""
-        return Sign.of(self._of_body("a", body, alone), bold=True)
+    def acceleration(self, body: str) -> Sign:
+        """Of the acceleration of a body's mass centre."""
+        return Sign.of(self._of_body("a", body), bold=True)
 
-    def component(self, part: str) -> Sign:
-        """Of a component, x or y, of the acceleration of a body's mass centre."""
-        return Sign.of(Name("a", (part,)))
+    def component(self, body: str, part: str) -> Sign:
+        """Of a component, x or y, of that acceleration."""
+        name = self._of_body("a", body)
+        return Sign.of(replace(name, below=(*name.below, part)))
 
-    def angular(self, body: str, alone: bool) -> Sign:
-        """Of the angular acceleration of a body, by itself or among several."""
-        taken, wanted = self.subject.symbols.taken, self._of_body("alpha", body, alone)
-        what = "the angular acceleration" + f" of {body}" * bool(wanted.below)
-        return Sign.of(taken.give(what, wanted, Name("angular acceleration", wanted.below)))
+    def angular(self, body: str) -> Sign:
+        """Of the angular acceleration of a body: ω with a dot where α is something else."""
+        alpha, omega = (self._of_body(stem, body) for stem in ("alpha", "omega"))
+        return Sign.of(omega, dots=1) if self.subject.symbols.taken.owner(alpha) else Sign.of(alpha)
 
-    def _of_body(self, stem: str, body: str, alone: bool) -> Name:
+    def _of_body(self, stem: str, body: str) -> Name:
+        """A letter with its body below, if there are several."""
         heavy = [motion for motion in self.subject.motions if not is_zero(motion.mass)]
-        return Name(stem) if alone or len(heavy) == 1 else Name.parse(f"{stem}_{body}")
+        return Name(stem) if len(heavy) == 1 else Name.parse(f"{stem}_{body}")
 
 
 def symbol(name: str) -> str:

@@ -9,17 +9,16 @@ from functools import cached_property
 import numpy as np
 
 from freebody.core import Array
+from freebody.views import shapes
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import Arrow, Mark
+from freebody.views.diagram.couples import CoupleArrow
 from freebody.views.diagram.scenery import Scenery
 from freebody.views.labels import Label, Obstacles, Placed, mathtext, placed
-from freebody.views.shapes import dense
 from freebody.views.style import GROUND as GREY
 from freebody.views.style import INK
 
 REACTION, LOAD, EFFECTIVE, MEASURE = "#b3261e", "#0b5fa5", "#1b7f3b", "#7a1fa2"
-AXES = 24.0  # pt, length of the arrows that show x and y
-_CORNER = AXES + 14.0
 _REACTIONS = ("joint", "contact", "string", "stop", "friction")
 
 
@@ -30,34 +29,31 @@ def tone(action: Action) -> str:
 
 @dataclass(frozen=True)
 class Panel:
-    """All that is drawn, in pt. ``names``: the bodies that are named; ``oriented``: x and y are shown."""
+    """All that is drawn, in pt. ``names``: the bodies that are named."""
 
     scenery: Scenery
     marks: list[Mark]
     names: Sequence[str]
-    oriented: bool
 
     @cached_property
     def labels(self) -> list[Placed]:
         """Every symbol in its place."""
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
-        obstacles = Obstacles.of((self.scenery.obstacles, 3.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0))
+        held = [each.centre + 0.5 * (each.line - each.centre) for each in self.marks if isinstance(each, CoupleArrow)]
+        obstacles = Obstacles.of(
+            (shapes.dense(held), 9.0), (self.scenery.obstacles, 12.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0)
+        )
         return placed(list(self._wanted()), obstacles)
-
-    @cached_property
-    def axes(self) -> Array | None:
-        """Where x and y are shown, if they are."""
-        return _corner(self._inside(), self.labels, self.scenery, self._arrows) if self.oriented else None
 
     def box(self) -> tuple[Array, Array]:
         """Lower left and upper right corner of everything."""
-        axes = [] if self.axes is None else [np.array([self.axes - 3, self.axes + _CORNER])]
-        everything = np.vstack([*self._inside(), *axes])
+        written = [np.array([label.centre - label.half, label.centre + label.half]) for label in self.labels]
+        everything = np.vstack([self.scenery.obstacles, *(mark.line for mark in self.marks), *written])
         return everything.min(axis=0), everything.max(axis=0)
 
     @cached_property
     def _arrows(self) -> Array:
-        return dense([*(mark.line for mark in self.marks), *(each.arrow for each in self.scenery.dimensions)], 1.5)
+        return shapes.dense([*(mark.line for mark in self.marks), *(each.arrow for each in self.scenery.dimensions)], 1.5)
 
     def _wanted(self) -> Iterator[Label]:
         for mark in self.marks:
@@ -74,27 +70,3 @@ class Panel:
             yield Label(f"${mathtext(tag.text)}$", tag.at[None], 9.0, INK)
         for name in self.names:
             yield Label(name.replace("$", r"\$"), self.scenery.centres[name][None], 9.0, GREY, bold=True)
-
-    def _inside(self) -> list[Array]:
-        return [self.scenery.obstacles, *(mark.line for mark in self.marks), *_corners(self.labels)]
-
-
-def _corners(labels: Sequence[Placed]) -> list[Array]:
-    return [np.array([label.centre - label.half, label.centre + label.half]) for label in labels]
-
-
-def _corner(inside: Sequence[Array], labels: Sequence[Placed], scenery: Scenery, arrows: Array) -> Array:
-    """Where the axes are in nobody's way: the free place nearest to the lower left corner, or outside of it."""
-    low, high = np.vstack(inside).min(axis=0), np.vstack(inside).max(axis=0)
-    obstacles, boxes = np.vstack([scenery.obstacles, arrows]), _corners(labels)
-    spots = [
-        np.array([x, y]) for x in np.arange(low[0], high[0] - _CORNER, 6.0) for y in np.arange(low[1], high[1] - _CORNER, 6.0)
-    ]
-    for at in sorted(spots, key=lambda spot: float(np.abs(spot - low).sum())):
-        start, end = at - 8, at + _CORNER
-        written = any((lower < end).all() and (upper > start).all() for lower, upper in boxes)
-        if written or ((obstacles > start) & (obstacles < end)).all(axis=1).any():
-            continue
-        if not scenery.within(np.array([start, end, (start + end) / 2])):
-            return at
-    return np.array([low[0], low[1] - _CORNER])

@@ -9,8 +9,9 @@ import numpy as np
 
 from freebody.core import Array
 from freebody.views import shapes
-from freebody.views.diagram.arrows import CoupleArrow
-from freebody.views.diagram.panel import AXES, MEASURE, Panel, tone
+from freebody.views.diagram.arrows import HEAD
+from freebody.views.diagram.couples import CoupleArrow
+from freebody.views.diagram.panel import MEASURE, Panel, tone
 from freebody.views.diagram.rows import LINE, MARGIN, NOTE, TITLE, Laid, Row, laid
 from freebody.views.labels import write
 from freebody.views.render import patch
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 _PAGE = 700.0  # pt, 247 mm: the height of the text of a page
 _ROWS = 22.0  # pt between rows
 _PIN = 2.6  # pt
+_AXES = 24.0  # pt, length of the arrows that show x and y
+_CORNER = _AXES + 22.0  # pt below the rows, for them
 
 
 def sheet(rows: Sequence[Row]) -> Figure:
@@ -33,7 +36,7 @@ def sheet(rows: Sequence[Row]) -> Figure:
 
     placed = [laid(row) for row in rows]
     width = max(each.size[0] for each in placed) + 2 * MARGIN
-    height = sum(each.size[1] for each in placed) + _ROWS * (len(rows) - 1) + 2 * MARGIN
+    height = sum(each.size[1] for each in placed) + _ROWS * (len(rows) - 1) + _CORNER + 2 * MARGIN
     with quiet():
         figure = Figure(figsize=(width / 72, height / 72), dpi=72)
         FigureCanvasAgg(figure)
@@ -44,18 +47,19 @@ def sheet(rows: Sequence[Row]) -> Figure:
         for row, each in zip(rows, placed, strict=True):
             _row(ax, row, each, np.array([MARGIN, top]))
             top -= each.size[1] + _ROWS
+        _axes(ax, np.array([MARGIN + 3.0, MARGIN + 3.0]))
     return figure
 
 
 def parted(rows: Sequence[Row]) -> Iterator[list[Row]]:
     """Rows page by page, as many on each as it takes; a higher one has a page of its own."""
     page: list[Row] = []
-    left = _PAGE
+    left = _PAGE - _CORNER
     for row in rows:
         high = float(laid(row).size[1]) + _ROWS
         if page and high > left:
             yield page
-            page, left = [], _PAGE
+            page, left = [], _PAGE - _CORNER
         page.append(row)
         left -= high
     yield page
@@ -94,12 +98,15 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
         if not any(np.hypot(*(pin - tag.at)) < 1.0 for pin in scenery.pins):
             ax.plot(*(tag.at + shift), "o", ms=2.6, color=INK, zorder=4)
     for mark in panel.marks:
-        _arrow(ax, mark.line + shift, tone(mark.action), 1.3 if isinstance(mark, CoupleArrow) else 1.6, 9.0)
+        _arrow(ax, mark.line + shift, tone(mark.action), 1.3 if isinstance(mark, CoupleArrow) else 1.6, HEAD)
     write(ax, panel.labels, lambda at: at + shift)
-    for way, text in () if panel.axes is None else ((np.array([1.0, 0.0]), "$x$"), (np.array([0.0, 1.0]), "$y$")):
-        corner = panel.axes + shift
-        _arrow(ax, np.array([corner, corner + AXES * way]), GREY, 1.0, 7.0)
-        at = corner + (AXES + 7.0) * way
+
+
+def _axes(ax: Axes, corner: Array) -> None:
+    """The directions of x and y, once a sheet."""
+    for way, text in ((np.array([1.0, 0.0]), "$x$"), (np.array([0.0, 1.0]), "$y$")):
+        _arrow(ax, np.array([corner, corner + _AXES * way]), GREY, 1.0, 7.0)
+        at = corner + (_AXES + 7.0) * way
         ax.text(*at, text, fontsize=9.0, color=GREY, ha="center", va="center", zorder=6, label="label")
 
 

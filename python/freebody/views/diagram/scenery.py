@@ -14,7 +14,7 @@ from freebody.core.cards import joints
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action, attached
 from freebody.views.diagram.names import symbol
-from freebody.views.dimension_lines import DimensionLine, dimension_lines
+from freebody.views.dimension_lines import DimensionLine, Paper, dimension_lines
 from freebody.views.draw import UNNAMED
 from freebody.views.scene import drawn
 from freebody.views.sketch import Drawn, Sketch, sketch_of_state
@@ -26,17 +26,17 @@ _WIDEST = 400.0, 300.0  # pt, what more may take
 CROWD = 3  # bodies of which a diagram has room for the names, the loads and the coordinates
 _LARGEST = 30.0  # pt for the size of a symbol in the whole mechanism, so that a small body is not drawn as large as a large one
 _FAR = 60.0  # pt, longest arrow of a coordinate on a small body
-_STUB = 26.0  # pt, what is shown of a longer one
 _FURTHER = 6.0  # extents of the bodies, how long an arrow may be that they are drawn smaller for
 _POINT = 4.0  # sizes of symbols, below which a mechanism is no more than a point
 _NEARBY = 40.0  # pt about all else, in which points of ground are shown
 _RADIUS = 5.0  # sizes of symbols, of the arcs of angles
 _BESIDE = 8.0  # pt from its body at which a force hangs in the air
+_BLOCK, _SMALL_BLOCK = (5.6, 2.6), (3.2, 1.6)  # sizes of symbols, half of a block by itself, or among others
 _LOOSE = ("rail", "slot", "hatch")
 _SOLID = ("body", "block", "band", "mass")
 _CUT = ("pin", "weld")
-Dimensioned: TypeAlias = Callable[[Sketch, float], Iterable[DimensionLine]]
-"""What finds coordinates to draw in a sketch; the number is the radius of arcs in sizes of symbols."""
+Dimensioned: TypeAlias = Callable[[Sketch, Paper], Iterable[DimensionLine]]
+"""What finds coordinates to draw in a sketch."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +91,13 @@ class Scenery:
         """Whether any of some places (k, 2) is on a body."""
         return any(shapes.inside(outline, places).any() for outline in self.solids)
 
+    def measured(self, group: Sequence[str], scaled: bool, taken: Sequence[Array]) -> Scenery:
+        """With the coordinates that say where the group's bodies are, off lines that are ``taken``."""
+        far = max(extent(self.strokes), _FAR) / self.scale
+        blocks = [stroke.line for stroke in self.strokes if stroke.style == "block"]
+        paper = Paper(_RADIUS, group, far, [line / self.scale for line in (*taken, *blocks)])
+        return replace(self, dimensions=_dimensions(self.sketch, self.strokes, self.scale, scaled, paper, dimension_lines))
+
     @cached_property
     def obstacles(self) -> Array:
         """Places (k, 2) all along what is drawn, a few pt apart."""
@@ -98,13 +105,11 @@ class Scenery:
         return shapes.dense([*(stroke.line for stroke in self.strokes), *self.inner, *dimensions])
 
 
-def scenery(
-    source: CompiledModel, state: State, free: FreeBodies, group: Sequence[str], scaled: bool, size: float = 1.0
-) -> Scenery:
-    """The bodies of a group as large as the paper allows, or ``size`` of that."""
+def scenery(source: CompiledModel, state: State, free: FreeBodies, group: Sequence[str], size: float = 1.0) -> Scenery:
+    """The bodies of a group, without coordinates, as large as the paper allows, or ``size`` of that."""
     width, height = _ROOM if len(group) == 1 else _WIDER if len(group) <= CROWD else _WIDEST
-    room = size * width, size * height
-    sketch, scale = _fitted(source, state, room, lambda sketch: [each.points for each in _strokes(sketch, group, 1.0)])
+    room, block = (size * width, size * height), _BLOCK if len(group) == 1 else _SMALL_BLOCK
+    sketch, scale = _fitted(source, state, room, lambda sketch: [each.points for each in _strokes(sketch, group, 1.0)], block)
     strokes = _strokes(sketch, group, scale)
     strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
@@ -114,9 +119,12 @@ def scenery(
     places = np.reshape([attached(load, part, sketch) for load, part in cut], (-1, 2))
     pins = scale * np.unique(np.round(places, 12), axis=0)
     points = _points(sketch, group, centres, scale)
-    across = float(np.hypot(*np.ptp(np.vstack([s.points for s in strokes] or [np.zeros((1, 2))]), axis=0)))
-    dimensions = _dimensions(sketch, group, strokes, scale, scaled, max(across, _FAR), dimension_lines(sketch, _RADIUS))
-    return Scenery(strokes, inner, pins, centres, points, dimensions, scale, sketch)
+    return Scenery(strokes, inner, pins, centres, points, [], scale, sketch)
+
+
+def extent(strokes: Sequence[Drawn]) -> float:
+    """From corner to corner of the box about some strokes."""
+    return float(np.hypot(*np.ptp(np.vstack([stroke.points for stroke in strokes] or [np.zeros((1, 2))]), axis=0)))
 
 
 def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension_lines) -> Scenery:
@@ -128,14 +136,14 @@ def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension
         lines = [stroke.points for stroke in _strokes(sketch, [GROUND, *names], 1.0)] + _joining(sketch)
         across = float(np.hypot(*np.ptp(np.vstack(lines), axis=0)))
         far = _FURTHER * across if across > _POINT * sketch.size else np.inf
-        return lines + [m.arrow for m in measured(sketch, _RADIUS) if np.hypot(*np.ptp(m.arrow, axis=0)) < far]
+        return lines + [m.arrow for m in measured(sketch, Paper(_RADIUS)) if np.hypot(*np.ptp(m.arrow, axis=0)) < far]
 
-    sketch, scale = _fitted(source, state, _WIDEST, seen)
+    sketch, scale = _fitted(source, state, _WIDEST, seen, _SMALL_BLOCK)
     strokes = _strokes(sketch, [GROUND, *names], scale, hidden=())
     inner = [scale * line for line in _joining(sketch)]
     centres = {name: scale * sketch.place(f"{name}.G") for name in names}
-    far, wanted = float(np.hypot(*_WIDEST)), measured(sketch, _RADIUS)
-    dimensions = _dimensions(sketch, [GROUND, *names], strokes, scale, False, far, wanted)
+    paper = Paper(_RADIUS, far=float(np.hypot(*_WIDEST)) / scale)
+    dimensions = _dimensions(sketch, strokes, scale, False, paper, measured)
     made = Scenery(strokes, inner, np.zeros((0, 2)), centres, [], dimensions, scale, sketch)
     low, high = made.obstacles.min(axis=0) - _NEARBY, made.obstacles.max(axis=0) + _NEARBY
     points = _points(sketch, [GROUND, *names], centres, scale)
@@ -143,7 +151,11 @@ def whole(source: CompiledModel, state: State, measured: Dimensioned = dimension
 
 
 def _fitted(
-    source: CompiledModel, state: State, room: tuple[float, float], seen: Callable[[Sketch], list[Array]]
+    source: CompiledModel,
+    state: State,
+    room: tuple[float, float],
+    seen: Callable[[Sketch], list[Array]],
+    block: tuple[float, float],
 ) -> tuple[Sketch, float]:
     """What is drawn, and the scale in pt for each m at which what is ``seen`` of it fills the room."""
     sketch = drawn(sketch_of_state(source, state))
@@ -152,7 +164,7 @@ def _fitted(
         extent = np.ptp(np.vstack(seen(sketch) or [np.zeros((1, 2))]), axis=0)
         scale = float(min([size / along for size, along in zip(room, extent, strict=True) if along > 0] + [_LARGEST / least]))
         sketch = sketch_of_state(source, state)
-        sketch.size = SYMBOL / scale
+        sketch.size, sketch.block = SYMBOL / scale, block
         drawn(sketch)
     return sketch, scale
 
@@ -203,32 +215,13 @@ def _points(sketch: Sketch, group: Collection[str], centres: dict[str, Array], s
 
 
 def _dimensions(
-    sketch: Sketch,
-    group: Collection[str],
-    strokes: Sequence[Drawn],
-    scale: float,
-    scaled: bool,
-    far: float,
-    measured: Iterable[DimensionLine],
+    sketch: Sketch, strokes: Sequence[Drawn], scale: float, scaled: bool, paper: Paper, measured: Dimensioned
 ) -> list[Dimension]:
-    """The coordinates that say where the group's bodies are; of an arrow that comes from far away, its end."""
+    """Coordinates on paper; ``scaled``: with their values."""
     found = []
-    for measure in measured:
-        if measure.second not in group:
-            continue
+    for measure in measured(sketch, paper):
         value = rf" = \mathrm{{{measure.value}}}".replace(" m}", r"\ m}").replace("°", r"^\circ") if scaled else ""
         arrow, guides = scale * measure.arrow, [scale * guide for guide in measure.guides]
-        length = shapes.length(arrow)
-        aside = scale * measure.place - guides[0][0]
-        if measure.angle and measure.first not in group and np.hypot(*aside) > 1.0:
-            # The vertex is not on these bodies: the same angle at what they are held by.
-            end = arrow[0 if measure.below else -1] - guides[0][0]
-            guides = [guides[0] + aside, scale * measure.place + np.outer([0.0, 1.25], end)]
-            arrow = arrow + aside
-        elif not measure.angle and length > far:
-            arrow, guides = _end(arrow[::-1], _STUB)[::-1] if measure.below else _end(arrow, _STUB), []
-        elif not measure.angle:
-            guides = [guide for guide in guides if np.hypot(*(guide[1] - guide[0])) <= far]
         axis = _axis(measure.second, guides[1], strokes) if measure.of_axis else None
         found.append(Dimension(symbol(measure.coordinate) + value, arrow, guides, measure.angle, axis))
     return found
@@ -242,10 +235,3 @@ def _axis(body: str, guide: Array, strokes: Sequence[Drawn]) -> Tag | None:
     if not own or lies or np.hypot(*(seen - guide[1]).T).min() < SYMBOL:
         return None
     return Tag(symbol(f"x_{body}"), guide[1])
-
-
-def _end(line: Array, length: float) -> Array:
-    """The last stretch of a polyline."""
-    left = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line[::-1], axis=0).T))])
-    shown = np.linspace(length, 0.0, len(line))
-    return np.column_stack([np.interp(shown, left, coordinate) for coordinate in line[::-1].T])

@@ -1,0 +1,174 @@
+"""The drafting standard of docs/diagrams.md, held on the data of the drawings of every model."""
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+import store
+from store import WITHOUT_ANSWER, every, mechanism
+from store import diagram as drawn
+
+from freebody.views.diagram.arrows import Arrow
+from freebody.views.diagram.configuration import Configuration
+from freebody.views.labels import AIR
+from freebody.views.shapes import dense, inside
+
+SHAFT, HEAD = 14.0, 5.6  # pt
+BLUNT = 1.5  # pt at an end of a line, where it may touch what it ends on
+FULL = 12  # labels on a panel, beyond which there may be no room for all
+SOLID = ("body", "block", "band", "mass")
+every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER))
+sheets = pytest.mark.parametrize(("of", "to_scale"), [(None, False), (None, True), ("all", False)])
+
+
+def panels(model, of, to_scale, full=FULL):
+    """The halves of all diagrams of a sheet, but those that are full."""
+    for cut in drawn(model, of, to_scale).cuts:
+        for panel in (*cut.panels, *([cut.apart] if cut.apart else [])):
+            if len(panel.labels) <= full:
+                yield panel
+
+
+def forces(panel):
+    return [mark for mark in panel.marks if isinstance(mark, Arrow)]
+
+
+def couples(panel):
+    return [mark for mark in panel.marks if not isinstance(mark, Arrow)]
+
+
+def boxes(panel):
+    return [(label.centre - label.half + AIR, label.centre + label.half - AIR, label.label.text) for label in panel.labels]
+
+
+def passes(lines, low, high):
+    """Whether one of some lines goes through a box; ``lines`` as places that are close to each other."""
+    return bool(((lines > low) & (lines < high)).all(axis=1).any())
+
+
+def blunted(line, by=BLUNT):
+    """A polyline without its ends."""
+    ways = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    if ways[-1] < 3 * by:
+        return line
+    kept = np.array([by, *ways[(ways > by) & (ways < ways[-1] - by)], ways[-1] - by])
+    return np.column_stack([np.interp(kept, ways, coordinate) for coordinate in line.T])
+
+
+def cross(one, other):
+    """Whether two polylines meet, but for their ends."""
+    (p, d), (r, e) = ((line[:-1], np.diff(line, axis=0)) for line in (blunted(one), blunted(other)))
+    w = r[None] - p[:, None]
+    turned = d[:, None, 0] * e[None, :, 1] - d[:, None, 1] * e[None, :, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = (w[..., 0] * e[None, :, 1] - w[..., 1] * e[None, :, 0]) / turned
+        t = (w[..., 0] * d[:, None, 1] - w[..., 1] * d[:, None, 0]) / turned
+    return bool(((s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)).any())
+
+
+def test_what_meets_is_seen_to_meet():
+    """The two looks of this file can tell what is right from what is wrong."""
+    across, up = np.array([[0.0, 5.0], [20.0, 5.0]]), np.array([[10.0, 0.0], [10.0, 20.0]])
+    assert cross(across, up) and not cross(across + (0, 16), up) and not cross(across + (10, 0), up)
+    line = dense([across], 1.0)
+    assert passes(line, np.array([8.0, 0.0]), np.array([12.0, 9.0])) and not passes(line, np.zeros(2), np.array([9.0, 4.0]))
+
+
+@every_model
+@sheets
+def test_every_arrow_has_a_shaft(model, of, to_scale):
+    for panel in panels(model, of, to_scale, full=np.inf):
+        for mark in forces(panel):
+            assert mark.length - HEAD >= SHAFT - 0.1, mark.action.label
+
+
+@every_model
+@sheets
+def test_a_couple_is_smaller_than_half_its_body_or_apart(model, of, to_scale):
+    for panel in panels(model, of, to_scale):
+        for mark in couples(panel):
+            own = [s for s in panel.scenery.strokes if s.body == mark.action.body and s.style != "rail"]
+            across = np.hypot(*np.ptp(np.vstack([stroke.points for stroke in own]), axis=0))
+            apart = not any(inside(s.points, mark.line).any() for s in panel.scenery.strokes if s.style in SOLID)
+            assert apart or 2 * np.hypot(*(mark.line[0] - mark.centre)) <= across / 2 + 1e-9, mark.action.label
+
+
+@every_model
+@sheets
+def test_no_arrow_crosses_a_couple(model, of, to_scale):
+    for panel in panels(model, of, to_scale):
+        for couple in couples(panel):
+            for mark in panel.marks:
+                assert mark is couple or not cross(mark.line, couple.line), (mark.action.label, couple.action.label)
+
+
+@every_model
+@sheets
+def test_no_arrow_crosses_that_of_a_coordinate(model, of, to_scale):
+    for panel in panels(model, of, to_scale):
+        for dimension in panel.scenery.dimensions:
+            for mark in panel.marks:
+                assert not cross(mark.line, dimension.arrow), (mark.action.label, dimension.text)
+
+
+@every_model
+@sheets
+def test_no_label_lies_on_another(model, of, to_scale):
+    for panel in panels(model, of, to_scale, full=np.inf):
+        for (low, high, text), (lower, upper, other) in combinations(boxes(panel), 2):
+            assert not ((low < upper) & (lower < high)).all(), (text, other)
+
+
+@every_model
+@sheets
+def test_no_label_lies_on_an_arrow_or_a_line(model, of, to_scale):
+    """Neither forces and couples, nor outlines, springs and strings, nor coordinates."""
+    for panel in panels(model, of, to_scale):
+        scenery = panel.scenery
+        ink = [mark.line for mark in panel.marks] + [each.arrow for each in scenery.dimensions]
+        drawn_there = dense(ink + [stroke.line for stroke in scenery.strokes] + scenery.inner, 1.0)
+        for low, high, text in boxes(panel):
+            assert not passes(drawn_there, low, high), text
+
+
+@every_model
+@sheets
+def test_what_leads_to_a_label_crosses_no_arrow_and_no_other_label(model, of, to_scale):
+    for panel in panels(model, of, to_scale):
+        for led in (label for label in panel.labels if label.leader is not None):
+            way = dense([led.leader], 1.0)
+            others = [each for each in panel.labels if each is not led]
+            assert not any(passes(way, each.centre - each.half + AIR, each.centre + each.half - AIR) for each in others)
+            assert not any(cross(blunted(led.leader, 4.0), mark.line) for mark in panel.marks), led.label.text
+
+
+@every_model
+def test_no_label_of_a_sketch_lies_on_the_arrow_of_a_coordinate(model):
+    state, _ = store.start(model)
+    for each_body in (False, True):
+        [row] = Configuration(mechanism(model).source(), state, each_body).rows
+        [panel] = row.panels
+        for low, high, text in boxes(panel) if len(panel.labels) <= FULL else ():
+            assert not passes(dense([each.arrow for each in panel.scenery.dimensions], 1.0), low, high), text
+
+
+@every_model
+def test_what_slides_is_drawn_wide_and_what_rolls_with_its_wheels(model):
+    for cut in drawn(model).cuts:
+        [body] = cut.group
+        strokes = cut.panels[0].scenery.strokes
+        for block in (stroke.points for stroke in strokes if stroke.style == "block" and len(stroke.points) == 4):
+            assert np.hypot(*(block[1] - block[0])) >= 1.5 * np.hypot(*(block[2] - block[1])) >= 24.0
+        for mark in forces(cut.panels[0]):
+            joint = next((j for j in mechanism(model).source().spec["joints"] if j["name"] == mark.action.name), None)
+            if joint and joint["type"] == "rollers" and joint["with"]["points"][0].partition(".")[0] == body:
+                wheels = [stroke.points for stroke in strokes if stroke.style == "slot"]
+                assert min(np.hypot(*(wheel - mark.at).T).min() for wheel in wheels) < 1.0
+
+
+def test_accelerations_have_their_body_below_where_there_are_several():
+    for of in (None, "all"):
+        marks = [mark for cut in drawn("GEN-FOURBAR/model", of).cuts for mark in cut.effective]
+        assert marks and all(r"\text{ab}" in m.action.label or "bc" in m.action.label or "dc" in m.action.label for m in marks)
+    [alone] = drawn("19.3.6/model").cuts
+    assert {mark.action.label for mark in alone.effective} == {r"m\,a_x", r"m\,a_y", r"I_{\text{rod}}\,\alpha"}
