@@ -8,6 +8,7 @@ import store
 from store import WITHOUT_ANSWER, every, mechanism
 from store import diagram as drawn
 
+from freebody.mechanism import Mechanism
 from freebody.views.diagram.arrows import Arrow
 from freebody.views.diagram.configuration import Configuration
 from freebody.views.labels import AIR
@@ -172,3 +173,23 @@ def test_accelerations_have_their_body_below_where_there_are_several():
         assert marks and all(r"\text{ab}" in m.action.label or "bc" in m.action.label or "dc" in m.action.label for m in marks)
     [alone] = drawn("19.3.6/model").cuts
     assert {mark.action.label for mark in alone.effective} == {r"m\,a_x", r"m\,a_y", r"I_{\text{rod}}\,\alpha"}
+
+
+BELT = """
+freebody: 1
+ground: {points: {A: [0, 0], B: [0.8, 0.2]}}
+bodies: {small: {shape: disk, radius: 0.1, mass: 2}, large: {shape: disk, radius: 0.25, mass: 5}}
+joints:
+  A: {type: hinge, of: [ground.A, small.G]}
+  B: {type: hinge, of: [ground.B, large.G]}
+  belt: {type: belt, of: [small.G, large.G], radii: [0.1, 0.25]}
+"""
+
+
+def test_a_belt_pulls_at_the_rim_of_each_wheel():
+    """Its force is tangential there: its arm about the centre is the radius, without a shift along its line."""
+    for cut, radius in zip(Mechanism.loads(BELT).diagram().cuts, (0.1, 0.25), strict=True):
+        [mark] = (mark for mark in cut.forces if mark.action.name == "belt")
+        arm = mark.action.at - cut.panels[0].scenery.sketch.place(f"{cut.group[0]}.G")
+        assert np.hypot(*arm) == pytest.approx(radius, rel=1e-9)
+        assert arm @ mark.action.force == pytest.approx(0.0, abs=1e-9)

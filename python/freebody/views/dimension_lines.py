@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -233,6 +233,13 @@ def place_of(sketch: Sketch, joint: Mapping[str, Any]) -> Array | None:
         if names:
             return sketch.place(names[-1] if key == "of" else names[0])
     return None
+
+
+def place_between(sketch: Sketch, bodies: Set[str]) -> Array | None:
+    """Where a joint of two bodies is, if there is one that has a place."""
+    between = {joint["name"] for joint in sketch.metadata["joints"] if {joint["first"], joint["second"]} == bodies}
+    places = (place_of(sketch, joint) for joint in sketch.spec["joints"] if joint["name"] in between)
+    return next((place for place in places if place is not None), None)
 
 
 def _outwards(sketch: Sketch, joint: Mapping[str, Any]) -> tuple[Array, Array]:

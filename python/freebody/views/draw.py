@@ -12,7 +12,7 @@ from freebody.core import GROUND, Array, State
 from freebody.run.records import plain
 from freebody.views import shapes
 from freebody.views.contact_glyphs import string_label
-from freebody.views.dimension_lines import digits, dimension_lines, place_of
+from freebody.views.dimension_lines import digits, dimension_lines, place_between, place_of
 from freebody.views.labels import Label, Obstacles, placed, write
 from freebody.views.render import frame_axes, render
 from freebody.views.scene import drawn
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from freebody.core import CompiledModel
 
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
-_CORNER = 66.0  # points
+_CORNER = 74.0  # points
 _OVER_LINES, _OVER_ARROWS = 8.0, 15.0  # what a label pays for each place that it covers
 UNNAMED = ("origin", "G", "centre", "start", "end")
 """Points that nearly every body has, of which a drawing says nothing."""
@@ -86,9 +86,10 @@ def _make_room(sheet: _Drawing) -> None:
     y0, y1 = min(ax.get_ylim()[0], low[1]), max(ax.get_ylim()[1], high[1])
     box = ax.get_position(original=True)
     width, height = 72 * ax.figure.get_figwidth() * box.width, 72 * ax.figure.get_figheight() * box.height
-    corner = _CORNER * max((x1 - x0) / width, (y1 - y0) / height)
-    x, y = shapes.dense(lines, corner / 20).T
-    y0 = min(y0, y[(x < x0 + corner) | (x > x1 - corner)].min(initial=np.inf) - corner)
+    for _ in range(3):  # what is lower is drawn smaller
+        corner = _CORNER * max((x1 - x0) / width, (y1 - y0) / height)
+        x, y = shapes.dense(lines, corner / 20).T
+        y0 = min(y0, y[(x < x0 + corner) | (x > x1 - corner)].min(initial=np.inf) - corner)
     ax.set(xlim=(x0, x1), ylim=(y0, y1))
 
 
@@ -150,9 +151,11 @@ def _draw_forces(sheet: _Drawing) -> None:
     for force in sheet.sketch.spec.get("forces", []):
         fields = force["with"]
         if force["type"] == "torque" and fields["on"] != GROUND:
-            x, y, _ = sheet.sketch.poses[0, sheet.sketch.names.index(fields["on"])]
+            body = fields["on"]
+            at = place_between(sheet.sketch, {body, fields.get("from") or GROUND})
+            at = sheet.sketch.poses[0, sheet.sketch.names.index(body), :2] if at is None else at
             sense = np.sign(sheet.sketch.number(fields["value"])) or 1.0
-            bow = shapes.arc((x, y), 2.2 * sheet.sketch.size, -sense * 0.7, sense * 3.4)
+            bow = shapes.arc(at, 2.2 * sheet.sketch.size, -sense * 0.7, sense * 3.4)
             sheet.line(bow, _LOAD, arrow=True, lw=1.6)
             sheet.label(force["name"], bow[-1], _LOAD)
         elif force["type"] == "force":

@@ -168,7 +168,7 @@ def write(ax: Axes, labels: Sequence[Placed], to_data: Callable[[Array], Array])
         if each.leader is not None:
             ax.plot(*to_data(each.leader).T, color=label.colour, lw=0.5, zorder=4.5)
         ax.text(*to_data(each.centre), label.text, fontsize=label.size, color=label.colour, ha="center", va="center",
-                fontweight="bold" if label.bold else "normal", zorder=6, label="label")  # fmt: skip
+                fontweight="bold" if label.bold else "normal", zorder=6, label="label", in_layout=False)  # fmt: skip
 
 
 @lru_cache(maxsize=4096)

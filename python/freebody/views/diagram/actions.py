@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.core import Array, Body, FreeBodies, Load, Part
 from freebody.views.diagram.names import Labels, Sign
-from freebody.views.dimension_lines import digits, place_of
+from freebody.views.dimension_lines import digits, place_between
 from freebody.views.sketch import Sketch
 
 _ROUND_OFF = 1e-9
@@ -102,8 +102,8 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
-    """Where a diagram shows a part: of a link or string at its own end, of a follower where it touches its curve, of a torque at the
-    joint of its two bodies, else where it acts."""
+    """Where a diagram shows a part: of a link or string at its own end, of a belt on its own rim, of a follower where it touches its
+    curve, of a torque at the joint of its two bodies, else where it acts."""
     name = load.name.removesuffix(".contact") if load.kind == "stop" else load.name  # of a one-sided cam
     joint = next((j for j in sketch.spec["joints"] if j["name"] == name), None)
     if load.kind in ("joint", "stop") and joint:
@@ -111,6 +111,10 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
         if load.card.pulls:
             ends = fields.get("of") or [fields["from"]]
             return next((sketch.place(point) for point in ends if sketch.at[point][0] == part.body), np.array(part.point))
+        if joint["type"] == "belt":  # where its strand leaves the rim of this wheel
+            centre = next(sketch.place(point) for point in fields["of"] if sketch.at[point][0] == part.body)
+            way = np.array(part.force) / np.hypot(*part.force)
+            return np.array(part.point) + ((centre - part.point) @ way) * way
         if "follower" in fields:
             centre, size = sketch.place(fields["follower"]["centre"]), np.hypot(*part.force)
             on_follower = part.body == sketch.at[fields["follower"]["centre"]][0]
@@ -118,9 +122,8 @@ def attached(load: Load, part: Part, sketch: Sketch) -> Array:
             away = -push if load.kind == "joint" and fields.get("right") else push  # a normal force is positive to the left
             return centre - sketch.number(fields["follower"]["radius"]) * away
     if load.kind in ("force", "motion", "lock") and not any(part.force):
-        between = {j["name"] for j in sketch.metadata["joints"] if {j["first"], j["second"]} == set(load.of)}
-        places = [place_of(sketch, j) for j in sketch.spec["joints"] if j["name"] in between]
-        return next((place for place in places if place is not None), np.array(part.point))
+        place = place_between(sketch, set(load.of))
+        return np.array(part.point) if place is None else place
     return np.array(part.point)
 
 
