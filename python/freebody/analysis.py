@@ -60,6 +60,7 @@ class Analysis:
         of: str | None = None,
         frame: Sequence[str] | str | None = None,
         long: bool = False,
+        limits: Mapping[str, Any] | None = None,
         initial: Mapping[str, Any] | None = None,
         t: float = 0.0,
         **changes: Any,
@@ -69,7 +70,8 @@ class Analysis:
 
         ``want`` gives the fewest equations for one unknown instead, or those ``about`` some points, as in ``smallest``. With
         ``at_rest`` all rates are 0; ``fixed`` coordinates and parameters stand as numbers: ``fixed={"theta": "90 deg"}``. What is
-        printed is a page, or, ``long``, also positions and velocities, every load by itself, matrices, and what is conserved.
+        printed is a page, or, ``long``, also positions and velocities, every load by itself, matrices, and what is conserved; behind it
+        what is left of each equation in ``limits``, ``{"m2": "inf", "l": 0}``.
 
         ``of`` gives position, velocity and acceleration of a point (``rod.B``) instead, through the ``frame`` of a body, or by a chain
         of bodies, each seen from the one before; by default the chain that leads to it. Every term has its name, and its value."""
@@ -81,13 +83,13 @@ class Analysis:
         state, notes = self.moment(initial=initial, t=t, **changes, **chosen)
         with self.core_errors():
             if of or frame:
-                if form != "minimal" or want or at_rest or chosen:
-                    raise ValueError("of and frame are not for form, want, at_rest and fixed; leave these out")
+                if form != "minimal" or want or at_rest or chosen or limits:
+                    raise ValueError("of and frame are not for form, want, at_rest, fixed and limits; leave these out")
                 return topic(self, "frame", state, point=of, body=frame)
             subject = SymbolicState(self.source(notes), state, at_rest)
             if state.t > t and (moved := chosen.keys() & set(subject.names)):
                 raise ValueError(f"{min(moved)} is fixed at the start, and moves until {state.t:g} s; leave it out")
-            return derive(subject.with_numbers(list(chosen)), form, want, about, long)
+            return derive(subject.with_numbers(list(chosen)), form, want, about, long, limits)
 
     def solve_in_letters(self: Builder, wanted: Sequence[str] | None = None, **asked: Any) -> Answers:
         """Accelerations (``theta``) and reactions (``pivot.Fx``) symbolically near the start: the fewest balance equations, solved,

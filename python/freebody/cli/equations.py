@@ -70,7 +70,9 @@ def equations(
     ] = None,
     limits: Annotated[
         list[str] | None,
-        typer.Option("--limit", metavar="NAME=VALUE", help="With --form solved: the answer as m2=inf, m1=0 …; repeatable."),
+        typer.Option(
+            "--limit", metavar="NAME=VALUE", help="Also the equations, or the answer solved, as m2=inf, l=0 …; repeatable."
+        ),
     ] = None,
     of: Annotated[
         str | None,
@@ -86,8 +88,6 @@ def equations(
     **asked: bool,
 ) -> None:
     """Derive the equations of motion: kinematics, free bodies, balances, matrix form, what is conserved."""
-    if limits and form != SOLVED:
-        raise UserError(f"--limit is not for --form {form}", "take --form solved")
     wanted = [name.strip() for each in want or () for name in each.split(",")]
     if form != SOLVED and len(wanted) > 1:
         raise UserError("several unknowns are wanted", "ask for one, or take --form solved")
@@ -102,6 +102,7 @@ def equations(
             asked_for: dict[str, Any] = {"of": of, "frame": frame} if of or frame else {}
             asked_for |= {"about": [name.strip() for name in about.split(",")]} if about else {}
             asked_for |= {"long": True} if long else {}
+            asked_for |= {"limits": pairs(limits)} if limits else {}
             found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, asked_for)
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
@@ -142,7 +143,7 @@ def derived(
     if form in TOPICS:
         if want or at_rest or more.keys() - {"long"}:
             raise UserError(
-                f"--for, --at-rest, --of and --frame are not for --form {form}",
+                f"--for, --at-rest, --limit, --of and --frame are not for --form {form}",
                 f"by --set it takes {described(form)[1] or 'no options'}",
             )
         return topic(mechanism, form, mechanism.moment(**when)[0], **fixed)

@@ -7,9 +7,10 @@ from functools import singledispatch
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
-    from freebody.core import CompiledModel, State
+    from freebody.core import CompiledModel, FreeBodies, State
     from freebody.impact.impacts import Impulsive
 
 
@@ -34,6 +35,16 @@ class ConfigurationDrawing:
     source: CompiledModel
     state: State
     each_body: bool = False
+
+
+@dataclass(frozen=True)
+class FreeBodyDrawing:
+    """What acts on some bodies together at a state, and m a and I α beside it; ``given`` are the loads where they are not its own."""
+
+    source: CompiledModel
+    state: State
+    bodies: Sequence[str]
+    given: FreeBodies | None = None
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -17,7 +18,7 @@ from freebody.solve.symbols import Symbols, load_words
 from freebody.symbolic.linear import Linear
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.symbols import Name
-from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, minus, mul, read, write
+from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, read, write
 
 Question = Mapping[str, Any]
 _SEED, _OTHERS = 5, 3
@@ -83,9 +84,9 @@ class Contribution:
 
 @dataclass(frozen=True)
 class Balance:
-    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``residual`` = right − left; ``momentum`` is 0 where it was not asked for.
+    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``momentum`` is 0 where it was not asked for.
 
-    ``place`` is the point about which, or the vector along which; ``linear`` that of the residual."""
+    ``place`` is the point about which, or the vector along which; ``linear`` is right − left by what is unknown."""
 
     bodies: tuple[str, ...]
     turns: bool
@@ -95,8 +96,12 @@ class Balance:
     momentum: Tree
     left: Tree
     right: Tree
-    residual: Tree
     linear: Linear
+
+    @property
+    def residual(self) -> Tree:
+        """right − left, by what is unknown."""
+        return add(*(mul(factor, x) for x, factor in self.linear.coefficients.items()), self.linear.rest)
 
     def without(self, loads: Collection[int], nomenclature: Collection[str]) -> Balance:
         """The same with some loads left out, by place and symbol: they vanish wherever loops and contacts are closed, though not
@@ -108,13 +113,13 @@ class Balance:
         linear = Linear(
             {x: c for x, c in self.linear.coefficients.items() if x.dots or x.name not in nomenclature}, self.linear.rest
         )
-        return replace(self, contributions=kept, left=left, residual=minus(self.right, left), linear=linear)
+        return replace(self, contributions=kept, left=left, linear=linear)
 
     def with_trees(self, put: Callable[[Tree], Tree]) -> Balance:
         """The same, every expression as ``put`` makes it; what is unknown and vanishes is left out."""
         loads = tuple(replace(each, tree=put(each.tree)) for each in self.contributions)
         inertia = tuple((body, put(tree)) for body, tree in self.inertia)
-        trees = map(put, (self.momentum, self.left, self.right, self.residual))
+        trees = map(put, (self.momentum, self.left, self.right))
         kept = {x: put(tree) for x, tree in self.linear.coefficients.items() if not is_zero(put(mul(tree, x)))}
         return Balance(self.bodies, self.turns, self.place, loads, inertia, *trees, Linear(kept, put(self.linear.rest)))
 
@@ -123,7 +128,7 @@ class Balance:
         """From an answer."""
         test, turns = data["test"], data["test"]["kind"] == "moment"
         loads = (Contribution(each["load"], read(each["tree"]), each["internal"]) for each in data["loads"])
-        trees = (read(data.get(word, write(ZERO))) for word in ("momentum", "left", "right", "residual"))
+        trees = (read(data.get(word, write(ZERO))) for word in ("momentum", "left", "right"))
         inertia = tuple((each["body"], read(each["tree"])) for each in data["inertia"])
         place = Arrow.read(test["about" if turns else "along"])
         return cls(tuple(data["bodies"]), turns, place, tuple(loads), inertia, *trees, Linear.read(data["linear"]))
@@ -294,7 +299,7 @@ class SymbolicState:
         table, written = self.table, self.symbols.names
         given = [p["name"] for p in self.source.metadata["parameters"] if p["name"] in table]
         made = [SymbolEntry(c["name"], "coordinate", c["dimension"] or "", c["doc"].replace("`", "")) for c in self.coordinates]
-        made += [SymbolEntry(name, "parameter", table[name]["unit"]) for name in given]
+        made += [SymbolEntry(name, "parameter", table[name]["unit"] or self._multiple(name)) for name in given]
         made += [
             SymbolEntry(name, "constant", each["unit"], each["doc"]) for name, each in table.items() if each["kind"] == "number"
         ]
@@ -305,6 +310,13 @@ class SymbolicState:
                 made.append(SymbolEntry(load.symbol, "unknown", unit, doc, self.symbols.loads[load.symbol]))
         return Nomenclature({x.name: x for x in (*made, SymbolEntry("t", "time", "s", "time"))}, self.symbols.renamed)
 
+    def _multiple(self, name: str) -> str:
+        """The unit of a parameter that is another one times numbers: of ``2*l1*sqrt(2)`` m, which might hide another in a model."""
+        text = str((self.source.model.get("parameters") or {}).get(name, ""))
+        names = [word for word in re.findall(r"[^\W\d]\w*", text) if word not in ("sqrt", "pi")]
+        alone = len(names) == 1 and names[0] in self.table and not re.search(r"[\^/+-]|\*\*", text)
+        return self.table[names[0]]["unit"] if alone else ""
+
     @cached_property
     def values(self) -> dict[Sym, float]:
         """The numbers of all symbols at the state."""
@@ -313,6 +325,11 @@ class SymbolicState:
         for dots, numbers in enumerate((self.q, self.u)):
             found |= {Sym(name, dots): x for name, x in zip(self.names, numbers, strict=True)}
         return found | {Sym(name, 2): x for name, x in self.free.accelerations.items()}
+
+    @cached_property
+    def constants(self) -> dict[Sym, float]:
+        """Those of what does not move: parameters and numbers without a name."""
+        return {Sym(name): np.float64(entry["value"]) for name, entry in self.table.items() if name not in {*self.names, "t"}}
 
     @cached_property
     def tables(self) -> dict[str, Callable[..., float]]:

@@ -13,8 +13,10 @@ import numpy as np
 
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import (
+    MINUS_ONE,
     ONE,
     PI,
+    ZERO,
     Add,
     Fn,
     Mul,
@@ -61,6 +63,39 @@ def spread(tree: Tree) -> Tree:
         same = frozenset(powers.items())
         terms[same] = terms.get(same, Fraction(0)) + size
     return add(*(_joined((size, dict(powers))) for powers, size in terms.items() if size))
+
+
+def difference(tree: Tree, other: Tree) -> Tree:
+    """tree − other, squares of sums multiplied out as well; 0 where they are the same in another order."""
+
+    def out(part: Tree) -> Tree | None:
+        square = isinstance(part, Pow) and part.exponent == 2 and isinstance(part.base, Add)
+        return mul(part.base, part.base) if square else None
+
+    return spread(rebuilt(add(tree, negative(other)), out))
+
+
+def with_zero(tree: Tree, symbol: Sym) -> Tree:
+    """The expression, without brackets, where a symbol is 0."""
+
+    def put(part: Tree) -> Tree | None:
+        match part:
+            case Sym() if part == symbol:
+                return ZERO
+            case Fn("sin" | "cos" as name, (angle,)) if symbol in symbols(angle):
+                inner = with_zero(angle, symbol)
+                if is_zero(inner):
+                    return ZERO if name == "sin" else ONE
+                turned = is_negative(inner)
+                made = Fn(name, (negative(inner) if turned else inner,))
+                return negative(made) if turned and name == "sin" else made
+            case Pow(base, exponent) if symbol in symbols(base):
+                inner = with_zero(base, symbol)
+                even = exponent.denominator == 1 and exponent % 2 == 0
+                return inner if is_zero(inner) else power(negative(inner) if even and is_negative(inner) else inner, exponent)
+        return None
+
+    return spread(rebuilt(tree, put)) if symbol in symbols(tree) else tree
 
 
 def _products(tree: Tree) -> list[Tree]:
@@ -111,9 +146,10 @@ def less(tree: Tree, part: Tree) -> Tree:
             return add(*(own if i == place else term for i, term in enumerate(tree.terms)))
     elif isinstance(tree, Mul) and any(isinstance(f, Add) for f in tree.factors):
         inner = next(f for f in tree.factors if isinstance(f, Add))
-        others = [f for f in tree.factors if f is not inner]
-        below = less(inner, quotient(part, mul(*others)))
-        return mul(*others, below)
+        others = mul(*(f for f in tree.factors if f is not inner))
+        powers = _split(part)[1]
+        if all(powers.get(f, 0) >= e for f, e in _split(others)[1].items()):
+            return mul(others, factored(less(inner, quotient(part, others))))
     return spread(add(tree, negative(part)))
 
 
@@ -127,12 +163,56 @@ def opposite(tree: Tree) -> Tree:
     return negative(mul(*(negative(f) if f is difference else f for f in factors)))
 
 
+def signed(tree: Tree, constants: Mapping[Sym, float]) -> Tree:
+    """The tree with the signs that a person gives the sums in its products: one of ``constants`` alone is positive, in any other the
+    fewest terms are negative; of r (r − R) that is −r (R − r)."""
+
+    def put(part: Tree) -> Tree | None:
+        if not isinstance(part, Mul):
+            return None
+        made = [factor if isinstance(factor, Num | Sym) else signed(factor, constants) for factor in part.factors]
+        minuses = [_minuses(factor, constants) for factor in made]
+        turned = [i for i, count in enumerate(minuses) if count > 0]
+        even = [i for i, count in enumerate(minuses) if count == 0]
+        turned += even[:1] if is_negative(part) != len(turned) % 2 else []
+        for i in turned:
+            made[i] = _opposite_factor(made[i])
+        return mul(*made, *[MINUS_ONE] * (len(turned) % 2)) if made != list(part.factors) else part
+
+    return rebuilt(tree, put)
+
+
+def _minuses(factor: Tree, constants: Mapping[Sym, float]) -> int:
+    """Of a factor that is a sum, or an odd power of one: how many of its terms are negative beyond those that are not; of one of
+    constants 1 or −1, as its value is; −1 for any other factor."""
+    odd = isinstance(factor, Pow) and factor.exponent.denominator == 1 and factor.exponent % 2
+    inner = factor.base if isinstance(factor, Pow) and odd else factor
+    if not isinstance(inner, Add) or not (count := sum(map(is_negative, inner.terms))):
+        return -1
+    if all(term.symbols <= constants.keys() for term in inner.terms):
+        with np.errstate(all="ignore"):
+            return 1 if evaluate(inner, constants) < 0 else -1
+    return 2 * count - len(inner.terms)
+
+
+def _opposite_factor(factor: Tree) -> Tree:
+    return power(negative(factor.base), factor.exponent) if isinstance(factor, Pow) else negative(factor)
+
+
+def common_factors(trees: Sequence[Tree], wanted: Callable[[Tree], bool]) -> Tree:
+    """The factors ``wanted`` of all terms of all trees that are not 0, with the number that is common besides: of x cos(π/9) and
+    3 cos(π/9), where numbers are wanted, cos(π/9)."""
+    found = [tree for tree in trees if not is_zero(tree)]
+    terms = [_split(term) for tree in found for term in (tree.terms if isinstance(tree, Add) else (tree,))]
+    shared = [power(f, e) for f, e in _common(terms).items() if wanted(f)] if terms else []
+    return mul(number(abs(_size(terms))), *shared) if terms else ONE
+
+
 def common_number(trees: Sequence[Tree]) -> Tree:
-    """What is without symbols, but not a mere number, and a factor of all: cos(π/9) of x cos(π/9) and 3 cos(π/9), with the number that
-    is common besides; 1 where there is nothing of the kind."""
-    terms = [_split(term) for tree in trees for term in (tree.terms if isinstance(tree, Add) else (tree,))]
-    shared = {f: e for f, e in _common(terms).items() if all(x == Sym(PI) for x in symbols(f))} if terms else {}
-    return mul(number(abs(_size(terms))), *(power(f, e) for f, e in shared.items())) if shared else ONE
+    """What is without symbols, but not a mere number, and a factor of all, with the number that is common besides; 1 where there is
+    nothing of the kind."""
+    found = common_factors(trees, lambda factor: symbols(factor) <= {Sym(PI)})
+    return ONE if isinstance(found, Num) else found
 
 
 def pythagorean(tree: Tree) -> Tree:

@@ -7,6 +7,8 @@ from fractions import Fraction
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import (
+    ONE,
+    ZERO,
     Add,
     Column,
     Cross,
@@ -20,7 +22,9 @@ from freebody.symbolic.tree import (
     Pow,
     Quotient,
     Sym,
+    Tree,
     Unit,
+    canonical,
     power,
     walk,
 )
@@ -84,6 +88,17 @@ def rate(node: Node, constants: Collection[str] = ()) -> Node:
     """
     one_more = lambda n: _ZERO if n.name in constants else Sym(n.name, n.dots + 1, span=n.span)
     return _short(node, derivative(node, lambda symbol: _ONE if symbol == Sym("t") else one_more(symbol)))
+
+
+def along_motion(tree: Tree, coordinates: Collection[str]) -> Tree:
+    """The derivative with respect to time of an expression of coordinates, their rates and time; other symbols do not change."""
+
+    def of(symbol: Sym) -> Tree:
+        if symbol == Sym("t"):
+            return ONE
+        return Sym(symbol.name, symbol.dots + 1) if symbol.name in coordinates and symbol.dots < 2 else ZERO
+
+    return canonical(derivative(tree, of))
 
 
 def partial(node: Node, by: Sym) -> Node:

@@ -2,15 +2,17 @@
 
 import json
 
+import numpy as np
 import pytest
 from evaluated import numbers
 from ruamel.yaml import YAML
 from store import ANSWERED, ROOT, derived, elsewhere, every
 
 import freebody as fb
-from freebody.document.blocks import Equation, is_tree
+from freebody.document.blocks import Equation, Figure, is_tree
+from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.evaluate import evaluate
-from freebody.symbolic.tree import Add, symbols
+from freebody.symbolic.tree import Add, Sym, symbols
 
 KNOWN = {each["model"]: each for each in YAML(typ="safe").load((ROOT / "docs/derivations.yaml").read_text(encoding="utf-8"))}
 TABLE = [line for line in (ROOT / "docs/derivations.md").read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
@@ -19,11 +21,14 @@ LINES = range(10, 41)
 HOLDS = 1e-9
 
 
-def page(model):
+def described(model):
     given = YAML(typ="safe").load((ROOT / model).read_text(encoding="utf-8"))
     alone = "model" in given
-    mechanism = fb.Mechanism.loads(json.dumps({"freebody": 1, **given["model"]})) if alone else fb.load(ROOT / model)
-    return mechanism.equations()
+    return fb.Mechanism.loads(json.dumps({"freebody": 1, **given["model"]})) if alone else fb.load(ROOT / model)
+
+
+def page(model):
+    return described(model).equations()
 
 
 @every(KNOWN)
@@ -49,13 +54,75 @@ def test_every_equation_of_a_page_holds_elsewhere_and_in_motion(model):
     that a motion prescribes are others there."""
     for at in elsewhere(model):
         values, loads = numbers(at), {load.symbol for load in at.free.loads}
+        given = (x for x in derived(model, "minimal").letters.values() if x.kind == "constant" and Sym(x.name) not in values)
+        values |= {Sym(x.name): float(x.doc.split()[0]) for x in given}  # numbers of laws, 2 rad/s
         for block in derived(model, "minimal").blocks:
             trees = isinstance(block, Equation) and is_tree(block.left) and is_tree(block.right)
+            if trees and isinstance(block.left, Sym) and block.left not in values:  # what a root is called
+                values[block.left] = evaluate(block.right, values, at.tables)
             if trees and any(x.dots == 2 or x.name in loads for x in symbols(block.left, block.right)):
                 terms = [t for side in (block.left, block.right) for t in (side.terms if isinstance(side, Add) else (side,))]
                 left, right = (evaluate(side, values, at.tables) for side in (block.left, block.right))
                 size = max(1.0, *(abs(evaluate(term, values, at.tables)) for term in terms))
                 assert abs(left - right) < HOLDS * size, (block.left, block.right)
+
+
+DRAWN = "tests/check/books/drawn_up_a_slope.yaml"
+
+
+@every([*KNOWN, DRAWN])
+def test_the_equations_of_a_page_are_independent(model):
+    """Also where at the start points lie on each other, so that moments about one of them say nothing."""
+    mechanism = described(model)
+    at = SymbolicState(mechanism.source(), mechanism.moment()[0])
+    table = np.array([[evaluate(x, at.values, at.tables) for x in row] for row in mechanism.equations().mass_matrix], float)
+    table /= np.linalg.norm(table, axis=1, keepdims=True)
+    assert np.linalg.matrix_rank(table, tol=1e-9) == len(table)
+
+
+def test_a_block_on_a_slope_has_balances_along_it_and_across():
+    said = page(DRAWN).text()
+    assert "N_slope = mA g cos β" in said and "mA s̈ = F_ropeA − mA g sin β − μ N_slope" in said
+
+
+def test_a_string_has_its_length_squared_and_no_roots():
+    said = fb.load(ROOT / "systems/19.3.22/latch.yaml").equations().text(ascii=True)
+    assert "(xB - C.x)^2 + C.y^2 = l^2" in said and "(xB - C.x) xB' + C.y C.y' = (xB - C.x) C.x'" in said and "sqrt" not in said
+
+
+def test_a_root_that_is_there_again_and_again_has_a_symbol():
+    """Of a string over two eyelets the lengths beyond them."""
+    said = fb.load(ROOT / "systems/19.3.20/cable.yaml").equations().text()
+    assert "s₂ = √(bob.x² + bob.y²)" in said and "s₁ + s₂ = l" in said and said.count("√") == 2
+
+
+def test_what_touches_where_a_coordinate_is_0_holds_it_there():
+    """A brake on a drum: N (a − μ c) = P b, as a book has it."""
+    said = page("tests/check/books/block_brake.yaml").text()
+    assert "φ = 0" in said and "(a − μ c) N_brake − P b = 0" in said
+
+
+def test_polar_coordinates_have_their_directions():
+    said = fb.load(ROOT / "systems/19.3.3/polar.yaml").equations().text(ascii=True)
+    assert "a_P = (r'' - r (phi')^2) e_r + (r phi'' + 2 r' phi') e_φ" in said and "LMB along e_r for P" in said
+
+
+def test_every_balance_has_its_free_body():
+    figures = [block.drawing for block in page(DRAWN).blocks if isinstance(block, Figure)]
+    assert [drawing.bodies for drawing in figures[1:]] == [("A",), ("pulley",), ("B",)]
+
+
+@pytest.mark.parametrize(
+    ("limits", "says"), [({"m2": 0}, "m1 l^2 theta''/3 = T"), ({"l": "0"}, "m2 R (R theta'' + 2 theta' R') = T")]
+)
+def test_equations_have_limits(limits, says):
+    """Of a collar on a rod: without the collar, and without the rod's length."""
+    gun = fb.load(ROOT / "examples/new_gun.yaml")
+    assert says in gun.equations(limits=limits).text(ascii=True).partition("Limits")[2]
+    with pytest.raises(ValueError, match="'theta' has no limit, as it is no parameter"):
+        gun.equations(limits={"theta": 0})
+    with pytest.raises(ValueError, match="m1 cannot go to 'soon'"):
+        gun.equations(limits={"m1": "soon"})
 
 
 LADDER = "tests/check/books/ladder.yaml"
@@ -65,6 +132,11 @@ def test_a_rod_in_a_corner_has_one_equation_in_its_angle():
     said = page(LADDER).text()
     assert "½ m g L sin φ = ¼ m L² φ̈ + ¹⁄₁₂ m L² φ̈" in said
     assert "⅓ m L² φ̈ = ½ m g L sin φ" in said
+
+
+def test_a_number_of_a_law_has_a_symbol():
+    said = fb.load(ROOT / "systems/GEN-FOURBAR/model.yaml").equations().text()
+    assert "θ = θ₀ + ω t" in said and "ω (1 rad/s)" in said
 
 
 @pytest.mark.parametrize("written", ["w*t", "w*t + 20 deg"])

@@ -68,6 +68,8 @@ class Text(Markup):
     def math(self, side: Side) -> str:
         # A line ends at plus and minus signs only.
         shown = side_text(side, self.nomenclature, ascii=self.ascii)
+        if isinstance(side, Written):
+            return shown.replace(" ", _TIE)
         return re.sub(rf" (?![+−-]{_TIE})", _TIE, re.sub(r"(?<= [+−-]) ", _TIE, shown))
 
     def heading(self, title: str, level: int) -> str:

@@ -65,11 +65,12 @@ def bits(places: Iterable[int]) -> int:
 
 
 def plainest(equations: Sequence[Candidate], accelerations: int) -> list[Candidate]:
-    """Those that do not follow from plainer ones at the state asked for, in the order of plainness."""
+    """Those that do not follow from plainer ones at the state asked for, in the order of plainness; what is round-off there, as moments
+    about a point at which all is just now, is no equation."""
     ordered = sorted(equations, key=lambda equation: equation.order(accelerations))
     rows = np.array([equation.row for equation in ordered])
     sizes = np.linalg.norm(rows, axis=1, keepdims=True)
-    return [ordered[i] for i in independent(rows / np.where(sizes > 0, sizes, 1.0))]
+    return [ordered[i] for i in independent(np.where(sizes > ABSENT, rows, 0.0) / np.where(sizes > 0, sizes, 1.0))]
 
 
 def of_group(problem: Problem, group: Group, named: Sequence[VirtualMotion], counted: int) -> list[Candidate]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -16,10 +16,10 @@ from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
-from freebody.symbolic.algebra import opposite
+from freebody.symbolic.algebra import opposite, signed
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.tree import Add, Sym, Tree, is_negative, is_zero, negative, symbols
+from freebody.symbolic.tree import ONE, Add, Sym, Tree, is_negative, is_zero, negative, symbols
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
 """Points that every body has; the names of others are better known to a person."""
@@ -31,7 +31,7 @@ _SAME = 1e-9
 class Stated:
     """A balance with its name: ``AMB about the pin elbow for forearm``. ``where`` is the point or direction in words, ``word``
     about, along or across; a ``constructed`` one is only described. ``own``: the sign of the acceleration that it is for, 0 where
-    it is for none."""
+    it is for none. Sums of ``constants`` are written as they are positive; all is multiplied by a ``factor``."""
 
     balance: Balance
     where: str
@@ -39,6 +39,8 @@ class Stated:
     label: str = ""
     constructed: bool = False
     own: int = 0
+    constants: Mapping[Sym, float] = field(default_factory=dict, repr=False)
+    factor: Tree = ONE
 
     @property
     def kind(self) -> str:
@@ -55,10 +57,11 @@ class Stated:
         """Both sides, each unknown with one factor; and whether all their signs are changed, so that the acceleration that it is for
         is positive, or, where it is for none, some term that has one, or some term."""
         unknowns = list(self.balance.linear.coefficients)
-        left, right = presented(self.balance.right, unknowns=unknowns), presented(self.balance.left, unknowns=unknowns)
+        sides = (presented(tree, unknowns=unknowns) for tree in (self.balance.right, self.balance.left))
+        left, right = (signed(tree, self.constants) for tree in sides)
         every = left.terms if isinstance(left, Add) else (left,)
         terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
-        turned = self.own < 0 or (self.own == 0 and all(map(is_negative, terms)))
+        turned = self.own < 0 or (self.own == 0 and all(map(is_negative, terms)) and not isinstance(right, Sym))
         return (opposite(left), opposite(right), True) if turned else (left, right, False)
 
     @property

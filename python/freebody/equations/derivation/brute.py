@@ -16,21 +16,20 @@ def brute(subject: SymbolicState, long: bool = False) -> Form:
     """The form of a subject; ``long``: with all that a reader may ask for."""
     stated = [replace(s, label=str(i)) for i, s in enumerate(of_bodies(subject, "its mass centre"), 1)]
     form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(subject.rows))
-    made = (
-        loop_closure.section(subject.rows, subject.names) if long and subject.rows else page.closure(subject.rows, subject.names)
-    )
+    closed = Closed(subject)
+    made = loop_closure.section(subject.rows, subject.names) if long and subject.rows else page.closure(subject, closed)
     reactions, rows = len(form.reactions), len(form.equations) - len(stated)
     moving = len(form.system.unknowns) - reactions
     parts = [f"{moving} acceleration{'s' * (moving != 1)}"] if moving else []
     parts += [f"{reactions} unknown force{'s' * (reactions != 1)} and couples"] if reactions else []
     said = f"Each body is cut free: {len(stated)} balance equations, three a body and two a particle"
     said += f", and {rows} of closure for the accelerations" * bool(rows)
-    made = [*([] if long else page.kinematics(subject, Closed(subject))), *made, *[Heading("Balance equations")] * long]
+    made = [*([] if long else page.kinematics(subject, closed)), *made, *[Heading("Balance equations")] * long]
     made.append(Paragraph(f"{said}. Unknown are {' and '.join(parts) or 'no quantities'}."))
     body = ""
     for s in stated:
         if s.balance.bodies[0] != body:
             body = s.balance.bodies[0]
-            made.append(Heading(f"Body {body}", 3))
-        made.append(Equation(*s.sides, f"{s.kind} {s.word} {s.where}", s.label))
-    return replace(form, blocks=tuple(made))
+            made += [Heading(f"Body {body}", 3), page.free_body(subject, (body,), list(subject.free.bodies).index(body) + 1)]
+        made.append(Equation(*map(closed.settled, s.sides), f"{s.kind} {s.word} {s.where}", s.label))
+    return replace(form, blocks=tuple(made), symbols=closed.symbols)

@@ -12,6 +12,7 @@ from freebody.core.cards import joints as cards_of
 from freebody.equations.derivation.balance_text import Stated, named_place, numbers
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.symbols import unicode_name
 from freebody.symbolic.tree import ZERO, Sym, is_zero
 
 
@@ -51,6 +52,9 @@ def _place(subject: SymbolicState, balance: Balance, joint: str, card: Card, mov
         named = joint if card.hinged else named_place(subject, numbers(subject, balance), balance.bodies)
         touches = any(row.tangent for row in card.rows)
         return named or ("the point of contact" if touches else f"the point of {joint}"), "about"
+    if card.type == "polar":
+        radius, angle = [unicode_name(c["name"]) for c in subject.coordinates if c["joint"] == joint][:2]
+        return (f"e_{angle}, times {radius}," if moves.across else f"e_{radius}"), "along"
     if moves.across:
         return moves.line.format(joint), "across"
     if any(map(is_zero, balance.place.xy)):  # a fixed axis, or the direction against it

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -13,11 +13,13 @@ from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
 from freebody.equations.derivation.first_order import first_order
 from freebody.equations.derivation.form import Form, Printed, System
+from freebody.equations.derivation.limits import section
 from freebody.equations.derivation.minimal import minimal
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.equations.derivation.single_unknown import wanted
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
+from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.to_sympy import sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree, symbols
 
@@ -27,8 +29,6 @@ _TITLES = {
 FORMS = tuple(_TITLES)
 _ELSEWHERE = "it is among the equations as data and in the generated code"
 _LONGER = "the long derivation has it (`--long`)"
-_OF_A_PAGE = 250
-"""Symbols, numbers and operations of an expression beyond which it does not stand on a page."""
 _LOPSIDED = "It is not symmetric, as its rows are these balances, not Lagrange's equations."
 
 
@@ -77,10 +77,15 @@ class Equations(Document):
 
 
 def derive(
-    subject: SymbolicState, form: str = "minimal", want: str | None = None, about: Sequence[str] = (), long: bool = False
+    subject: SymbolicState,
+    form: str = "minimal",
+    want: str | None = None,
+    about: Sequence[str] = (),
+    long: bool = False,
+    limits: Mapping[str, str] | None = None,
 ) -> Equations:
     """The equations of a subject in a form, or the fewest that give what is wanted (``want``), or those ``about`` some points: a page,
-    or, ``long``, all that a reader may ask for.
+    or, ``long``, all that a reader may ask for; and what is left of each equation in some ``limits``.
 
     Raises ``ValueError`` for an unknown form, ``KeyError`` for what is not unknown, ``MotionError``."""
     nomenclature, title = subject.nomenclature, _TITLES.get(form)
@@ -93,6 +98,7 @@ def derive(
         content = (brute if form == "brute" else minimal)(subject, long)
     else:
         raise ValueError(f"form {form!r} is unknown; there are {', '.join(FORMS)}")
+    nomenclature = Nomenclature({**nomenclature, **{x.name: x for x in content.symbols}}, nomenclature.renamed)
     own = form != "constraints"  # else the places of the bodies are the coordinates
     body: list[Block] = [*content.blocks]
     if form == "first-order":
@@ -107,8 +113,8 @@ def derive(
         blocks += [*(preamble.configuration(subject) if own else []), *preamble.nomenclature(nomenclature, used(body))]
     else:
         blocks += page.beginning(subject, nomenclature, used(body), own)
-    blocks += body
-    shown = [readable(block, _ELSEWHERE) if long else readable(block, _LONGER, _OF_A_PAGE) for block in blocks]
+    blocks += [*body, *section(subject, content.equations, limits or {})]
+    shown = [readable(block, _ELSEWHERE) if long else readable(block, _LONGER, page.OF_A_PAGE) for block in blocks]
     return Equations(tuple(lettered(block, nomenclature) for block in shown), nomenclature, form=form, content=content)
 
 

@@ -21,7 +21,7 @@ from freebody.symbolic.tree import PI, Add, Mul, Sym, Tree, add, is_zero, minus,
 
 @dataclass(frozen=True)
 class Link:
-    """A link between points of two bodies, whose ``angle`` at the state one ``coordinate`` tells."""
+    """A link between points of two bodies, whose ``angle`` at the state one ``coordinate`` tells; or a line that does not move, of none."""
 
     name: str
     first: str
@@ -31,10 +31,12 @@ class Link:
 
     def quarters(self, angle: Tree, moving: Collection[str], values: Mapping[Sym, float]) -> int | None:
         """By how many quarters of a turn the link is ahead of an angle that turns with it; None for another angle."""
-        if {x.name for x in symbols(angle)} & set(moving) != {self.coordinate}:
+        if {x.name for x in symbols(angle)} & set(moving) != {self.coordinate} - {""}:
             return None
         turns = (self.angle - evaluate(angle, values)) / (math.pi / 2)
-        return round(turns) % 4 if abs(turns - round(turns)) < _QUARTER else None
+        if abs(turns - round(turns)) > _QUARTER:
+            return None
+        return round(turns) % 4 if self.coordinate else None if round(turns) % 2 else 0
 
 
 _QUARTER = 1e-9
@@ -52,16 +54,18 @@ class Direction:
     turning: tuple[str, ...] = ()
     link: Link | None = None
     quarters: int = 0
+    radius: str = ""
+    """The other of two polar coordinates, of which the angle is one: the directions are e_r and e_φ."""
 
     @property
     def along(self) -> str:
         """Name of the first."""
-        return f"λ_{self.below}"
+        return f"e_{self.radius}" if self.radius else f"λ_{self.below}"
 
     @property
     def across(self) -> str:
         """Name of the second."""
-        return f"n_{self.below}"
+        return f"{'e' if self.radius else 'n'}_{self.below}"
 
     @property
     def angle_along(self) -> Tree:
@@ -72,7 +76,7 @@ class Direction:
         """What it is, where the unit vectors along x, along y and across the plane are called ``axes``."""
         where = ""
         if self.link:
-            where = f"along {self.link.name}, from {self.link.first} to {self.link.second}, "
+            where = f"along {self.link.name}, from {self.link.first} to {self.link.second}, ".replace(", from  to ", "")
         elif self.owners:
             where = f"along the x axis of {joined(self.owners)}, "
         elif self.turning:
@@ -100,10 +104,11 @@ class Directions:
         links: Sequence[Link] = (),
         values: Mapping[Sym, float] | None = None,
         symbols: Taken | None = None,
+        polar: Mapping[Tree, tuple[str, int]] | None = None,
     ) -> Directions:
         """The pairs for some vectors (``moving`` symbols change with time), named after bodies that turn with them, after the
         link that they are along, after the symbol of the angle, or numbered; ``values`` of the symbols tell links, ``symbols``
-        what names mean something else."""
+        what names mean something else; ``polar`` has angles of polar coordinates, with the radius and by how many quarters it is ahead."""
         symbols = symbols or Taken()
         angles = list(dict.fromkeys(part.angle for arrow in arrows for part in arrow.parts))
         bodies = [body for body in motions if not body.particle]
@@ -122,6 +127,10 @@ class Directions:
             link, ahead = next(((link, k) for link, k in quarters if k is not None), (None, own or 0))
             named = [_word(body) for body in (*owners[angle], *turning[angle], *([link.name] if link else []))]
             named += [unicode_name(angle.name)] if isinstance(angle, Sym) else []
+            if angle in (polar or {}) and isinstance(angle, Sym):
+                radius, ahead = (polar or {})[angle]
+                made.append(Direction(unicode_name(angle.name), angle, (), turning[angle], None, ahead, unicode_name(radius)))
+                continue
             taken = {folded(pair.below) for pair in made}
             free = (word for word in chain(named, map(str, count(len(made) + 1))) if folded(word) not in taken)
             below = next(word for word in free if not any(symbols.owner(Name(stem, (word,))) for stem in "λn"))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from freebody.document.blocks import Block
 from freebody.symbolic.linear import Linear
-from freebody.symbolic.nomenclature import Nomenclature
+from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.tree import ZERO, Sym, Tree, minus, negative
 
 
@@ -56,11 +56,12 @@ class System:
 
 @dataclass(frozen=True)
 class Form:
-    """The equations of a form, their matrix form, and the blocks that derive them."""
+    """The equations of a form, their matrix form, the blocks that derive them, and symbols that these have besides."""
 
     equations: tuple[Printed, ...]
     system: System
     blocks: tuple[Block, ...] = field(default=(), repr=False)
+    symbols: Sequence[SymbolEntry] = ()
 
     @classmethod
     def of(cls, nomenclature: Nomenclature, equations: Sequence[Printed]) -> Form:

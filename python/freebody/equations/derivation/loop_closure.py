@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Written, equations
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, equations
 from freebody.equations.derivation.form import Printed, System
 from freebody.equations.derivation.sentences import clause, joined
 from freebody.solve.symbolic_state import Row
 from freebody.symbolic.algebra import common_number, divided
-from freebody.symbolic.formula import word
 from freebody.symbolic.linear import Linear, linear_in
-from freebody.symbolic.tree import ONE, ZERO, Add, Fn, Sym, Tree, add, is_negative, is_zero, mul, negative, symbols, walk
+from freebody.symbolic.tree import ONE, ZERO, Add, Sym, add, is_negative, mul, negative, symbols
 
 _WHAT = {
     "joint": ("closes a loop", "close loops"), "motion": ("is prescribed", "are prescribed"),
@@ -54,58 +53,6 @@ def accelerations(rows: Sequence[Row], coordinates: Sequence[str], name: str = "
     return _together(System.of([row.linear for row in rows], coordinates), name)
 
 
-def separately(rows: Sequence[Row], coordinates: Sequence[str]) -> list[list[tuple[Tree, Tree | Written]]]:
-    """The rows as they are written, as a person puts them on two sides: places, velocities, accelerations."""
-    rates = {id(row): linear_in(row.rate, [Sym(name, 1) for name in coordinates]) for row in rows if row.rate is not None}
-    return [
-        [
-            (_winds(row.value) and _kept(rates.get(id(row)), coordinates)) or _sides(row.value)
-            for row in rows
-            if row.value is not None
-        ],
-        [_sides(_spread(linear)) for linear in rates.values()],
-        [_apart(row.linear) for row in rows],
-    ]
-
-
-def _winds(tree: Tree) -> bool:
-    """Whether a function of something moving is in it, as of a rope the angle over which it lies."""
-    return any(isinstance(part, Fn) and part.name.startswith("atan") for part in walk(tree))
-
-
-def _kept(rate: Linear | None, coordinates: Sequence[str]) -> tuple[Tree, Written] | None:
-    """What stays as it is, x₁ + x₂ = const, where several rates have a sum that vanishes: of a rope over pulleys."""
-    if rate is None or len(rate.coefficients) < 2 or not is_zero(rate.rest):
-        return None
-    if {x.name for factor in rate.coefficients.values() for x in symbols(factor)} & {*coordinates, "t"}:
-        return None
-    return add(*(mul(factor, Sym(x.name)) for x, factor in rate.coefficients.items())), Written("const", word("const"))
-
-
-def _spread(linear: Linear) -> Tree:
-    return add(*(mul(factor, x) for x, factor in linear.coefficients.items()), linear.rest)
-
-
-def _apart(linear: Linear) -> tuple[Tree, Tree]:
-    """The accelerations = what depends on places and velocities, if anything does."""
-    if is_zero(linear.rest):
-        return _sides(_spread(linear))
-    left = add(*(mul(factor, x) for x, factor in linear.coefficients.items()))
-    sides = (left, negative(linear.rest))
-    return sides if any(not is_negative(term) for term in _terms(left)) else (negative(left), linear.rest)
-
-
-def _sides(tree: Tree) -> tuple[Tree, Tree]:
-    """What vanishes as two sides without minus signs in front of their terms."""
-    terms = _terms(tree)
-    left, right = (add(*(t for t in terms if is_negative(t) == sign)) for sign in (False, True))
-    return (negative(right), ZERO) if is_zero(left) else (left, negative(right))
-
-
-def _terms(tree: Tree) -> tuple[Tree, ...]:
-    return tree.terms if isinstance(tree, Add) else (tree,)
-
-
 def _together(system: System, name: str) -> list[Block]:
     """Several equations as a matrix equation, one as it is."""
     if not system.unknowns:
@@ -125,11 +72,14 @@ def written(rows: Sequence[Row]) -> list[Row]:
     of the teeth of two gears), and with signs by which most terms with coordinates are positive."""
     made = []
     for row in (row for row in rows if not row.says_nothing):
-        terms = [*row.linear.coefficients.values(), *([] if is_zero(row.linear.rest) else [row.linear.rest])]
-        if (common := common_number(terms)) != ONE:
+        if (common := common_number([*row.linear.coefficients.values(), row.linear.rest])) != ONE:
             row = row.with_trees(lambda tree, by=common: divided(tree, by))
         tree = next(tree for tree in (row.value, row.rate, row.acceleration) if tree is not None)
-        signs = [is_negative(part) for part in _terms(tree) if _names(row) & {x.name for x in symbols(part)}]
+        signs = [
+            is_negative(part)
+            for part in (tree.terms if isinstance(tree, Add) else (tree,))
+            if _names(row) & {x.name for x in symbols(part)}
+        ]
         made.append(row.with_trees(negative) if 2 * sum(signs) > len(signs) else row)
     return made
 

@@ -39,13 +39,13 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
         found = from_search(subject, search.equations)
         chosen = found if found or not search.wanted else of_coordinates(subject, momentum=False)
     added = _of_bearing_friction(subject, chosen)
-    stated = [replace(s, label=str(i)) for i, s in enumerate([*chosen, *added], 1)]
+    stated = [replace(s, label=str(i), constants=subject.constants) for i, s in enumerate([*chosen, *added], 1)]
     form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(rows))
     if not long:
         closed = Closed(subject)
-        brief = [*page.closure(rows, subject.names), *page.kinematics(subject, closed), *_friction(subject)]
+        brief = [*page.closure(subject, closed), *page.kinematics(subject, closed), *_friction(subject)]
         brief += page.balances(subject, stated, closed)
-        return replace(form, blocks=(*brief, *([] if stated else [Paragraph(_NOTHING)])))
+        return replace(form, blocks=(*brief, *([] if stated else [Paragraph(_NOTHING)])), symbols=closed.symbols)
     made: list[Block] = loop_closure.section(rows, subject.names) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(chosen), search)), *_friction(subject)]
     if added:

@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
-from freebody.document.blocks import Block, Equation, Figure, Heading, Paragraph, Vector, Words, Written, listed, pieces
-from freebody.document.drawings import ConfigurationDrawing
+from freebody.document.blocks import Block, Equation, Figure, Heading, Paragraph, Vector, Words, Written, is_tree, listed, pieces
+from freebody.document.drawings import ConfigurationDrawing, FreeBodyDrawing
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation import loop_closure, preamble
 from freebody.equations.derivation.balance_text import Stated, cancelling, dropped, numbers
+from freebody.equations.derivation.plain_rows import on_two_sides
 from freebody.equations.derivation.put_in import Closed
-from freebody.equations.derivation.sentences import joined
-from freebody.solve.symbolic_state import Balance, Row, SymbolicState
-from freebody.symbolic.algebra import less, opposite
+from freebody.equations.derivation.sentences import joined, signs
+from freebody.solve.symbolic_state import Balance, SymbolicState
+from freebody.symbolic.algebra import less, opposite, quotient, signed
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import EQUALS, PLUS, Atom, typed
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.presentation import presented
 from freebody.symbolic.symbols import direction
-from freebody.symbolic.tree import ZERO, Add, Sym, Tree, add, is_zero, mul
+from freebody.symbolic.tree import ONE, ZERO, Add, Pow, Sym, Tree, add, is_zero, mul, power, walk
 
 _TURNS = ", counter-clockwise"
 _SIGNS = {
@@ -28,6 +30,8 @@ _SIGNS = {
     "+": PLUS, "=": EQUALS, "×": Atom("×", "sign"), "Σ": Atom("∑", "sign"),
 }  # fmt: skip
 """How the signs of a law are set in type; the others are letters."""
+OF_A_PAGE = 250
+"""Symbols, numbers and operations of an expression beyond which it does not stand on a page."""
 _NONE = 1e-6
 _AXIS = re.compile(r" along [xy](?= of )")
 _BRIEFLY = tuple(
@@ -63,8 +67,13 @@ def beginning(subject: SymbolicState, known: Nomenclature, used: Collection[str]
 def _coordinates(subject: SymbolicState) -> Words:
     if not subject.coordinates:
         return "The mechanism cannot move: there are no coordinates."
-    meanings = [preamble.meaning(c) for c in subject.coordinates]
-    said = [[Sym(name), f": {what.removesuffix(_TURNS)}"] for name, what in zip(subject.names, meanings, strict=True)]
+    meanings = [preamble.meaning(subject, c) for c in subject.coordinates]
+    said: list[Words] = []
+    for name, what in zip(subject.names, meanings, strict=True):
+        if what.startswith("y of ") and said and said[-1][1:] == [f": x{what[1:]}"]:
+            said[-1] = [*said[-1][:1], " and ", Sym(name), f": place{what[1:]}"]
+        else:
+            said.append([Sym(name), f": {what.removesuffix(_TURNS)}"])
     return [*_listed(said, "; "), f".{' Angles are counter-clockwise.' * any(what.endswith(_TURNS) for what in meanings)}"]
 
 
@@ -75,66 +84,99 @@ def kinematics(subject: SymbolicState, closed: Closed) -> list[Block]:
     said = [[Written(pair.along, direction(pair.along)), " at ", pair.angle_along] for pair in named.pairs]
     name: Words = "Accelerations of the mass centres"
     if said:
-        turned = Written(
-            f"n = {named.axes[2]} × λ", (*direction("n"), *typed("="), *direction(named.axes[2]), *typed("×"), *direction("λ"))
-        )
-        name = ["Accelerations, in unit directions ", *_listed(said, ", "), f" from {named.axes[0]} and ", turned]
+        pairs = [("λ", "n")] * any(not pair.radius for pair in named.pairs)
+        pairs += [(pair.along, pair.across) for pair in named.pairs if pair.radius]
+        turned = [_turned(named.axes[2], *pair) for pair in pairs]
+        start = Written(named.axes[0], direction(named.axes[0]))
+        name = ["Accelerations, in unit directions ", *_listed(said, ", "), " from ", start, " and ", *listed(turned, " and ")]
     made: list[Block] = []
     for motion in moving:
         left = Written.of(subject.symbols.of_body("a", motion.body), bold=True)
-        vector = Vector(tuple((closed.put(tree), unit) for tree, unit in named.vector(motion.a).components))
-        made.append(Equation(left, vector, "" if made else name))
+        parts = ((signed(closed.put(tree), subject.constants), unit) for tree, unit in named.vector(motion.a).components)
+        made.append(Equation(left, Vector(tuple(parts)), "" if made else name))
     return made
 
 
-def closure(rows: Sequence[Row], coordinates: Sequence[str]) -> list[Block]:
-    """What is closed or prescribed: the places, the velocities, the accelerations."""
-    if not (stated := loop_closure.written(rows)):
+def _turned(axis: str, along: str, across: str) -> Written:
+    """One direction as another that is turned by a right angle: n = k × λ."""
+    return Written(
+        f"{across} = {axis} × {along}", (*direction(across), *typed("="), *direction(axis), *typed("×"), *direction(along))
+    )
+
+
+def closure(subject: SymbolicState, closed: Closed) -> list[Block]:
+    """What is closed or prescribed: the places, the velocities, the accelerations; first what roots are called."""
+    if not closed.rows:
         return []
-    levels = loop_closure.separately(stated, coordinates)
-    return [Heading(loop_closure.title(rows), 3), *(Equation(*sides) for level in levels for sides in level)]
+    made: list[Block] = [Equation(Sym(entry.name), power(base, "1/2")) for entry, base in closed.named]
+    for left, right in (pair for level in on_two_sides(closed.rows, subject.names) for pair in level):
+        made.append(Equation(signed(left, subject.constants), signed(right, subject.constants) if is_tree(right) else right))
+    return [Heading(loop_closure.title(subject.rows), 3), *made]
 
 
 def balances(subject: SymbolicState, stated: Sequence[Stated], closed: Closed) -> list[Block]:
     """Each balance: its free body, what does not enter, what acts = what is moved, part by part, and the scalar equation; of one that
     stands alone also the acceleration."""
     made: list[Block] = []
+    shown: set[tuple[str, ...]] = set()
     for given in stated:
         each, known = closed.reduced(given)
-        acting, carried, turned = _parts(subject, each, closed)
-        name = [_absent(subject, each), *_law(each, len(carried), len(turned))]
+        bodies = each.balance.bodies
+        short = signs(each.sides) <= OF_A_PAGE
+        parts = _parts(subject, each, closed, closed.put_in if known else closed.put) if short else ()
+        carried, turned = map(len, parts[1:]) if parts else (len(bodies), len(bodies) if each.balance.turns else 0)
+        name = [_absent(subject, each), *_law(each, carried, turned)]
+        name += [", times ", each.factor] if each.factor != ONE else []
         name += [", with ", *listed(known, " and "), " as above"] if known else []
         whole = Equation(*closed.alone(*each.sides), name, each.label)
         made.append(Heading(each.title, 3))
-        if not is_zero(acting) and len(carried + turned) > 1:
-            made += [Equation(acting, Add((*carried, *turned)), name), replace(whole, name="")]
+        if bodies not in shown:
+            shown.add(bodies)
+            made.append(free_body(subject, bodies, len(shown)))
+        split = [tree for some in parts[1:] for tree in some]
+        if parts and not is_zero(parts[0]) and len(split) > 1 and _below(parts[0], *split) <= _below(*each.sides):
+            made += [Equation(parts[0], Add(tuple(split)), name), replace(whole, name="")]
         else:
             made.append(whole)
         made += closed.result(whole) if len(stated) == 1 else []
     return made
 
 
-def _parts(subject: SymbolicState, stated: Stated, closed: Closed) -> tuple[Tree, list[Tree], list[Tree]]:
-    """The sum of what acts, and m a, or r × m a and I α, of each body, in the sense of the scalar equation."""
+def free_body(subject: SymbolicState, bodies: Sequence[str], number: int) -> Figure:
+    """What acts on some bodies, and m a and I α beside it; the figures are numbered."""
+    return Figure(FreeBodyDrawing(subject.source, subject.state, bodies, subject.given), name=f"free-body-{number}")
+
+
+def _parts(
+    subject: SymbolicState, stated: Stated, closed: Closed, follow: Callable[[Tree], Tree]
+) -> tuple[Tree, list[Tree], list[Tree]]:
+    """The sum of what acts, and m a, or r × m a and I α, of each body, in the sense of the scalar equation; ``follow`` puts in what is
+    closed."""
     given, cancelled, put = stated.balance, cancelling(subject, stated.balance), opposite if stated.turned else lambda tree: tree
+    shown = partial(signed, constants=subject.constants)
     motions = subject.motions if given.turns else ()
-    turning = {motion.body: closed.put(mul(motion.inertia, motion.alpha)) for motion in motions}
-    apart = _is_plain(subject, given)
+    turning = {motion.body: follow(quotient(mul(motion.inertia, motion.alpha), ONE)) for motion in motions}
+    apart = _is_plain(subject, given, closed.values)
     own = {body: turning.get(body, ZERO) if apart else ZERO for body, _ in given.inertia}
     carried = (tree if is_zero(own[body]) else less(tree, own[body]) for body, tree in given.inertia)
     acting = (presented(c.tree) for c in given.contributions if not c.absent and c.load not in cancelled)
-    moved = ([put(presented(tree)) for tree in trees if not is_zero(tree)] for trees in (carried, own.values()))
-    return add(*map(put, acting)), *moved
+    moved = ([shown(put(presented(tree))) for tree in trees if not is_zero(tree)] for trees in (carried, own.values()))
+    return shown(add(*map(put, acting))), *moved
 
 
-def _is_plain(subject: SymbolicState, balance: Balance) -> bool:
+def _below(*trees: Tree) -> set[Tree]:
+    """What stands below a line: of a body of two parts, their mass, which is not in the sum of its parts."""
+    return {part.base for tree in trees for part in walk(tree) if isinstance(part, Pow) and part.exponent < 0}
+
+
+def _is_plain(subject: SymbolicState, balance: Balance, values: Mapping[Sym, float]) -> bool:
     """Whether moments are not taken times a factor, as about where two lines meet they are times the sine of the angle between."""
     at = numbers(subject, balance)
     for each in balance.contributions:
         load = subject.free.loads[each.load]
         arm = load.unit(balance.bodies, at)[2] * load.value
         if not each.absent and abs(arm) > _NONE:
-            return abs(evaluate(each.tree, subject.values, subject.tables) / arm - 1) < _NONE
+            return abs(evaluate(each.tree, values, subject.tables) / arm - 1) < _NONE
     return True
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from freebody.core import GROUND
 from freebody.document.blocks import Block, Bullets, Equation, Figure, Heading, Paragraph, Table, Written
 from freebody.document.drawings import ConfigurationDrawing
 from freebody.equations.derivation.directions import Directions, Link
@@ -18,9 +19,10 @@ from freebody.solve.perturbed_states import DEPENDENT
 from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.symbols import SUPERSCRIPTS
-from freebody.symbolic.tree import Sym, is_zero, read
+from freebody.symbolic.tree import Sym, Tree, is_zero, negative, read
 
-_GUIDED = re.compile(r"^(s|x|y) of (.+) from (.+) at (.+)$")
+_GUIDED = re.compile(r"^(s|x|y|r|length) of (.+) from (.+) at (.+?)(, backward)?$")
+_VERTICAL = re.compile(r"the direction at (-?)90° to (.+) at ")
 _CAPTION = "Every coordinate, from where it is 0. One that is 0 now is drawn a little further on."
 
 
@@ -36,14 +38,22 @@ def configuration(subject: SymbolicState) -> list[Block]:
     said += f" mechanism has {'one degree' if count == 1 else f'{count} degrees' if count else 'no degrees'} of freedom"
     said += f", of which motions prescribe {freedom['driven']}" if freedom["driven"] else ""
     said += f". Its configuration is described by {'one coordinate' if number == 1 else f'{number} coordinates'}:"
-    rows = [([Sym(c["name"])], meaning(c), c["dimension"] or "1") for c in subject.coordinates]
+    rows = [([Sym(c["name"])], meaning(subject, c), c["dimension"] or "1") for c in subject.coordinates]
     made += [Paragraph(said), Table(("coordinate", "meaning", "unit"), rows)]
     return [*made, Figure(ConfigurationDrawing(subject.source, subject.state), _CAPTION, "sketch"), *notes(subject)]
 
 
-def meaning(coordinate: Mapping[str, Any]) -> str:
-    """What a coordinate measures."""
-    return _GUIDED.sub(_displacement, coordinate["doc"].replace("`", ""))
+def meaning(subject: SymbolicState, coordinate: Mapping[str, Any]) -> str:
+    """What a coordinate measures, in a person's words."""
+
+    def vertical(found: re.Match[str]) -> str:
+        body = next((motion for motion in subject.motions if motion.body == found[2]), None)
+        word = f"straight {'down' if found[1] else 'up'} at " if body and is_zero(body.angle) else found[0]
+        return word.replace("-90", "−90")
+
+    said = _GUIDED.sub(_displacement, coordinate["doc"].replace("`", ""))
+    said = re.sub(rf"from ({GROUND}|the fixed x axis) at ", "from the x axis at ", said)
+    return _VERTICAL.sub(vertical, said)
 
 
 def notes(subject: SymbolicState) -> list[Block]:
@@ -70,8 +80,12 @@ def unloaded(subject: SymbolicState) -> list[Block]:
 
 def _displacement(found: re.Match[str]) -> str:
     """What a coordinate of a guide measures, in more words than the core's."""
-    word, second, first, joint = found.groups()
-    return f"displacement of {second} along {joint}, on {first}" if word == "s" else f"{word} of {second}, seen from {first}"
+    word, second, first, joint, backward = found.groups()
+    if word in ("r", "length"):
+        return f"distance of {second} from {joint}" if word == "r" else f"free length of {joint}"
+    if word == "s":
+        return f"displacement of {second} along {joint}{f', on {first}' * (first != GROUND)}{backward or ''}"
+    return f"{word} of {second}{f', seen from {first}' * (first != GROUND)}"
 
 
 def degrees(subject: SymbolicState) -> int:
@@ -107,17 +121,33 @@ def kinematics(subject: SymbolicState) -> list[Block]:
 
 def directions(subject: SymbolicState, arrows: Sequence[Arrow] = ()) -> Directions:
     """The unit directions in which some vectors are written, or the motions of all bodies."""
-    links = []  # every link of the tree, from its first end to its second
+    links = []  # every link of the tree, from its first end to its second, and every line on the ground
     for joint in subject.source.metadata["joints"]:
         load = next((load for load in subject.free.loads if load.kind == "joint" and load.name == joint["name"]), None)
-        if load and load.card.pulls and joint["coordinates"]:
-            x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first
+        if not load or not joint["coordinates"]:
+            continue
+        x, y = next(part.force for part in load.on if part.body == joint["second"])  # a tension pulls it to the first
+        if load.card.pulls:
             links.append(Link(joint["name"], joint["first"], joint["second"], joint["coordinates"][0], float(np.arctan2(-y, -x))))
+        elif joint["first"] == GROUND and not load.axis and np.hypot(x, y) > 0:  # a normal force, across the line
+            links.append(Link(joint["name"], "", "", "", float(np.arctan2(-x, y))))
     motions = subject.motions
     every = [*(a for b in motions for a in (b.r, b.v, b.a)), *arrows]  # so that each has one name, whatever is written in it
-    found = Directions.of(motions, every, [*subject.names, "t"], links, subject.values, subject.symbols.taken)
+    found = Directions.of(motions, every, [*subject.names, "t"], links, subject.values, subject.symbols.taken, _polar(subject))
     wanted = {part.angle for arrow in arrows or every for part in arrow.parts}
     return replace(found, pairs=tuple(pair for pair in found.pairs if pair.angle in wanted))
+
+
+def _polar(subject: SymbolicState) -> dict[Tree, tuple[str, int]]:
+    """The angle of every pair of polar coordinates, with the radius and by how many quarters of a turn it is ahead."""
+    found = {}
+    for joint in (each for each in subject.source.metadata["joints"] if each["type"] == "polar"):
+        radius, place = joint["coordinates"][0], next(m.r for m in subject.motions if m.body == joint["second"])
+        for part in place.parts:
+            sides = (part.along, part.across, negative(part.along), negative(part.across))
+            if Sym(radius) in sides:
+                found[part.angle] = radius, sides.index(Sym(radius))
+    return found
 
 
 def nomenclature(known: Nomenclature, used: Collection[str]) -> list[Block]:

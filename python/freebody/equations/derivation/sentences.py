@@ -62,17 +62,17 @@ def readable(block: Block, elsewhere: str, longest: int = LONGEST) -> Block:
     """The block, or a sentence in its place where an expression in it is longer than the ``longest``; ``elsewhere`` says where it is."""
     match block:
         case Bullets(items):
-            sizes = [_signs(pieces(item)) for item in items]
+            sizes = [signs(pieces(item)) for item in items]
             texts = ([piece for piece in pieces(words) if isinstance(piece, str)] for words in items)
             long = ([*said, f"an expression of {size} signs"] for said, size in zip(texts, sizes, strict=True))
             kept = [words if size <= longest else said for words, size, said in zip(items, sizes, long, strict=True)]
             return replace(block, items=kept)
         case Equation(_, Matrices((Matrix(rows),))):
-            size = max(map(_signs, rows), default=0)
+            size = max(map(signs, rows), default=0)
         case Equation(left, right):
-            size = _signs([left, right])
+            size = signs([left, right])
         case MatrixEquation(matrix, _, right):
-            size = max(map(_signs, [*matrix, right]), default=0)
+            size = max(map(signs, [*matrix, right]), default=0)
         case _:
             return block
     if size <= longest:
@@ -81,5 +81,6 @@ def readable(block: Block, elsewhere: str, longest: int = LONGEST) -> Block:
     return Paragraph([*name, f"an expression of {size} signs, too long to be read; {elsewhere}."])
 
 
-def _signs(parts: Sequence[object]) -> int:
+def signs(parts: Sequence[object]) -> int:
+    """Symbols, numbers and operations of all expressions among some parts."""
     return sum(1 for tree in parts if is_tree(tree) for _ in walk(tree))

@@ -28,7 +28,7 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: b
     numbers = [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(agrees + exact)]
     if found.virtual:
         return replace(Form.of(subject.nomenclature, []), blocks=(*_virtual(found.virtual), *numbers))
-    stated = from_search(subject, found.equations)
+    stated = [replace(s, constants=subject.constants) for s in from_search(subject, found.equations)]
     printed = [s.printed for s in stated]
     free = [x.name for x in map(_symbol, found.values) if x.dots]
     moving = {x.name for equation in printed for x in equation.linear.coefficients if x.dots}

@@ -13,11 +13,11 @@ from freebody.equations.derivation import preamble
 from freebody.equations.derivation.derive import used
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.solve.symbolic_state import Arrow, SymbolicState
-from freebody.symbolic.differentiate import derivative
+from freebody.symbolic.differentiate import along_motion
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.symbols import Name
-from freebody.symbolic.tree import ONE, ZERO, Sym, Tree, add, canonical, mul, negative
+from freebody.symbolic.tree import Tree, add, mul, negative
 
 if TYPE_CHECKING:
     from freebody.core import State
@@ -61,20 +61,9 @@ def own(subject: SymbolicState, kind: str, unit: str, doc: str, *wanted: str) ->
     return SymbolEntry(name.ascii(), kind, unit, doc, name)
 
 
-def rate(tree: Tree, coordinates: Collection[str]) -> Tree:
-    """The derivative with respect to time of an expression of coordinates, rates and time."""
-
-    def of(symbol: Sym) -> Tree:
-        if symbol == Sym("t"):
-            return ONE
-        return Sym(symbol.name, symbol.dots + 1) if symbol.name in coordinates and symbol.dots < 2 else ZERO
-
-    return canonical(derivative(tree, of))
-
-
 def rates(pair: tuple[Tree, Tree], coordinates: Collection[str]) -> tuple[Tree, Tree]:
     """The derivative of a vector along fixed axes."""
-    return rate(pair[0], coordinates), rate(pair[1], coordinates)
+    return along_motion(pair[0], coordinates), along_motion(pair[1], coordinates)
 
 
 def cross(a: tuple[Tree, Tree], b: tuple[Tree, Tree]) -> Tree:

@@ -9,9 +9,10 @@ from freebody.document.blocks import Block, Equation, Heading, Paragraph, Words,
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved
 from freebody.equations.solve import solve_equations
-from freebody.equations.topics.common import Asked, NotHere, brief, document, own, rate
+from freebody.equations.topics.common import Asked, NotHere, brief, document, own
 from freebody.equations.topics.lagrange import equations
 from freebody.solve.symbolic_state import SymbolicState
+from freebody.symbolic.differentiate import along_motion
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.symbols import unicode_name
@@ -54,7 +55,7 @@ def eliminated(subject: SymbolicState) -> Eliminated:
     )
     kept = [each for each in found if each not in gone]
     others = [name for name in subject.names if name not in constants]
-    second = {Sym(x.name, 2): rate(tree, others) for x, tree in rates.items()}
+    second = {Sym(x.name, 2): along_motion(tree, others) for x, tree in rates.items()}
     left = {each.coordinate: _bare(subject, _put(subject, each.residual, rates, second)) for each in kept}
     total = conserved.total(subject)
     energy = None if total is None else _put(subject, total, rates, {})

@@ -8,9 +8,10 @@ from freebody.core import GROUND
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
 from freebody.equations.solve import Unconfirmed
-from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, known, place_of, rate, rates, spread
+from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, known, place_of, rates, spread
 from freebody.solve.symbolic_state import Balance
 from freebody.symbolic.algebra import equal
+from freebody.symbolic.differentiate import along_motion
 from freebody.symbolic.formula import PLUS, Formula, Script, bold, dotted, typed, word
 from freebody.symbolic.symbols import name_formula
 from freebody.symbolic.tree import Tree, add, is_zero
@@ -30,7 +31,7 @@ def moment(asked: Asked, *, about: str | None = None, bodies: Sequence[str] | st
         raise NotHere("no named point moves; give one")
     questions = [{"about": {"point": point}}, {"along": "x"}, {"along": "y"}]
     of, along_x, along_y = subject.balances([{"ask": "equation", "bodies": group, **q} for q in questions])
-    v, changing = rates(of.place.xy, names), rate(of.momentum, names)
+    v, changing = rates(of.place.xy, names), along_motion(of.momentum, names)
     extra = cross(v, (along_x.momentum, along_y.momentum))
     if not equal(of.right, add(changing, extra)):
         raise Unconfirmed("the rate of angular momentum is not what the accelerations give")

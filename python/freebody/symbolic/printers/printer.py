@@ -36,11 +36,8 @@ class Printer(ABC, Generic[Made]):
         """A vector by its components along unit directions."""
         terms = []
         for tree, unit in ((tree, self.direction(name)) for tree, name in components if not is_zero(tree)):
-            negative, shown = False, self.expression(tree)
-            if isinstance(tree, Add) or self.ends_below(shown):
-                shown = self.bracket(shown)
-            else:
-                negative, shown = self._term(tree)
+            negative, shown = (False, self.expression(tree)) if isinstance(tree, Add) else self._term(tree)
+            shown = self.bracket(shown) if isinstance(tree, Add) or self.ends_below(shown) else shown
             terms.append((negative, unit if shown == self.number(1) else self.juxtapose([shown, unit])))
         return self._sum(terms) if terms else self.number(0)
 

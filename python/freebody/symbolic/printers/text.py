@@ -79,7 +79,7 @@ class TextPrinter(Printer[str]):
         return name
 
     def ends_below(self, shown: str) -> bool:
-        return re.search(r"/[^()]+$", shown) is not None
+        return re.search(r"/([^()]+|\([^()]+\))$", shown) is not None
 
     def number(self, value: Fraction | float | int) -> str:
         if not isinstance(value, float):

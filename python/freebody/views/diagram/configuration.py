@@ -37,10 +37,10 @@ class Configuration(Picture):
     @cached_property
     def scenery(self) -> Scenery:
         """What is seen, with a dimension for every coordinate."""
-        opened = _opened(self.source, self.state)
+        state = opened(self.source, self.state)
         if not self.each_body:
-            return whole(self.source, opened)
-        drawn = whole(self.source, opened, places)
+            return whole(self.source, state)
+        drawn = whole(self.source, state, places)
         return replace(drawn, points=drawn.points + [Tag("", centre) for centre in drawn.centres.values()])
 
     @cached_property
@@ -58,7 +58,7 @@ class Configuration(Picture):
         return f"{self.source.name}, drawn with its coordinates: {'; '.join(stated)}."
 
 
-def _opened(source: CompiledModel, state: State) -> State:
+def opened(source: CompiledModel, state: State) -> State:
     """A state where one sees what is measured: coordinates that are 0 a little off it, all by different amounts. The same state
     where coordinates depend on each other or something may touch."""
     coupled = any(joint["type"] == "coupling" for joint in source.spec["joints"])
