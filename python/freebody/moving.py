@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import MotionError, Settings
 from freebody.model.answers import fault, numbers
+from freebody.model.builder import asking
 from freebody.model.errors import ModelFileError, Problem
 from freebody.model.start import many_turns, quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from freebody.core import CompiledModel, FreeBodies, State
+    from freebody.core import FreeBodies, State
     from freebody.impact.applied_impulse import AppliedImpulse
     from freebody.impact.impacts import Impact
     from freebody.model.builder import Builder
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 class Moving:
     """The part of ``Mechanism`` that solves, simulates and draws it."""
 
+    @asking
     def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
         """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
         and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
@@ -37,6 +39,7 @@ class Moving:
             state, notes = self.compile().assemble(p, t, **given)
         return state, [*turns, *notes]
 
+    @asking
     def moment(
         self: Builder,
         at: float | str | None = None,
@@ -56,6 +59,7 @@ class Moving:
         with self.core_errors():
             return state_of(self, state, self.source(), at, before, after), notes
 
+    @asking
     def solve(
         self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
     ) -> Instant:
@@ -70,6 +74,7 @@ class Moving:
         with self.core_errors():
             return Instant(replace(self.compile(), notes=tuple(notes)), state, route)
 
+    @asking
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
         """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
         state, _ = self.moment(initial=initial, t=t, **changes)
@@ -85,6 +90,7 @@ class Moving:
         with self.core_errors():
             return opening(self, state, self.source(notes))
 
+    @asking
     def simulate(
         self: Builder,
         until: float | str | None = None,
@@ -200,11 +206,6 @@ class Moving:
 
         found = self.blow(number, at=at)
         return impulse_diagram(found, groups(of, found.impulses), to_scale, effective, points(column))
-
-    def source(self: Builder, notes: Sequence[str] = ()) -> CompiledModel:
-        """The compiled mechanism with all that views want to know of it."""
-        model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
-        return replace(self.compile(), model=model, report=tuple(self.report_items()), notes=tuple(notes))
 
     def run_plan(self: Builder, until: float | str | None, overrules: Mapping[str, Any]) -> Any:
         """The section ``run`` as numbers, overruled where asked. Raises ``ModelFileError`` when the run has no end."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
+from dataclasses import replace
+from functools import wraps
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
@@ -20,6 +22,8 @@ from .names import spell, suggestion
 from .scope import Folder
 from .source import Source, SourceLocations, called, caller
 from .start import Assembly, Start, initial_state, parameter_values
+
+Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 def plain(value: Any) -> Any:
@@ -87,6 +91,7 @@ class Builder:
         self._locations, self._file, self._text = SourceLocations(), None, ""
         self._opened: dict[FilePath, Builder] = {}
         self._lowered: tuple[str, Lowered] | None = None
+        self._unchanged = False
         self._locations.note(())
         for section, value in (("name", name or None), ("gravity", gravity)):
             if value is not None:
@@ -320,6 +325,8 @@ class Builder:
     def lowered(self) -> Lowered:
         """The model in the core's terms; made again only when the model has changed. Raises ``ModelFileError`` with all that is
         wrong."""
+        if self._lowered and self._unchanged:
+            return self._lowered[1]
         key = self.model.model_dump_json(by_alias=True, exclude_unset=True)
         if self._lowered is None or self._lowered[0] != key:
             self._lowered = (key, lower(self.model, self._locations, self._file, self.others))
@@ -328,6 +335,14 @@ class Builder:
     def compile(self) -> CompiledModel:
         """The compiled model. Raises ``ModelFileError``."""
         return self.lowered().compiled
+
+    def source(self, notes: Sequence[str] = ()) -> CompiledModel:
+        """The compiled mechanism with all that views want to know of it. Raises ``ModelFileError``."""
+        lowered = self.lowered()
+        if lowered.source is None:
+            model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
+            lowered.source = replace(lowered.compiled, model=model, report=tuple(self.report_items()))
+        return replace(lowered.source, notes=tuple(notes))
 
     def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:
         """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``. What is guessed
@@ -358,6 +373,23 @@ class Builder:
 
     def _values(self, parameters: Mapping[str, float] | None) -> Mapping[str, float]:
         return parameter_values(self.compile(), self.compile().bind({})) if parameters is None else parameters
+
+
+def asking(call: Call) -> Call:
+    """Of a call that changes nothing in the model: whether it has changed is looked at once, when the call begins."""
+
+    @wraps(call)
+    def asked(self: Builder, *args: Any, **words: Any) -> Any:
+        if self._unchanged:
+            return call(self, *args, **words)
+        self.lowered()
+        self._unchanged = True
+        try:
+            return call(self, *args, **words)
+        finally:
+            self._unchanged = False
+
+    return asked  # type: ignore[return-value]
 
 
 def _given(words: Mapping[str, Any]) -> dict[str, Any]:

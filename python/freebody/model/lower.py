@@ -46,6 +46,8 @@ class Lowered:
     root: Scope
     hand_over: dict[str, str] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
+    source: CompiledModel | None = None
+    """The compiled model with what views want to know of it, once that was asked for."""
 
     def where(self, core_path: str) -> Where:
         """The place of what the core calls ``joints.pivot.of[1]``."""
