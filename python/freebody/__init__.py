@@ -52,6 +52,10 @@ def load(path: Any) -> Mechanism:
     return Mechanism.load(path)
 
 
+def __dir__() -> list[str]:
+    return __all__
+
+
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         from importlib.metadata import version

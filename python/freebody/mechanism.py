@@ -21,6 +21,15 @@ class Mechanism(Moving, Analysis, Builder):
     """A mechanism under construction; see ``Builder``. Each shape, joint and force is a method: ``rod``, ``hinge`` …;
     ``Moving`` solves, simulates and draws it, ``Analysis`` derives its equations and finds what is asked of its motions."""
 
+    def __dir__(self) -> list[str]:
+        """What a user asks for; not what the parts of the package ask of each other."""
+        return [name for name in super().__dir__() if not name.startswith("_") and name not in _WITHIN]
+
+
+_WITHIN = {
+    "core_errors", "handed", "initial_state", "lowered", "mark", "moment", "noted", "opening", "others", "put", "report_items",
+    "run_numbers", "run_plan", "run_settings", "source", "validated", "wrong",
+}  # fmt: skip
 
 _POSITIONAL, _KEYWORD = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY
 _PYTHON = {"from": "from_", "is": "is_", "in": "in_", "with": "with_", "as": "as_"}

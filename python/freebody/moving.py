@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import MotionError, Settings
+from freebody.core import ModelError, MotionError, Settings
 from freebody.model.answers import fault, numbers
 from freebody.model.builder import asking
 from freebody.model.errors import ModelFileError, Problem
@@ -147,6 +147,18 @@ class Moving:
 
         state, notes = self.start()
         return drawing(self.source(notes), state, ax, layers)
+
+    def _repr_html_(self: Builder) -> str | None:
+        """For a notebook, the mechanism at its start with its coordinates; None as long as it has no body or no start."""
+        from freebody.views.diagram.configuration import Configuration
+
+        if not self.model.bodies:
+            return None
+        try:
+            state, notes = self.start()
+            return Configuration(self.source(notes), state).inline()
+        except (ModelError, ModelFileError, MotionError):
+            return None
 
     def diagram(
         self: Builder,

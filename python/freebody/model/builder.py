@@ -62,6 +62,9 @@ class Overrules(MutableMapping[str, Any]):
     def __iter__(self) -> Iterator[str]:
         return iter(self._model.parameters)
 
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
     def __len__(self) -> int:
         return len(self._model.parameters)
 
@@ -274,6 +277,9 @@ class Builder:
             self._assign("ground", before, note=False)
         else:
             self.put("bodies", body, before, note=False)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.model.bodies)
 
     def __getitem__(self, name: str) -> Body:
         """The body of that name."""

@@ -77,6 +77,9 @@ class Marked:
             setattr(self, point, handle)
         return handle
 
+    def _ipython_key_completions_(self) -> list[str]:
+        return [str(value).partition(".")[2] for value in vars(self).values() if isinstance(value, Point)]
+
     def __getitem__(self, point: str) -> Point:
         """The point of that name, also when it is no Python word."""
         return Point(f"{self.name}.{point}")

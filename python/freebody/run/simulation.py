@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -44,6 +44,7 @@ from freebody.run.records import (
 )
 from freebody.run.sampling import Times, check_size, output_times
 from freebody.solve.instant import Instant, Reaction, Reactions, refuse
+from freebody.solve.rich_tables import PlainText, table
 
 if TYPE_CHECKING:
     import pandas
@@ -74,7 +75,7 @@ def simulate(
 
 
 @dataclass(eq=False, repr=False)
-class Run:
+class Run(PlainText):
     """Results of a simulation, on the output times ``t`` (nt,) in s and, by ``evaluate``, at any time within it.
 
     ``next`` is the run of the model to which this one handed over, if it did. ``previous`` is the run that this one continues, and
@@ -99,6 +100,20 @@ class Run:
         """What happened, in order of time."""
         self.changes = self.motion.changes
         """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
+
+    def __repr__(self) -> str:
+        return f"<run of {self.name!r} to t = {self.end.t:g} s: {self.outcome.sentence}>"
+
+    def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
+        """How it ended, what the model reports, and what each coordinate did."""
+        yield str(self)
+        shown = zip(self.metadata["coordinates"], self.q.T, strict=True) if len(self.t) else ()
+        rows = [(c["name"], c["dimension"], *map(float, (q[0], q[-1], q.min(), q.max()))) for c, q in shown]
+        yield table("coordinates", ["", "unit", "at the start", "at the end", "least", "largest"], rows)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """What is offered for ``run[…]``, of all that may stand there: its columns and the paths of points."""
+        return ["t", *(column.name for column in self.columns), *self.points]
 
     # What happened
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from freebody.core import Array, CompiledModel, FreeBodies, Indeterminate, NotFinite, State, quote
 from freebody.solve import rich_tables
 from freebody.solve.figures import figure
-from freebody.solve.rich_tables import table
+from freebody.solve.rich_tables import PlainText, table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -129,14 +129,23 @@ class Reaction:
         )
 
 
-class Reactions(dict[str, Reaction]):
-    """The reactions of all joints by name."""
+class Reactions(PlainText, dict[str, Reaction]):
+    """The reactions of all joints by name, at one instant or over the times of a run."""
+
+    def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
+        if any(each.values.ndim > 1 for each in self.values()):
+            sizes = ((each, np.hypot(*each.values[..., :2].T)) for each in self.values() if each.carries)
+            rows = [(each.name, each.second, float(np.nanmax(size, initial=0.0))) for each, size in sizes]
+            yield table("reactions", ["joint", "on", "largest force [N]"], rows)
+        else:
+            largest = max((float(np.nanmax(np.abs(each.values), initial=0.0)) for each in self.values()), default=0.0)
+            yield rich_tables.of_reactions(self.values(), largest)
 
     def __missing__(self, name: str) -> Reaction:
         raise KeyError(f"no joint is called {name!r}; there are {', '.join(self)}")
 
 
-class Instant:
+class Instant(PlainText):
     """Accelerations and all reactions at a state."""
 
     def __init__(self, core: CompiledModel, state: State, route: str = "minimal") -> None:
@@ -286,8 +295,16 @@ class Instant:
         yield from (table for table in self.tables() if table.row_count)
         yield Text("\n".join([f"largest relative residual {self.residual:.1e}", self.explanation, *self.self_stress]))
 
-    def __str__(self) -> str:
-        return rich_tables.captured(self, 100)
+    def __repr__(self) -> str:
+        return f"<instant of {self._metadata['name']!r} at t = {self.state.t:g} s: {len(self.accelerations)} coordinates>"
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """What is offered for ``instant[…]``, of all that may stand there: the coordinates and the loads of joints."""
+        names = map(quote, self.accelerations)
+        moving = [text.format(name) for name in names for text in ("{}", "rate({})", "accel({})")]
+        return moving + [
+            f"{quote(joint['name'])}.{reading}" for joint in self._metadata["joints"] for reading in joint["readings"]
+        ]
 
 
 def _named(core: CompiledModel) -> list[dict[str, Any]]:

@@ -21,7 +21,7 @@ _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what roundin
 
 
 class PlainText:
-    """What is printed for rich in ``width`` columns, and what a notebook shows as that, line by line."""
+    """What is printed for rich in ``width`` columns. A notebook shows its tables as such, or what is printed line by line."""
 
     width: ClassVar[int] = 100
 
@@ -29,7 +29,31 @@ class PlainText:
         return captured(self, self.width)
 
     def _repr_html_(self) -> str:
-        return f'<div style="white-space: pre-wrap">{html.escape(str(self))}</div>'
+        from rich.console import Console
+
+        console = Console(width=self.width)
+        parts = self.__rich_console__(console, console.options) if hasattr(self, "__rich_console__") else [str(self)]
+        return "".join(map(as_html, parts))
+
+
+def as_html(part: Any) -> str:
+    """A table for rich as one of a page; anything else as text, line by line."""
+    from rich.table import Table
+
+    if not isinstance(part, Table):
+        return f'<div style="white-space: pre-wrap">{html.escape(str(part))}</div>' if str(part).strip() else ""
+    sides = [f' style="text-align: {column.justify}"' for column in part.columns]
+
+    def row(tag: str, cells: Iterable[Any]) -> str:
+        made = (f"<{tag}{side}>{html.escape(str(cell))}</{tag}>" for side, cell in zip(sides, cells, strict=True))
+        return f"<tr>{''.join(made)}</tr>"
+
+    head = row("th", (column.header for column in part.columns))
+    rows = "".join(row("td", cells) for cells in zip(*(column.cells for column in part.columns), strict=True))
+    caption = (
+        f'<caption style="text-align: left; font-weight: bold">{html.escape(str(part.title))}</caption>' if part.title else ""
+    )
+    return f"<table>{caption}<thead>{head}</thead><tbody>{rows}</tbody></table>"
 
 
 def table(
