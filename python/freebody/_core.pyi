@@ -86,7 +86,7 @@ class Trajectory:
     """A finished run with dense output."""
 
     steps: Array
-    def record(self) -> dict[str, Any]:
+    def record(self, reported: list[str]) -> dict[str, Any]:
         """``events``, ``changes``, ``outcome`` and ``stats``."""
 
     def sample(self, times: Array) -> tuple[Array, Array]: ...

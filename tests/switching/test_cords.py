@@ -227,6 +227,26 @@ def test_a_bead_that_passes_beside_swings_round(b):
     assert min(run["distance(ground.eye, bead.centre)"]) > 0
 
 
+HOIST = """
+parameters: {R: 0.1 m, w: 2 rad/s}
+bodies: {drum: {shape: disk, radius: R, mass: 2 kg}, load: {shape: particle, mass: 1 kg}}
+joints: {axle: {type: hinge, of: [ground.O, drum.centre], coordinate: th}}
+motions: {turn: {of: th, is: w*t}}
+strings: {cable: {ends: [load.centre, {drum: drum.centre, radius: R, sense: SENSE, wound: 0.5 m}]}}
+initial: {load.x: R, load.y: -0.6 m, rates: {load.y: 0}}
+"""
+
+
+@pytest.mark.parametrize("spin", [2, -2, 20, -20])
+@pytest.mark.parametrize("sense", ["ccw", "clockwise"])
+def test_a_load_that_is_hauled_onto_its_drum_is_a_named_end(sense, spin):
+    """Whether it swings, so that its string turns without bound as it comes to the rim, or hangs still."""
+    run = model(HOIST.replace("SENSE", sense), w=spin).simulate(until=12)
+    assert run.outcome.name == "string_zero_length" and run.outcome.path == "strings.cable", run.outcome
+    assert "`cable` is wound up: its free length is zero" in run.outcome.sentence
+    assert run.evaluate("hypot(load.x, load.y)", run.outcome.t) == pytest.approx(0.1, abs=1e-4)
+
+
 UNWINDING = """
 parameters: {R: 0.2 m}
 bodies: {load: {shape: particle, mass: 1 kg}, drum: {shape: disk, radius: R, mass: 2 kg}}

@@ -155,3 +155,31 @@ initial: {guess: {theta: 0.7, beta: -1.4, x: 0.3}}
     forces = run.motion.evaluate(["A.F", "m.force"], math.pi + 10.0 ** -np.arange(3, 13))
     assert run.outcome.ok and np.isfinite(forces[0]).all() and np.isnan(forces).any()
     assert all(peak.joint for peak in peak_reactions(run))
+
+
+EQUAL_RODS = """
+freebody: 1
+parameters: {l: 0.3 m}
+ground: {lines: {rail: {through: O, angle: 0}}}
+bodies: {crank: {shape: rod, length: l, mass: 1 kg}, rod: {shape: rod, length: l, mass: 1 kg}}
+joints:
+  A: {type: hinge, of: [ground.O, crank.start], coordinate: theta}
+  B: {type: hinge, of: [crank.end, rod.start], coordinate: {name: psi, absolute: true}}
+  C: {type: slot, along: ground.rail, point: rod.end, coordinate: x}
+motions: {motor: {of: x, is: LAW}}
+initial: {guess: {theta: 60 deg, psi: -60 deg, x: l}}
+"""
+
+
+def test_where_a_mechanism_only_comes_nearer_to_a_singular_position_it_ends_by_name(tmp_path):
+    """Crank and rod of one length fold on one another where x = 2 l cos θ is 0: there nothing of the accelerations is known."""
+    run = refused(tmp_path, EQUAL_RODS.replace("LAW", "l*exp(-t/(1 s))"), 60.0)
+    assert "stays next to it" in run.outcome.sentence
+    np.testing.assert_allclose(np.cos(run.evaluate("theta", [1.0, 5.0])), np.exp([-1.0, -5.0]) / 2, rtol=1e-6)
+    assert run.outcome.t > 15
+
+
+def test_a_singular_position_that_is_passed_is_no_end(tmp_path):
+    (tmp_path / "model.yaml").write_text(EQUAL_RODS.replace("LAW", "l*cos(t/(1 s))"))
+    run = fb.load(tmp_path / "model.yaml").simulate(until=3.0)
+    assert run.outcome.ok, run.outcome

@@ -52,6 +52,13 @@ def test_a_table_that_is_left_is_named(until, left):
     assert run.outcome.ok and ("the table `ramp` was left, from t = 2.0" in run.outcome.sentence) == left
 
 
+@pytest.mark.parametrize(("until", "left"), [(2.0, False), (2.5, True)])
+def test_a_table_that_only_a_report_reads_is_named_where_it_is_left(until, left):
+    table = "tables: {ramp: {x: [0 s, 1 s, 2 s], y: [0 m, 2 m, 3 m]}}\nreport: {height: {max: ramp(t)}}\n"
+    run = model(CARRIER.format(then="reset: {h: 1 m/s}") + table).simulate(until=until)
+    assert run.outcome.ok and ("the table `ramp` was left, from t = 2.0" in run.outcome.sentence) == left
+
+
 CAM = """
 parameters: {r0: 30 mm, rr: 8 mm}
 tables: {lift: {x: [0, 1, 2, 3], y: [0, 3 mm, 9 mm, 9 mm], interpolation: pchip}}

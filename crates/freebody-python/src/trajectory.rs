@@ -25,9 +25,10 @@ impl Trajectory {
     fn steps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.run.steps)
     }
-    /// What happened, what switched, how the run ended and what it took.
-    fn record<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        plain(py, &self.run.record(&self.of.mechanism()))
+    /// What happened, what switched, how the run ended and what it took; `reported` is what is read of it besides.
+    fn record<'py>(&self, py: Python<'py>, reported: Vec<String>) -> PyResult<Bound<'py, PyAny>> {
+        let reported = self.of.observables(&reported)?;
+        plain(py, &self.run.record(&self.of.mechanism(), &reported))
     }
     /// The state at one time.
     fn state<'py>(&self, py: Python<'py>, t: f64) -> PyResult<State<'py>> {

@@ -49,6 +49,8 @@ pub enum DynamicsError {
     SingularWay,
     /// A loop that motions drive on to where it cannot close: its name, how far it can in words, item.
     DeadPosition(String, String, String),
+    /// A loop that motions bring next to a singular position, where it stays: its name, where in words, item.
+    SingularPosition(String, String, String),
     /// An assembly leaves gaps: name and gap of each, the item of the widest.
     CannotAssemble(Vec<(String, f64)>, Option<String>),
     /// No assembly has the signs asked for of expressions.
@@ -77,6 +79,8 @@ pub enum DynamicsError {
     EndlessImpacts(usize),
     /// A taut string became a point: name, item.
     StringZeroLength(String, String),
+    /// A taut string is drawn in up to the rim of its drum: name, item.
+    StringWoundUp(String, String),
     /// A motion that switches was asked for backward in time.
     Backward,
     /// A time outside the run: t, first, last.
@@ -213,6 +217,11 @@ impl DynamicsError {
                 format!("dead position: the loop at `{name}` cannot close beyond {place}; end the motion before, or drive another part"),
                 Some(at),
             ),
+            Self::SingularPosition(name, place, at) => (
+                "dead_position",
+                format!("the loop at `{name}` comes to a singular position at {place} and stays next to it, where accelerations and forces have no digits; end the motion before, or drive another part"),
+                Some(at),
+            ),
             Self::CannotAssemble(gaps, at) => {
                 let listed: Vec<String> = gaps.iter().map(|(name, gap)| format!("{gap:.4} at `{name}`")).collect();
                 (
@@ -280,6 +289,11 @@ impl DynamicsError {
             Self::StringZeroLength(name, at) => (
                 "string_zero_length",
                 format!("the taut string `{name}` is drawn in until two of its points meet, or one the circle beside it: a little to one side it would swing round at once, straight through it would jerk; let it pass beside, or put a stop before"),
+                Some(at),
+            ),
+            Self::StringWoundUp(name, at) => (
+                "string_zero_length",
+                format!("the string `{name}` is wound up: its free length is zero, and it would be drawn in beyond the rim; end the motion before, or put a stop before"),
                 Some(at),
             ),
             Self::Backward => {

@@ -12,7 +12,7 @@ from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.find import find
 from freebody.cli.inverse import inverse
-from freebody.cli.models import moment, obtained, opened, simulated, written
+from freebody.cli.models import leading_to, moment, obtained, opened, simulated, warn_how_far, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.periodic import periodic
 from freebody.cli.stability import stability
@@ -97,9 +97,7 @@ def solve(
     opening = None if timed else mechanism.opening(**asked)
     routes = [each for each in get_args(Route) if each != "all"] if route == "all" else [route]
     solved = [mechanism.solve(route=name, **asked | ({"before": "start"} if opening else {})) for name in routes]
-    t = solved[0].state.t  # a moment of the motion is known as far as the motion until then is
-    known = mechanism.simulate(t).accuracy if timed and t > 0 else None
-    show.instants(solved, opening, known, axes == "joint", balance, as_json)
+    show.instants(solved, opening, leading_to(mechanism, asked), axes == "joint", balance, as_json)
 
 
 @app.command(cls=Command)
@@ -144,6 +142,7 @@ def diagram(
 ) -> None:
     """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of an impact."""
     asked, mechanism = moment(at, before, after), opened(model, changes)
+    warn_how_far(mechanism, asked)
     if impact is None:
         drawn = mechanism.diagram(of, to_scale=to_scale, effective=effective, column=column, **asked)
     elif asked.keys() - {"at"}:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import re
+import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from freebody.cli.user_errors import UserError
 
 if TYPE_CHECKING:
+    from freebody.mechanism import Mechanism
+    from freebody.run.digits import Accuracy
     from freebody.run.simulation import Run
 
 _AT_START = "look for laws without a value at the start, like 1/x at x = 0"
@@ -83,6 +87,23 @@ def moment(at: list[str] | None, before: str | None = None, after: str | None = 
         raise UserError("--at TIME, --before and --after are one moment", "give one of them")
     named = {"at": times[0] if times else None, "before": before, "after": after}
     return {name: text for name, text in named.items() if text} | ({} if times else pairs(at))
+
+
+def leading_to(mechanism: Mechanism, asked: Mapping[str, str]) -> Accuracy | None:
+    """How far the motion is known that leads to a moment of it; None at a start."""
+    t = mechanism.moment(**asked)[0].t if {"at", "before", "after"} & asked.keys() else 0.0
+    return mechanism.simulate(t).accuracy if t > 0 else None
+
+
+def how_far(known: Accuracy) -> str:
+    """The sentence of it."""
+    return f"The motion until then {known.sentence}."
+
+
+def warn_how_far(mechanism: Mechanism, asked: Mapping[str, str]) -> None:
+    """Says so beside what is printed or drawn of that moment."""
+    if known := leading_to(mechanism, asked):
+        print(how_far(known), file=sys.stderr)
 
 
 def written(*files: Path) -> None:

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from freebody.cli.models import how_far
 from freebody.cli.terminal import print_json
 from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
@@ -170,7 +171,7 @@ def instants(
     elif first.state.moment:
         put(Text(f"{first.state.moment}\n", "bold"))
     if known:
-        put(f"The motion until then {known.sentence}.\n")
+        put(f"{how_far(known)}\n")
     put(*_tables(first, joint_axes))
     if balance:
         put(first.tables()[-1], f"Largest relative residual: {first.residual:.1e}")

@@ -198,4 +198,6 @@ class CompiledModel:
         of t, called now and then, that interrupts by returning False. ``after``: a motion at whose end this one starts; what it
         has released, engaged and wound up stays so."""
         run = self.mechanism.simulate(state.arrays, until, **settings)
-        return Trajectory(run, self.metadata)
+        tables = [f"{table['name']}(" for table in self.spec.get("tables", ())]
+        reported = [item.value for item in self.report if any(called in item.value for called in tables)]
+        return Trajectory(run, self.metadata, reported)

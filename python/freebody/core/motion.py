@@ -161,10 +161,11 @@ class Motion:
 
 
 class Trajectory(Motion):
-    """A finished run of the core with dense output: ``steps`` (ns,) are the times of the accepted steps, first and last included."""
+    """A finished run of the core with dense output: ``steps`` (ns,) are the times of the accepted steps, first and last included. Of
+    tables in ``reported`` expressions the outcome says where they are left, as of those in laws."""
 
-    def __init__(self, run: _core.Trajectory, metadata: Mapping[str, Any]) -> None:
-        super().__init__(run.record(), metadata)
+    def __init__(self, run: _core.Trajectory, metadata: Mapping[str, Any], reported: Sequence[str] = ()) -> None:
+        super().__init__(run.record(list(reported)), metadata)
         self.run = run
         self.steps: Array = run.steps
 

@@ -9,6 +9,7 @@ import re
 import sys
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import accumulate
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -67,10 +68,8 @@ class Source:
 
     def read(self, node: Node, path: Path = ()) -> Any:
         """The plain data of a node, whose places are noted; keys that are used twice are complained about."""
-        if len(self.values) >= MAX_NODES or len(path) > MAX_DEPTH:
-            limit = f"more than {MAX_NODES} items" if len(path) <= MAX_DEPTH else f"nested more than {MAX_DEPTH} deep"
-            where = self.where(path[:-1])
-            raise ModelFileError([Problem(where, f"the model is too large: {limit}", "aliases (`*name`) count each time")])
+        if len(path) > MAX_DEPTH:
+            raise self._too_large(self.where(path[:-1]), f"nested more than {MAX_DEPTH} deep")
         self.values[path] = _mark(node.start_mark)
         if isinstance(node, (MappingNode, SequenceNode)) and node.flow_style:
             self._whole(node, path)
@@ -85,6 +84,17 @@ class Source:
             what = f"`{text}` is no {'whole number' if kind == 'int' else 'number'}"
             self.complain(path, what, f"leave out the tag `!!{kind}`")
             return 0
+
+    def measure(self, node: MappingNode) -> None:
+        """Raises ``ModelFileError`` where the sections of a model have too many items, before these are made."""
+        counts: dict[int, float] = {}
+        for (_, section), total in zip(node.value, accumulate(_count(value, counts) for _, value in node.value), strict=True):
+            if total > MAX_NODES:
+                limit = f"more than {MAX_NODES} items" if total < math.inf else f"nested more than {MAX_DEPTH} deep"
+                raise self._too_large(self.at(_mark(section.start_mark)), limit)
+
+    def _too_large(self, where: Where, limit: str) -> ModelFileError:
+        return ModelFileError([Problem(where, f"the model is too large: {limit}", "aliases (`*name`) count each time")])
 
     def _whole(self, node: MappingNode | SequenceNode, path: Path) -> None:
         """Raises ``ModelFileError`` where a comma between the parentheses of an expression has ended its text."""
@@ -110,6 +120,15 @@ class Source:
                 self.keys[inner] = mark
                 out[name] = self.read(value, inner)
         return out
+
+
+def _count(node: Node, known: dict[int, float]) -> float:
+    """How many items a node is, aliases written out; infinitely many where it holds itself."""
+    if id(node) not in known:
+        known[id(node)] = math.inf
+        inside = node.value if isinstance(node, (MappingNode, SequenceNode)) else []
+        known[id(node)] = 1 + sum(_count(item[1] if isinstance(item, tuple) else item, known) for item in inside)
+    return known[id(node)]
 
 
 def _mark(place: Any) -> Mark:
@@ -182,6 +201,7 @@ def read_text(text: str, file: str = "model") -> Source:
         raise ModelFileError([_syntax(source, error)]) from None
     if not isinstance(node, MappingNode):
         raise _refused(file, "a model file is a mapping of sections", "begin with `freebody: 1`, then `bodies:`, `joints:` …")
+    source.measure(node)
     source.data = source.read(node)
     return source
 

@@ -20,6 +20,16 @@ const ON_BORDER: f64 = 1e-10;
 /// Borders that a configuration may lie beyond at once.
 const MOST_BORDERS: usize = 8;
 
+/// A straight segment of a string, fixed axes.
+pub struct Straight {
+    /// From its first end to its second, m.
+    pub along: Vec2,
+    /// Whether it joins two points.
+    pub joins_points: bool,
+    /// How far one end lies within the circle that the string leaves at the other, m.
+    pub within: f64,
+}
+
 impl Cable {
     /// What is slack, m: 0 where the string is taut. Along its gradient the ends are pulled together.
     pub fn gap<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, feature: Feature) -> T {
@@ -74,12 +84,13 @@ impl Cable {
         layout.segments.iter().any(|segment| segment.none > 0.0)
     }
 
-    /// The straight segments from its first end to its second, fixed axes, m, and whether each joins two points.
-    pub fn free_segments(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> Vec<(Vec2, bool)> {
+    /// The straight segments from its first end to its second.
+    pub fn free_segments(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: Feature) -> Vec<Straight> {
         let layout = Layout::new(self, m, poses, Winding::of(feature.index), feature.phase);
         let vector = |(pair, free): (&[WrapCircle<f64>], &FreeSegment<f64>)| {
             let (sin, cos) = real::sin_cos(free.angle);
-            (vec2(cos, sin) * (free.length - free.none), pair[0].radius == 0.0 && pair[1].radius == 0.0)
+            let joins_points = pair[0].radius == 0.0 && pair[1].radius == 0.0;
+            Straight { along: vec2(cos, sin) * (free.length - free.none), joins_points, within: free.within }
         };
         layout.circles.windows(2).zip(&layout.segments).map(vector).collect()
     }

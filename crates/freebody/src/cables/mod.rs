@@ -10,5 +10,6 @@ mod outline;
 mod tangent;
 mod winding;
 
+pub use cable::Straight;
 pub use outline::{Outline, Stretch};
 pub use winding::{Winding, WrapState};

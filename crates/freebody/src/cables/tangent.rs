@@ -24,6 +24,8 @@ pub(super) struct FreeSegment<T> {
     pub angle: T,
     /// How much of its length stands for none, m.
     pub none: f64,
+    /// How far one end lies within the circle of the other, m.
+    pub within: f64,
 }
 
 /// Square of the free length over that of the distance of centres below which it is round-off.
@@ -46,14 +48,15 @@ impl<T: Scalar> FreeSegment<T> {
         let square = span.dot(span);
         // One point has neither distance nor direction from itself.
         if square.value() < f64::MIN_POSITIVE {
-            return FreeSegment { length: T::zero(), angle: T::zero(), none: 0.0 };
+            return FreeSegment { length: T::zero(), angle: T::zero(), none: 0.0, within: 0.0 };
         }
         let aside = b.radius - a.radius;
         let (rest, least) = (square - aside * aside, square.value() * TOUCHING);
         let is_long = rest.value() > least;
         let length = T::select(is_long, rest, T::of(least)).sqrt();
         let none = if is_long { 0.0 } else { length.value() };
-        FreeSegment { length, angle: span.y.atan2(span.x) - aside.atan2(length), none }
+        let within = f64::max(aside.value().abs() - square.value().sqrt(), 0.0);
+        FreeSegment { length, angle: span.y.atan2(span.x) - aside.atan2(length), none, within }
     }
 }
 

@@ -8,6 +8,10 @@ use crate::mechanism::{Drive, Level, Mechanism};
 
 /// Independence of the closing rows below which a dead position may be near.
 const NEAR: f64 = 1e-2;
+/// Independence of the closing rows below which accelerations have no digit: the error of a gap of round-off over its cube.
+const LOST: f64 = 1e-5;
+/// Steps in a row that end there, by which a mechanism stays there; one that passes it makes one or two.
+const STAYS: usize = 3;
 /// Part of the time in which the mechanism moves its own length, after which a dead position is not near: beside one the
 /// independence is as the square root of that part.
 const SOON: f64 = 1e-2;
@@ -38,6 +42,10 @@ impl HybridSystem<'_> {
         if self.independence < NEAR {
             self.check_loops_ahead(t, y)?;
         }
+        self.singular_steps = if self.independence < LOST { self.singular_steps + 1 } else { 0 };
+        if self.singular_steps >= STAYS {
+            return Err(self.ended(t, y, 0.0, None, DynamicsError::SingularPosition));
+        }
         self.place(t, y);
         Ok(())
     }
@@ -45,7 +53,7 @@ impl HybridSystem<'_> {
     /// Near a dead position the square of the independence falls evenly to zero; a configuration that is passed leaves
     /// the loops closed on its other side.
     fn check_loops_ahead(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
-        let (m, n) = (self.workspace.m, self.workspace.m.freedom());
+        let n = self.workspace.m.freedom();
         let (dt, [now, next]) = self.independence_ahead(t, y);
         let left = now * now * dt / (now * now - next * next);
         if !(left > 0.0 && left * self.speed < SOON * self.workspace.length) {
@@ -53,21 +61,32 @@ impl HybridSystem<'_> {
         }
         let ahead = (0..n).map(|i| y[i] + BEYOND * left * y[n + i]).collect();
         let Err(open) = self.close_ahead(t, y, BEYOND * left, ahead) else { return Ok(()) };
+        let opened = match open {
+            DynamicsError::LoopOpened(name, _, item) if item.starts_with("joints.") => Some(name),
+            _ => None,
+        };
+        Err(self.ended(t, y, left, opened, DynamicsError::DeadPosition))
+    }
+
+    /// The error of a loop, with where a motion brings it in the time that is `left`, and with that motion.
+    fn ended(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        left: f64,
+        joint: Option<String>,
+        error: fn(String, String, String) -> DynamicsError,
+    ) -> DynamicsError {
         self.place(t, y);
+        let m = self.workspace.m;
         let (index, drive) =
             self.workspace.at().drives().find(|(_, drive)| drive.is_motion()).expect("the caller saw one");
         let value = self.gauge_ahead(drive, left);
         let value = if m.turns(&drive.of) { format!("{:.1}°", value.to_degrees()) } else { format!("{value:.4} m") };
         let place = format!("{} = {value}", name_of(m, drive));
-        let opened = match &open {
-            DynamicsError::LoopOpened(name, _, item) if item.starts_with("joints.") => Some(name.clone()),
-            _ => m.closures.first().map(|&joint| m.joints[joint].name.clone()),
-        };
-        Err(DynamicsError::DeadPosition(
-            opened.unwrap_or_else(|| drive.name.clone()),
-            place,
-            Source::Drive(index).path(m),
-        ))
+        let first = m.closures.first().map(|&joint| m.joints[joint].name.clone());
+        let name = joint.or(first).unwrap_or_else(|| drive.name.clone());
+        error(name, place, Source::Drive(index).path(m))
     }
 
     /// Closes the loops as they would be a time `later`, from coordinates near there: what motions give is where they say, or

@@ -3,13 +3,14 @@
 use super::guards::SwitchingFunction;
 use super::mode_changes::{ContactImpulse, ModeChange};
 use super::Trajectory;
+use crate::gauges::ModelExpr;
 use crate::mechanism::{DriveKind, Mechanism};
 use crate::motion::{Kind, Outcome, Unresolved, TIGHTEST};
 use serde_json::{json, Value};
 
 impl Trajectory {
-    /// What happened, what switched, how the run ended and what it took.
-    pub fn record(&self, m: &Mechanism) -> Value {
+    /// What happened, what switched, how the run ended and what it took; `reported` is what is read of it besides.
+    pub fn record(&self, m: &Mechanism, reported: &[ModelExpr]) -> Value {
         json!({
             "events": self.events.iter().map(|h| {
                 let kind = match h.kind {
@@ -22,7 +23,7 @@ impl Trajectory {
             "changes": self.mode_changes.iter().map(|c| change(m, c)).collect::<Vec<_>>(),
             "outcome": {
                 "name": self.outcome.name(), "ok": self.outcome.is_ok(), "t": self.steps.last(),
-                "sentence": self.sentence(m), "path": self.outcome.path(),
+                "sentence": self.sentence(m, reported), "path": self.outcome.path(),
             },
             "stats": {
                 "accepted": self.counts[0], "rejected": self.counts[1], "evaluations": self.counts[2], "kinks": self.discontinuities,
@@ -33,7 +34,7 @@ impl Trajectory {
     }
 
     /// How it ended, with the names of the model.
-    fn sentence(&self, m: &Mechanism) -> String {
+    fn sentence(&self, m: &Mechanism, reported: &[ModelExpr]) -> String {
         let ending = match &self.outcome {
             Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
             Outcome::Chatter { index } => format!(
@@ -60,7 +61,7 @@ impl Trajectory {
         let left = |(table, t): (usize, f64)| {
             format!("; the table `{}` was left, from t = {t:.6} s on its end value holds", m.table_names[table])
         };
-        let tables = self.tables_left(m).unwrap_or_default().into_iter().map(left);
+        let tables = self.tables_left(m, reported).unwrap_or_default().into_iter().map(left);
         let unresolved = self.unresolved.iter().map(unresolved);
         ending + &self.unrecorded.iter().map(dense).chain(unresolved).chain(tables).collect::<String>()
     }

@@ -77,6 +77,8 @@ pub struct HybridSystem<'m> {
     near_singular: bool,
     /// Independence of the closing rows at the end of the last step; 0 where a phase begins, before it is known.
     pub(super) independence: f64,
+    /// How many steps in a row have ended next to a singular configuration.
+    pub(super) singular_steps: usize,
     pub(super) scales: Vec<f64>,
     /// A large change of each coordinate.
     pub(super) units: Vec<f64>,
@@ -111,6 +113,7 @@ impl<'m> HybridSystem<'m> {
             worst_gap: 0.0,
             near_singular: false,
             independence: 0.0,
+            singular_steps: 0,
             scales: vec![1.0; size],
             units: vec![],
             roundoff_scale: 1.0,
@@ -297,6 +300,11 @@ impl System for HybridSystem<'_> {
         self.check_dead_position(t, y)?;
         let rate = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
         Ok(moved.max(turned / rate))
+    }
+
+    fn dead_end(&mut self, t: f64, y: &[f64]) -> Option<DynamicsError> {
+        self.place(t, y);
+        self.wound_up_string()
     }
 
     /// A gap of round-off size is a rate error of its size over the independence cubed: once for the positions, once

@@ -10,6 +10,11 @@ use crate::mechanism::{Discontinuity, Mechanism};
 use crate::mode::Mode;
 use crate::motion::{EventRecord, Outcome, Run, Unresolved};
 
+/// Parts of a step at which what is only read is looked at.
+const LOOKS: [f64; 8] = [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0];
+/// Of the time between two looks, to its last digits.
+const HALVINGS: usize = 50;
+
 /// Part of the fastest rate by which the rates after an impact may differ from those of an impact whose rows part at −e times
 /// their approach: more, and it followed another law.
 const SAME_IMPACT: f64 = 1e-8;
@@ -258,34 +263,54 @@ impl Trajectory {
         Ok(rows)
     }
 
-    /// Tables of laws and curves that were left, each with when first, s: where the step began within which an argument is
-    /// beyond its points.
+    /// Tables of laws, curves and what is `reported` that were left, each with when first, s.
     ///
     /// # Errors
     /// As [`Trajectory::sample`].
-    pub fn tables_left(&self, m: &Mechanism) -> Result<Vec<(usize, f64)>, DynamicsError> {
-        let lookups = m.discontinuities.iter().filter_map(|discontinuity| match discontinuity {
+    pub fn tables_left(&self, m: &Mechanism, reported: &[ModelExpr]) -> Result<Vec<(usize, f64)>, DynamicsError> {
+        let in_laws = m.discontinuities.iter().filter_map(|discontinuity| match discontinuity {
             Discontinuity::Knot(table, argument, x)
                 if m.tables[*table].span().is_some_and(|[first, _]| *x == first) =>
             {
-                Some((*table, argument))
+                Some((*table, argument.clone()))
             }
             _ => None,
         });
-        let (tables, arguments): (Vec<usize>, Vec<&ModelExpr>) = lookups.unzip();
-        if tables.is_empty() {
-            return Ok(vec![]);
-        }
-        let middles: Vec<f64> = self.steps.windows(2).map(|step| 0.5 * (step[0] + step[1])).collect();
-        let (rows, mut left) = (self.evaluate(m, &arguments, &middles)?, vec![]);
-        for (k, &table) in tables.iter().enumerate() {
-            let Some([first, last]) = m.tables[table].span() else { continue };
-            let beyond = rows.iter().position(|row| row[k] < first || row[k] > last);
-            left.extend(beyond.map(|step| (table, self.steps[step])));
-        }
+        // Steps end where a law comes to a knot, but not for what is only read.
+        let mut left = self.first_beyond(m, in_laws.collect(), &[0.5])?;
+        left.extend(self.first_beyond(m, reported.iter().flat_map(ModelExpr::lookups).collect(), &LOOKS)?);
         left.sort_by(|a: &(usize, f64), b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         left.dedup_by_key(|(table, _)| *table);
         Ok(left)
+    }
+
+    /// When arguments of tables are first beyond their points, looked for at `parts` of every step.
+    fn first_beyond(
+        &self,
+        m: &Mechanism,
+        lookups: Vec<(usize, ModelExpr)>,
+        parts: &[f64],
+    ) -> Result<Vec<(usize, f64)>, DynamicsError> {
+        let (tables, arguments): (Vec<usize>, Vec<&ModelExpr>) = lookups.iter().map(|(table, of)| (*table, of)).unzip();
+        if tables.is_empty() {
+            return Ok(vec![]);
+        }
+        let within = self.steps.windows(2).flat_map(|ends| parts.iter().map(|x| ends[0] + x * (ends[1] - ends[0])));
+        let times: Vec<f64> = self.steps.first().copied().into_iter().chain(within).collect();
+        let (rows, mut found) = (self.evaluate(m, &arguments, &times)?, vec![]);
+        for (k, &table) in tables.iter().enumerate() {
+            let Some([first, last]) = m.tables[table].span() else { continue };
+            let is_beyond = |x: f64| x < first || x > last;
+            let Some(step) = rows.iter().position(|row| is_beyond(row[k])) else { continue };
+            let (mut before, mut after) = (times[step.saturating_sub(1)], times[step]);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (before + after);
+                let beyond = is_beyond(self.evaluate(m, &arguments[k..=k], &[middle])?[0][0]);
+                *(if beyond { &mut after } else { &mut before }) = middle;
+            }
+            found.push((table, after));
+        }
+        Ok(found)
     }
 
     /// The energy ledger at times: kinetic, potential, each work, changes of parameters, and what is left over.

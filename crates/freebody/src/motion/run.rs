@@ -202,7 +202,8 @@ impl<'a> Runner<'a> {
             self.next.t = self.target();
             let h = self.next.t - self.now.t;
             if h.abs() < 4.0 * f64::EPSILON * self.now.t.abs() && self.next.t != self.t_end || h == 0.0 {
-                return Err(cause);
+                let known = self.system.system.dead_end(self.now.t, &self.now.y);
+                return Err(known.filter(|_| cause == Outcome::StepUnderflow).map_or(cause, Outcome::DynamicsError));
             }
             match self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm) {
                 Ok(error) if error <= 1.0 => return Ok(error),

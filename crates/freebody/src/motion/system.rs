@@ -77,6 +77,11 @@ pub trait System {
         Ok(0.0)
     }
 
+    /// Why no step from (t, y) is short enough, where that is known.
+    fn dead_end(&mut self, _t: f64, _y: &[f64]) -> Option<DynamicsError> {
+        None
+    }
+
     /// Round-off of the rate in the step that was last looked ahead to, relative to [`System::scale`], where it is more than usual.
     fn noise(&self) -> f64 {
         0.0
