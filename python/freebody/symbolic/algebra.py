@@ -39,6 +39,8 @@ Powers = dict[Tree, Fraction]
 Term = tuple[Fraction | float, Powers]
 _ROUND_OFF = 1e-14
 """Part of a measured number by which it may be off a whole one."""
+_MULTIPLES = 1000
+"""How many times the least of measured numbers others are that are told as its multiples."""
 _SAMPLES = 4
 _AGREEMENT = 1e-8  # relative difference of two forms that are equal
 _CIRCLES = ({("sin", 2), ("cos", -2)}, {("sin", -2), ("cos", 2)})
@@ -56,13 +58,16 @@ def factored(tree: Tree) -> Tree:
 
 
 def spread(tree: Tree) -> Tree:
-    """A sum of products without brackets, like terms together."""
-    terms: dict[frozenset[tuple[Tree, Fraction]], Fraction | float] = {}
+    """A sum of products without brackets, like terms together; what round-off leaves of measured numbers is 0."""
+    terms: dict[frozenset[tuple[Tree, Fraction]], list[Fraction | float]] = {}
     for term in _products(tree):
         size, powers = _split(term)
-        same = frozenset(powers.items())
-        terms[same] = terms.get(same, Fraction(0)) + size
-    return add(*(_joined((size, dict(powers))) for powers, size in terms.items() if size))
+        terms.setdefault(frozenset(powers.items()), []).append(size)
+    sums = {powers: (sum(sizes), max(map(abs, sizes))) for powers, sizes in terms.items()}
+    kept = {
+        p: total for p, (total, most) in sums.items() if (abs(total) > _ROUND_OFF * most if isinstance(total, float) else total)
+    }
+    return add(*(_joined((_whole(size), dict(powers))) for powers, size in kept.items()))
 
 
 def difference(tree: Tree, other: Tree) -> Tree:
@@ -220,11 +225,16 @@ def pythagorean(tree: Tree) -> Tree:
     if not isinstance(tree, Add):
         return tree
     terms = [_split(term) for term in tree.terms]
-    while pair := next(filter(_is_circle, itertools.combinations(terms, 2)), None):
+    while pair := next(filter(_is_circle, itertools.combinations(filter(_has_square, terms), 2)), None):
         (size, powers), (_, rest) = pair
         both = {f: least for f, e in powers.items() if f in rest and (least := min(e, rest[f]))}
         terms = [term for term in terms if term not in pair] + [(size, both)]
     return add(*map(_joined, terms))
+
+
+def _has_square(term: Term) -> bool:
+    """Whether sin² or cos² of an angle is in it."""
+    return any(exponent >= 2 and isinstance(factor, Fn) for factor, exponent in term[1].items())
 
 
 def without_circles(tree: Tree) -> Tree:
@@ -310,8 +320,10 @@ def _size(terms: Sequence[Term]) -> Fraction | float:
     sizes = [size for size, _ in terms]
     sign = -1 if all(size < 0 for size in sizes) else 1
     if any(isinstance(size, float) for size in sizes):
-        least = min(map(abs, sizes))
-        multiples = least > 0 and all(isinstance(_whole(float(size / least)), Fraction) for size in sizes)
+        least, most = min(map(abs, sizes)), max(map(abs, sizes))
+        multiples = (
+            least > 0 and most < _MULTIPLES * least and all(isinstance(_whole(float(size / least)), Fraction) for size in sizes)
+        )
         return sign * _whole(least) if multiples else Fraction(sign)
     above = math.gcd(*(abs(size.numerator) for size in sizes))
     below = {size.denominator for size in sizes}

@@ -174,7 +174,7 @@ def power(base: Tree, exponent: int | str | Fraction) -> Tree:
 
 def negative(tree: Tree) -> Tree:
     """−tree, term by term for a sum."""
-    return Add(tuple(mul(MINUS_ONE, term) for term in tree.terms)) if isinstance(tree, Add) else mul(MINUS_ONE, tree)
+    return add(*(mul(MINUS_ONE, term) for term in tree.terms)) if isinstance(tree, Add) else mul(MINUS_ONE, tree)
 
 
 def minus(left: Tree, right: Tree) -> Tree:

@@ -18,11 +18,12 @@ from freebody.equations import Sym, evaluate, symbols
 from freebody.equations.derivation.coordinates import stated
 from freebody.equations.linearization import linearised, numbers
 from freebody.equations.topics import TOPICS, NotHere, described, topic
-from freebody.equations.topics.common import place_of, rate, rates
+from freebody.equations.topics.common import place_of, rates
 from freebody.equations.topics.elimination import eliminated
 from freebody.equations.topics.lagrange import combination, equations
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
+from freebody.symbolic.differentiate import along_motion
 from freebody.symbolic.tree import ONE, ZERO, Tree, add, minus, mul, number, read
 
 TREES = ["19.3.1", "19.3.10", "19.3.15", "19.3.17", "19.3.20", "19.3.28", "EX-BLOCK", "GEN-CHAIN", "S19.17", "S19.18"]
@@ -144,7 +145,7 @@ def test_moments_about_a_moving_point(name: str) -> None:
                 [{"ask": "equation", "bodies": [], **q} for q in ({"about": {"point": point}}, {"along": "x"}, {"along": "y"})]
             )
             v = rates(of.place.xy, names)
-            changing = value(subject, rate(of.momentum, names))
+            changing = value(subject, along_motion(of.momentum, names))
             extra = value(subject, minus(mul(v[0], y.momentum), mul(v[1], x.momentum)))
             acting = subject.free.acting(*subject.free.bodies, about=tuple(value(subject, c) for c in of.place.xy))[2]
             assert changing + extra == pytest.approx(acting, rel=1e-8, abs=1e-8)

@@ -148,12 +148,23 @@ class Closed:
 
     def _by_length(self, base: Tree) -> tuple[Tree, Tree, Fraction] | None:
         """A known root b, what does not move, c, and a number k, where an expression is (b² + c)/k."""
+        if base in self._tried:
+            return self._tried[base]
+        fixed = self.subject.constants.keys()
+        self._tried[base] = None
+        near = [(inside, root) for inside, root in self.lengths.items() if symbols(inside) - fixed == symbols(base) - fixed]
         for size in map(Fraction, (1, 2, "1/2", -1)):
-            for inside, root in self.lengths.items():
+            for inside, root in near:
                 more = difference(mul(number(size), base), inside)
-                if symbols(more) <= self.subject.constants.keys():
-                    return root, more, size
+                if symbols(more) <= fixed:
+                    self._tried[base] = root, more, size
+                    return self._tried[base]
         return None
+
+    @cached_property
+    def _tried(self) -> dict[Tree, tuple[Tree, Tree, Fraction] | None]:
+        """What ``_by_length`` has found before."""
+        return {}
 
     @cached_property
     def follow(self) -> dict[Sym, Tree]:
