@@ -9,7 +9,7 @@ from store import WITHOUT_ANSWER, every, mechanism
 from store import diagram as drawn
 
 from freebody.mechanism import Mechanism
-from freebody.views.diagram.arrows import Arrow
+from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.configuration import Configuration
 from freebody.views.labels import AIR
 from freebody.views.shapes import dense, inside
@@ -25,7 +25,7 @@ sheets = pytest.mark.parametrize(("of", "to_scale"), [(None, False), (None, True
 def panels(model, of, to_scale, full=FULL):
     """The halves of all diagrams of a sheet, but those that are full."""
     for cut in drawn(model, of, to_scale).cuts:
-        for panel in (*cut.panels, *([cut.apart] if cut.apart else [])):
+        for panel in (*cut.panels, *cut.apart):
             if len(panel.labels) <= full:
                 yield panel
 
@@ -106,8 +106,9 @@ def test_no_arrow_crosses_a_couple(model, of, to_scale):
 @every_model
 @sheets
 def test_no_arrow_crosses_that_of_a_coordinate(model, of, to_scale):
+    """But for arcs among forces to scale, which may be longer than any arc is wide."""
     for panel in panels(model, of, to_scale):
-        for dimension in panel.scenery.dimensions:
+        for dimension in (each for each in panel.scenery.dimensions if not (each.angle and to_scale)):
             for mark in panel.marks:
                 assert not cross(mark.line, dimension.arrow), (mark.action.label, dimension.text)
 
@@ -173,6 +174,25 @@ def test_accelerations_have_their_body_below_where_there_are_several():
         assert marks and all(r"\text{ab}" in m.action.label or "bc" in m.action.label or "dc" in m.action.label for m in marks)
     [alone] = drawn("19.3.6/model").cuts
     assert {mark.action.label for mark in alone.effective} == {r"m\,a_x", r"m\,a_y", r"I_{\text{rod}}\,\alpha"}
+
+
+HIP = """
+freebody: 1
+bodies: {trunk: {shape: rod, length: 0.8, mass: 30}, LEGS}
+joints: {hip: {type: free, of: [ground.O, trunk.start]}, JOINTS}
+"""
+
+
+def test_many_forces_at_one_place_are_drawn_in_a_detail_side_by_side():
+    legs = ", ".join(f"leg{i}: {{shape: rod, length: 0.5, mass: 8}}" for i in range(4))
+    joints = ", ".join(f"h{i}: {{type: hinge, of: [trunk.start, leg{i}.start]}}" for i in range(4))
+    cut = Mechanism.loads(HIP.replace("LEGS", legs).replace("JOINTS", joints)).diagram("trunk").cuts[0]
+    [detail] = cut.apart
+    assert {mark.action.kind for mark in cut.panels[0].marks} == {"weight"} and len(cut.forces) == 1 + len(detail.marks) == 9
+    for one, other in combinations(detail.marks, 2):
+        assert shared(one, other) == 0.0 and np.hypot(*(one.head - other.head)) >= 10.0
+    for mark in detail.marks:  # from the rim of the place, away from it
+        assert (mark.tail - mark.action.at * detail.scenery.scale) @ mark.action.force > 0
 
 
 BELT = """

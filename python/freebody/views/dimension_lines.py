@@ -17,7 +17,7 @@ _ROUND_OFF = 1e-7  # sizes of symbols, below which a length is what assembly lea
 _NO_TURN = 1e-9  # degrees, or of a curve's parameter: the same
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
 _LEAST = 0.35  # rad, the arc that shows the sense of an angle whose own cannot be seen
-_LEVELS = np.arange(5)  # places further and further out where an arrow may keep off others
+_LEVELS, _ARCS = np.arange(8), np.arange(5)  # places further and further out where an arrow or an arc may keep off others
 _NEARER = -0.9  # one for an angle that meets others on all of them
 _APART, _TOUCH = 1.6, 0.2  # sizes of symbols between two arrows, between an arc and an arrow
 _STUB = 5.2  # sizes of symbols that are shown of an arrow from far away
@@ -145,7 +145,7 @@ _Offered: TypeAlias = tuple[Array, list[Array], float]
 def _offers(sketch: Sketch, asked: _Asked, place: Array, paper: Paper) -> Iterator[_Offered]:
     """The ways to draw a coordinate, further and further out, a length on either side."""
     if asked.dimension == "rad":
-        for level in (*_LEVELS, _NEARER):
+        for level in (*_ARCS, _NEARER):
             yield _angle(sketch, asked, place, (1 + 0.35 * level) * paper.radius * sketch.size, paper)
         return
     for aside in (2.6 + 2.4 * _LEVELS) * sketch.size:
@@ -184,7 +184,7 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float, far: floa
     guides += [np.array([place, place + 1.2 * left])] * (shown == asked.value)
     if abs(shown) > far:
         return _end(arrow, _STUB * sketch.size), [], shown
-    return arrow, [guide for guide in guides if shapes.length(guide) <= far], shown
+    return arrow, [guide for guide in guides if shapes.length(guide) <= far / 2], shown
 
 
 def _along_curve(sketch: Sketch, asked: _Asked, aside: float, far: float) -> _Offered:

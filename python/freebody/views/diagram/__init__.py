@@ -14,6 +14,7 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.views.diagram import actions as acting
 from freebody.views.diagram.actions import Action
 from freebody.views.diagram.arrows import LONGEST, SHORTEST, Mark, arranged
+from freebody.views.diagram.details import crowded, marked
 from freebody.views.diagram.laws import Laws
 from freebody.views.diagram.names import Labels
 from freebody.views.diagram.panel import Panel
@@ -37,7 +38,7 @@ class Cut(Row):
     @property
     def forces(self) -> list[Mark]:
         """The arrows of all that acts."""
-        return self.panels[0].marks
+        return [mark for panel in (self.panels[0], *self.apart) for mark in panel.marks]
 
     @property
     def effective(self) -> list[Mark]:
@@ -148,7 +149,10 @@ class DiagramBuilder:
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
         bare = drawn.bare()
         angles = [each for each in drawn.measured(group, self.scaled, []).dimensions if each.angle and not crowd]
-        marks = arranged(forces, replace(drawn, dimensions=angles), per_newton)
+        details = [] if self.scaled else crowded(forces, drawn)
+        large = [action for detail in details for action in detail.forces]
+        drawn = marked(drawn, details)
+        marks = arranged([a for a in forces if not any(a is b for b in large)], replace(drawn, dimensions=angles), per_newton)
         measured = drawn.measured(group, self.scaled, [] if crowd else [mark.line for mark in marks])
         panels = [Panel(drawn if crowd else measured, marks, group if len(group) > 1 else ())]
         if terms:
@@ -160,7 +164,8 @@ class DiagramBuilder:
             notes + self.labels.renamed,
             vanishes=self.effective and not terms,
             unit=self.labels.unit,
-            apart=Panel(measured, [], ()) if crowd and measured.dimensions else None,
+            apart=[*(Panel(each.scenery(drawn), each.marks(), ()) for each in details)]
+            + [Panel(measured, [], ())] * bool(crowd and measured.dimensions),
             column=self.column,
             laws=self.laws.stated(forces, self.column - 2 * MARGIN) if self.laws else (),
             group=group,

@@ -41,7 +41,7 @@ class Panel:
         dots = np.array([tag.at for tag in self.scenery.points]).reshape(-1, 2)
         held = [each.centre + 0.5 * (each.line - each.centre) for each in self.marks if isinstance(each, CoupleArrow)]
         obstacles = Obstacles.of(
-            (shapes.dense(held), 9.0), (self.scenery.obstacles, 12.0), (self._arrows, 15.0), (dots, 8.0), (self.scenery.pins, 8.0)
+            (shapes.dense(held), 9.0), (self.scenery.obstacles, 12.0), (self._arrows, 40.0), (dots, 8.0), (self.scenery.pins, 8.0)
         )
         return placed(list(self._wanted()), obstacles)
 

@@ -24,8 +24,8 @@ _CAPITAL = 7.0  # pt, of a title
 @dataclass(frozen=True)
 class Row:
     """One diagram: its title, its panels, equal to each other, its scale in pt for each N, and remarks; ``laws``: in mathtext, what
-    letters stand for; ``vanishes``: the panel stands for nothing, a body without mass; ``unit``: of what is drawn; ``apart``: the
-    coordinates, where they would hide the forces; ``column``: the width of the sheet."""
+    letters stand for; ``vanishes``: the panel stands for nothing, a body without mass; ``unit``: of what is drawn; ``apart``: what is
+    drawn below, places with many forces, and coordinates where they would hide the forces; ``column``: the width of the sheet."""
 
     title: str
     panels: Sequence[Panel]
@@ -34,7 +34,7 @@ class Row:
     vanishes: bool = False
     unit: str = "N"
     laws: Sequence[str] = ()
-    apart: Panel | None = None
+    apart: Sequence[Panel] = ()
     column: float = COLUMN
 
     @cached_property
@@ -105,10 +105,10 @@ def laid(row: Row) -> Laid:
             signs.append(np.array([BETWEEN, y - 1.5 * LINE]))
             y -= 2 * LINE
     panels = list(zip(row.panels, shifts, strict=True))
-    if row.apart is not None:  # one more panel below all
-        low, high = row.apart.box()
+    for panel in row.apart:
+        low, high = panel.box()
         y -= LINE
-        panels.append((row.apart, np.array([-low[0], y - high[1]])))
+        panels.append((panel, np.array([-low[0], y - high[1]])))
         width, y = max(width, high[0] - low[0]), y - (high[1] - low[1])
     written = [*(extent(line, TITLE, True)[0] for line in row.heading), *(extent(line, NOTE)[0] for line in row.lines)]
     return Laid(panels, signs, np.array([max([width, *written]), row.foot - y]))
