@@ -1,5 +1,6 @@
 """Plots, scenes, drawings and animations: structure, and that nothing is shown or left open."""
 
+import base64
 import json
 import shutil
 from itertools import combinations
@@ -12,6 +13,7 @@ from freebody.views import plots, shapes
 from freebody.views.animate import animate
 from freebody.views.diagram import diagram
 from freebody.views.draw import drawing
+from freebody.views.report.data import report_data
 from freebody.views.scene import drawn, of_run
 from freebody.views.sketch import sketch_of_state
 
@@ -83,11 +85,12 @@ def test_rounded_hull_keeps_its_distance():
 
 
 def test_a_scene_is_data(four_bar):
-    scene = of_run(four_bar, four_bar.t[::20])
-    stated = json.loads(json.dumps(scene.to_json(), allow_nan=False))
+    stated = json.loads(json.dumps(report_data(four_bar), allow_nan=False))["scene"]
     assert [figure["name"] for figure in stated["figures"]] == ["ground", "crank", "coupler", "rocker"]
-    assert len(stated["poses"]) == len(stated["t"]) and len(stated["poses"][0]) == 12
-    assert stated["pairs"][0]["kind"] == "spring" and [trace["name"] for trace in stated["traces"]] == ["coupler.P"]
+    assert len(base64.b64decode(stated["poses"])) == 4 * 12 * len(stated["t"])
+    assert stated["pairs"][0]["kind"] == "spring" and stated["traced"] == ["coupler.P"]
+    assert "coupler.P" in [point["name"] for point in stated["points"]]
+    scene = of_run(four_bar, four_bar.t[::20])
     assert scene.pair_lines(scene.pairs[0])[0][-1] == pytest.approx([1.25, 0.75])
 
 

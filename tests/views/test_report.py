@@ -6,12 +6,14 @@ import shutil
 import subprocess
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
 from freebody.run.simulation import Run
 from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html, write_report
-from freebody.views.report.tables import raised
+from freebody.views.report.series import Curve, _resolved
+from freebody.views.report.tables import Table, raised
 
 from .models import run_double_pendulum
 
@@ -79,6 +81,19 @@ def test_the_page_says_it_all(four_bar):
 
 def test_powers_of_ten_are_raised_and_nothing_else_is_markup():
     assert raised("1.2 × 10^−5 N & <b>") == "1.2 × 10<sup>−5</sup> N &amp; &lt;b&gt;"
+
+
+def test_lines_that_are_alike_are_one():
+    rows = [("tap", f"{t}", "touch", "") for t in range(7)] + [("knock", "9", "touch", "")]
+    table = Table("Events", ("event", "t / s", "kind", "direction"), rows, alike=(0, 2))
+    (line, folded), (none, single) = table.groups
+    assert line == ["tap, 7 times", "0 to 6", "touch", ""] and folded == rows[:7]
+    assert none is None and single == rows[7:]
+
+
+def test_what_is_round_off_is_zero():
+    kept, none = _resolved([Curve("force", np.array([0.0, 3.0, -2.0])), Curve("noise", np.array([1e-12, -1e-13, np.nan]))])
+    assert kept.y.tolist() == [0.0, 3.0, -2.0] and none.y[:2].tolist() == [0.0, 0.0] and np.isnan(none.y[2])
 
 
 def test_an_indeterminate_reaction_has_no_figure(indeterminate):

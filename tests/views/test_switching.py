@@ -130,7 +130,7 @@ def test_curves_break_where_something_switches(run, cut):
 def test_the_report_shows_what_switched(run):
     page = report_html(run)
     data = json.loads(page.split('id="data">')[1].split("</script>")[0])
-    assert [event["kind"] for event in data["events"]] == ["impact", "impact"]
+    assert [mark["kind"] for mark in data["marks"] if mark["kind"] != "switch"] == ["impact", "impact"]
     assert "Contacts, strings, stops, locks and motions" in {plot["title"] for plot in data["plots"]}
     assert "<h2>Mode changes</h2>" in page and "ball free" not in page.split("Peak reactions")[1].split("</section>")[0]
 

@@ -1,6 +1,7 @@
 import { mount } from "svelte";
 import Player from "./Player.svelte";
 import Plots from "./plots/Plots.svelte";
+import { offerFolds } from "./folds";
 import { Report } from "./report";
 import "./style.css";
 import { offerThemes } from "./theme";
@@ -8,6 +9,7 @@ import { offerThemes } from "./theme";
 const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
 offerThemes(byId("theme"));
+offerFolds();
 const report = new Report(JSON.parse(byId("data").textContent!));
 mount(Player, { target: byId("stage"), props: { report } });
 mount(Plots, { target: byId("plots"), props: { report } });

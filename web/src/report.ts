@@ -2,6 +2,7 @@ import type { Point, ReportData } from "./data/types";
 import { Choice } from "./loads/choice.svelte";
 import { LoadHistory } from "./loads/loads";
 import { LoadScale } from "./loads/scale.svelte";
+import { TimeWindow } from "./plots/window.svelte";
 import { Camera } from "./scene/camera.svelte";
 import { Motion } from "./scene/motion";
 import { Options } from "./scene/options.svelte";
@@ -20,6 +21,7 @@ export class Report {
   readonly choice = new Choice();
   readonly scale: LoadScale;
   readonly moment: Moment;
+  readonly window: TimeWindow;
 
   constructor(readonly data: ReportData) {
     this.clock = new Clock(data.scene.t);
@@ -28,8 +30,14 @@ export class Report {
     this.loads = data.loads && new LoadHistory(data.loads);
     this.scale = new LoadScale(this.loads?.usual() ?? { force: 0, couple: 0 }, this.choice);
     this.moment = new Moment(data, this.clock, this.motion, this.loads, this.choice);
+    this.window = new TimeWindow(this.clock);
     this.camera = new Camera(data.scene, () => this.followed());
     this.zooming = new Zooming(this.camera);
+  }
+
+  /** Of the loads that something exerts, by its name. */
+  symbolsOf(name: string | undefined): string[] {
+    return name && this.loads ? this.loads.symbolsOf(name) : [];
   }
 
   private followed(): Point | null {

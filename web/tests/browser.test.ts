@@ -95,7 +95,7 @@ describe.runIf(folder)("the four-bar", () => {
 
   test("the wheel with Ctrl zooms, a drag pans, fit shows all again", async () => {
     const page = await open("four_bar.html");
-    const transform = (): Promise<string | null> => page.locator(".mechanism .world").getAttribute("transform");
+    const transform = (): Promise<string | null> => page.locator(".mechanism .world").first().getAttribute("transform");
     const before = await transform();
     const box = (await page.locator(".mechanism svg").boundingBox())!;
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
@@ -151,12 +151,55 @@ describe.runIf(folder)("the four-bar", () => {
   test("a drag in a plot moves the mechanism", async () => {
     const page = await open("four_bar.html");
     const before = await page.locator(".mechanism path.body").nth(1).getAttribute("transform");
-    const plot = page.locator(".plot svg").first();
+    const plot = page.locator(".plot > div > svg").first();
     await plot.scrollIntoViewIfNeeded();
     const box = (await plot.boundingBox())!;
     await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
     expect(await clock(page)).toBeGreaterThan(3);
     expect(await page.locator(".mechanism path.body").nth(1).getAttribute("transform")).not.toBe(before);
+    await page.close();
+  });
+
+  test("a stretch of time that is marked with Shift is shown in all plots", async () => {
+    const page = await open("four_bar.html");
+    const plot = page.locator(".plot > div > svg").first();
+    await plot.scrollIntoViewIfNeeded();
+    const box = (await plot.boundingBox())!;
+    await page.keyboard.down("Shift");
+    await page.mouse.move(box.x + 0.3 * box.width, box.y + 100);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.5 * box.width, box.y + 100, { steps: 3 });
+    await page.mouse.up();
+    await page.keyboard.up("Shift");
+    const buttons = page.getByRole("button", { name: "all of it" });
+    expect(await buttons.count()).toBeGreaterThan(4);
+    await buttons.first().click();
+    expect(await buttons.count()).toBe(0);
+    await page.close();
+  });
+
+  test("a curve is left out and drawn again, and any quantity stands over any other", async () => {
+    const page = await open("four_bar.html");
+    const card = page.locator(".plot").first();
+    const curves = await card.locator(".curve").count();
+    await card.locator(".legend button").first().click();
+    expect(await card.locator(".curve").count()).toBe(curves - 1);
+    await card.locator(".legend button").first().click();
+    expect(await card.locator(".curve").count()).toBe(curves);
+    const phase = page.locator(".plot").last();
+    const path = (): Promise<string | null> => phase.locator(".curve").getAttribute("d");
+    const before = await path();
+    await phase.getByLabel("across").selectOption({ label: "x of coupler.end [m]" });
+    expect(await path()).not.toBe(before);
+    await page.close();
+  });
+
+  test("many lines that are alike are one that opens", async () => {
+    const page = await open("four_bar.html");
+    const rows = (): Promise<number> => page.locator("tr.folded:visible").count();
+    expect(await rows()).toBe(0);
+    await page.locator("tr.fold button").first().click();
+    expect(await rows()).toBeGreaterThan(4);
     await page.close();
   });
 

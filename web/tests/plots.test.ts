@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { figure, rangeOf, tickLabel, ticks } from "../src/plots/scale";
 import { pathOf, valueAt } from "../src/plots/series";
 
-const series = { name: "N", t: new Float32Array([0, 1, 1, 1, 2]), y: new Float32Array([0, 2, NaN, 6, 8]) };
+const series = { name: "N", unit: "N", t: new Float32Array([0, 1, 1, 1, 2]), y: new Float32Array([0, 2, NaN, 6, 8]) };
 
 test("ticks are round and within the range", () => {
   expect(ticks({ low: -1.2, high: 3.4 }, 5)).toEqual([-1, 0, 1, 2, 3]);

@@ -16,6 +16,10 @@ from freebody.views.sketch import Cord, Sketch, Stroke
 
 Fields = Mapping[str, Any]
 _SLENDER, _WHEEL = 2.5, 0.9  # sizes of symbols: the width of a bar or particle at most; the radius of a roller
+Place = tuple[str, Array]
+"""A body, and where on it, in its frame (2,)."""
+_NEAR, _ROOM = 0.15, 0.4
+"""Of a spring along a line, parts of its travel: how near its end comes to the beginning of the line, and how long it is at least."""
 
 
 def draw_joints(sketch: Sketch) -> None:
@@ -37,10 +41,10 @@ def draw_joints(sketch: Sketch) -> None:
 
 
 def draw_forces(sketch: Sketch) -> None:
-    """Springs and dampers between points."""
+    """Springs and dampers, between points and along coordinates."""
     for force in sketch.spec.get("forces", []):
         fields = force["with"]
-        if "between" not in fields:
+        if force["type"] not in ("spring", "damper") or (ends := _ends(sketch, fields)) is None:
             continue
         width, there = 0.9 * sketch.size, force.get("engaged", True)
         spring, damper = force["type"] == "spring", bool(fields.get("damping"))
@@ -48,7 +52,40 @@ def draw_forces(sketch: Sketch) -> None:
         looks = {"spring": [_beside(shapes.zigzag(width), apart)]} if spring else {}
         looks |= {"damper": [_beside(line, -apart) for line in shapes.dashpot(width)]} if damper else {}
         for kind, lines in looks.items():
-            sketch.pair(force["name"], kind, fields["between"], lines, there)
+            sketch.pair(force["name"], kind, ends, lines, there)
+
+
+def _ends(sketch: Sketch, fields: Fields) -> list[Place] | None:
+    """The places on two bodies between which a spring or damper is drawn; None where it acts along no line."""
+    if "between" in fields:
+        return [sketch.at[point] for point in fields["between"]]
+    along = fields["along"]
+    for joint in sketch.spec["joints"]:
+        own, given = joint["with"], sketch.metadata["joints"]
+        coordinates = next((each["coordinates"] for each in given if each["name"] == joint["name"]), [])
+        if coordinates[:1] == [along] and joint["type"] == "polar":
+            return [sketch.at[point] for point in own["of"]]
+        if coordinates[:1] == [along] and joint["type"] in ("slot", "slider", "rollers"):
+            point = own.get("point") or (own["points"][0] if "points" in own else own["line"]["point"])
+            return _from_wall(sketch, *sketch.line(own["along"]), point)
+    if (found := re.fullmatch(r"([xy])\((.+)\)", along)) and found[2] in sketch.at:
+        way = np.array([1.0, 0.0] if found[1] == "x" else [0.0, 1.0])
+        middle = sketch.seen_from(GROUND, found[2]).mean(axis=0) * way[::-1]
+        return _from_wall(sketch, GROUND, middle, way, found[2])
+    return None
+
+
+def _from_wall(sketch: Sketch, body: str, origin: Array, along: Array, point: str) -> list[Place]:
+    """From where a line begins to a point that goes along it; where that comes near the beginning or passes it, from a place before."""
+    reach = (sketch.seen_from(body, point) - origin) @ along
+    if reach.max() < _NEAR * reach.min():
+        along, reach = -along, -reach
+    start = 0.0 if reach.min() > _NEAR * reach.max() else reach.min() - max(_ROOM * np.ptp(reach), 8 * sketch.size)
+    wall = origin + start * along
+    if body == GROUND:
+        side = 1.2 * sketch.size * np.array([along[1], -along[0]])
+        sketch.hatched(body, wall + np.array([-side, side]), about=wall)
+    return [(body, wall), sketch.at[point]]
 
 
 def _beside(line: Array, across: float) -> Array:
@@ -69,8 +106,8 @@ def _support(sketch: Sketch, at: Array) -> None:
     """A bearing block standing on hatched ground."""
     s = sketch.size
     feet = at + np.array([[-1.1 * s, -2.0 * s], [1.1 * s, -2.0 * s]])
-    sketch.figures[GROUND].add(np.vstack([feet[0], shapes.arc(at, 0.9 * s, np.pi, 0.0), feet[1]]), "block")
-    sketch.hatched(GROUND, at + np.array([[-1.9 * s, -2.0 * s], [1.9 * s, -2.0 * s]]))
+    sketch.figures[GROUND].add(np.vstack([feet[0], shapes.arc(at, 0.9 * s, np.pi, 0.0), feet[1]]), "block", about=at)
+    sketch.hatched(GROUND, at + np.array([[-1.9 * s, -2.0 * s], [1.9 * s, -2.0 * s]]), about=at)
 
 
 def _travelled(sketch: Sketch, line: Any, points: list[str], margin: float) -> tuple[str, Array, Array]:
@@ -166,13 +203,13 @@ def _skate(sketch: Sketch, name: str, fields: Fields) -> None:
 
 def _weld(sketch: Sketch, name: str, fields: Fields) -> None:
     s, (body, at) = sketch.size, sketch.at[fields["of"][0]]
-    sketch.figures[body].add(at + shapes.box(0.9 * s, 0.9 * s), "weld")
+    sketch.figures[body].add(at + shapes.box(0.9 * s, 0.9 * s), "weld", about=at)
     if body == GROUND:
-        sketch.hatched(body, at + np.array([[-1.6 * s, -0.45 * s], [1.6 * s, -0.45 * s]]))
+        sketch.hatched(body, at + np.array([[-1.6 * s, -0.45 * s], [1.6 * s, -0.45 * s]]), about=at)
 
 
 def _link(sketch: Sketch, name: str, fields: Fields) -> None:
-    sketch.pair(name, "link", fields["of"], [np.array([[0.0, 0.0], [1.0, 0.0]])])
+    sketch.pair(name, "link", [sketch.at[point] for point in fields["of"]], [np.array([[0.0, 0.0], [1.0, 0.0]])])
     for point in fields["of"]:
         body, at = sketch.at[point]
         if body == GROUND:
@@ -195,7 +232,7 @@ def _belt(sketch: Sketch, name: str, fields: Fields) -> None:
     tilt = np.arcsin(np.clip((first - side * second) / distance, -1.0, 1.0))
     strand = np.array([[first * np.sin(tilt) / distance, first * np.cos(tilt)],
                        [1 + side * second * np.sin(tilt) / distance, side * second * np.cos(tilt)]])  # fmt: skip
-    sketch.pair(name, "belt", fields["of"], [strand, strand * (1, -1)])
+    sketch.pair(name, "belt", [sketch.at[point] for point in fields["of"]], [strand, strand * (1, -1)])
 
 
 def _wound_string(sketch: Sketch, name: str, fields: Fields) -> None:

@@ -61,7 +61,8 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         corners = np.array([[sketch.number(x) for x in corner] for corner in piece.get("corners", [])])
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
         for points, style in shapes.piece_outlines(piece["shape"], sizes, corners, thickness):
-            figure.add(shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), style, len(points) > 2)
+            placed, place = shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), np.array(at)
+            figure.add(placed, style, len(points) > 2, about=place if style == "mass" else None)
     masses = [stroke.points.mean(axis=0) for stroke in figure.strokes if stroke.style == "mass"]
     if 1 < len(masses) == len(figure.strokes):  # held together by a bar without mass
         figure.strokes.insert(0, Stroke(shapes.rounded_hull(np.array(masses), 0.6 * thickness), "body"))

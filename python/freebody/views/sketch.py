@@ -31,13 +31,15 @@ class Stroke:
 
     Styles: ``body`` and ``block`` (filled in the body's colour), ``band`` (a thick line), ``mass`` (solid), ``mark``
     (a line in the body's colour), ``slot`` and ``pin`` (filled with the paper), ``weld`` (solid dark), ``rail``,
-    ``hatch`` and ``dash`` (lines in the colour of ground). ``shown`` (nt,): whether it is there; None: always.
+    ``hatch`` and ``dash`` (lines in the colour of ground). ``shown`` (nt,): whether it is there; None: always. ``about`` is the
+    place of a symbol, whose size is not the model's but the drawing's.
     """
 
     points: Array
     style: str
     closed: bool = True
     shown: Array | None = None
+    about: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -48,9 +50,10 @@ class Figure:
     strokes: list[Stroke] = field(default_factory=list)
     points: dict[str, tuple[float, float]] = field(default_factory=dict)
 
-    def add(self, points: Array, style: str, closed: bool = True) -> None:
-        """One more stroke."""
-        self.strokes.append(Stroke(np.asarray(points, float), style, closed))
+    def add(self, points: Array, style: str, closed: bool = True, about: Array | None = None) -> None:
+        """One more stroke; of a symbol, ``about`` its place (2,)."""
+        place = None if about is None else (float(about[0]), float(about[1]))
+        self.strokes.append(Stroke(np.asarray(points, float), style, closed, about=place))
 
 
 @dataclass(frozen=True)
@@ -185,9 +188,9 @@ class Sketch:
         seen = (place - other[0] - 1j * other[1]) * np.exp(-1j * other[2])
         return np.column_stack([seen.real, seen.imag])
 
-    def pair(self, name: str, kind: str, ends: Sequence[str], lines: list[Array], engaged: bool = True) -> None:
-        """Something stretched between two named points, as long as it is there."""
-        (first, a), (second, b) = (self.at[point] for point in ends)
+    def pair(self, name: str, kind: str, ends: Sequence[tuple[str, Array]], lines: list[Array], engaged: bool = True) -> None:
+        """Something stretched between two places (2,) of bodies, as long as it is there."""
+        (first, a), (second, b) = ends
         index = self.names.index
         shown = self.there(name, engaged)
         self.pairs.append(Pair(name, kind, ((index(first), a[0], a[1]), (index(second), b[0], b[1])), lines, shown))
@@ -203,7 +206,7 @@ class Sketch:
     def pin(self, point: str, radius: float) -> None:
         """A pin at a named point, its radius in sizes of symbols."""
         body, at = self.at[point]
-        self.figures[body].add(shapes.circle(at, radius * self.size), "pin")
+        self.figures[body].add(shapes.circle(at, radius * self.size), "pin", about=at)
 
     def rail(self, body: str, path: Array) -> None:
         """What something slides or rolls on, a polyline: on ground hatched, on a body bare."""
@@ -212,17 +215,17 @@ class Sketch:
         else:
             self.figures[body].add(path, "rail", closed=False)
 
-    def hatched(self, body: str, path: Array) -> None:
-        """A polyline, hatched on its right-hand side."""
+    def hatched(self, body: str, path: Array, about: Array | None = None) -> None:
+        """A polyline, hatched on its right-hand side; of a symbol, ``about`` its place (2,)."""
         s, figure, sides = self.size, self.figures[body], np.diff(path, axis=0)
-        figure.add(path, "rail", closed=False)
+        figure.add(path, "rail", closed=False, about=about)
         lengths = np.hypot(*sides.T)
         ends = np.cumsum(lengths)
         for foot in np.arange(0.7 * s, ends[-1] + 1e-9 * s, max(0.65 * s, ends[-1] / 120)):
             i = min(int(np.searchsorted(ends, foot)), len(sides) - 1)
             along = sides[i] / lengths[i]
             root = path[i] + (foot - ends[i] + lengths[i]) * along
-            figure.add(np.array([root, root + (np.array([along[1], -along[0]]) - along) * 0.55 * s]), "hatch", closed=False)
+            figure.add(np.array([root, root + (np.array([along[1], -along[0]]) - along) * 0.55 * s]), "hatch", False, about)
 
     def _size(self) -> float:
         """A size for symbols that suits the mechanism: a small part of its extent at the start, larger where it travels far."""

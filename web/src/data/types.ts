@@ -49,6 +49,8 @@ export interface Stroke extends Passing {
   points: Point[];
   style: Style;
   closed: boolean;
+  /** The place of a symbol, whose size is that of the drawing. */
+  about: Point | null;
 }
 
 /** Something stretched between two points (figure, x, y); lines of (along from 0 to 1, across in m). */

@@ -1,19 +1,21 @@
 import { floats } from "../data/floats";
 import type { Plot } from "../data/types";
 import { placeIn } from "../time/between";
+import type { Range } from "./scale";
 
 /** A curve over time; NaN where it has a gap. */
 export interface Series {
   name: string;
+  unit: string;
   /** The name of what exerts it, of a force. */
   of?: string;
-  t: Float32Array;
+  t: ArrayLike<number>;
   y: Float32Array;
 }
 
 export function seriesOf(plot: Plot): Series[] {
   const t = floats(plot.t);
-  return plot.curves.map((curve) => ({ ...curve, t, y: floats(curve.y) }));
+  return plot.curves.map((curve) => ({ ...curve, unit: plot.unit, t, y: floats(curve.y) }));
 }
 
 /** Its value at a time; NaN within a gap. */
@@ -22,7 +24,12 @@ export function valueAt({ t: times, y }: Series, t: number): number {
   return part === 0 ? y[low] : part === 1 ? y[high] : y[low] + part * (y[high] - y[low]);
 }
 
-/** The data of its SVG path, with places found by `x` and `y`. */
+/** Its values within a stretch of time. */
+export function within({ t, y }: Series, { low, high }: Range): Float32Array {
+  return y.filter((_, i) => t[i] >= low && t[i] <= high);
+}
+
+/** The data of an SVG path over time, with places found by `x` and `y`. */
 export function pathOf(series: Series, x: (t: number) => number, y: (value: number) => number): string {
   let path = "";
   let fresh = true;

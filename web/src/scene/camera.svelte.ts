@@ -2,11 +2,14 @@ import type { Point, Scene } from "../data/types";
 
 const ROOM = { aside: 40, above: 30, below: 62 }; // px, for arrows and the scales
 
+const SYMBOL = { least: 6, most: 12 }; // px
+
 /** From metres to pixels of the stage: everything fits, then as one has zoomed. */
 export class Camera {
   width = $state(800);
   height = $state(400);
   zoom = $state.raw({ k: 1, x: 0, y: 0 });
+  readonly #size: number;
   readonly #box: { middle: Point; wide: number; tall: number };
 
   /** `followed` is what stays in the middle of the stage, if anything. */
@@ -15,6 +18,7 @@ export class Camera {
     private readonly followed: () => Point | null,
   ) {
     const [x0, x1, y0, y1] = scene.bounds;
+    this.#size = scene.size;
     const room = 2 * scene.size;
     this.#box = { middle: [(x0 + x1) / 2, (y0 + y1) / 2], wide: x1 - x0 + room, tall: y1 - y0 + room };
   }
@@ -37,6 +41,12 @@ export class Camera {
 
   /** Pixels a metre. */
   readonly scale = $derived.by(() => this.zoom.k * this.fit);
+
+  /** How much larger symbols are than in metres, so that they are neither specks nor hide what they belong to. */
+  readonly symbol = $derived.by(() => {
+    const usual = Math.min(SYMBOL.most, Math.max(SYMBOL.least, this.#size * this.fit));
+    return usual / (this.#size * this.scale);
+  });
 
   readonly #origin: Point = $derived.by(() => {
     const { k, x, y } = this.zoom;

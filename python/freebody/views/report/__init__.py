@@ -44,6 +44,7 @@ def report_html(run: Run) -> str:
         settings=tables.settings(run),
         is_figure=tables.is_figure,
         raised=tables.raised,
+        marked=tables.marked,
     )
 
 

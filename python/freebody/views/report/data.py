@@ -70,7 +70,8 @@ def _scene(sketch: Sketch) -> dict[str, Any]:
             {
                 "name": figure.name,
                 "strokes": [
-                    {"points": short(each.points), "style": each.style, "closed": each.closed} | _passing(each)
+                    {"points": short(each.points), "style": each.style, "closed": each.closed, "about": each.about}
+                    | _passing(each)
                     for each in figure.strokes
                 ],
             }

@@ -17,7 +17,12 @@ from freebody.views.report.floats import floats
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
-_CURVES, _POINTS = 8, 900
+_NUMBERS, _POINTS, _LEAST_POINTS = 80_000, 900, 150
+"""Of all curves together, a third of a megabyte, and of each."""
+_ROUND_OFF = 1e-9
+"""Of the largest of its kind, below which a value is what rounding left."""
+_ORDERS = {"coordinate": "Coordinates", "rate": "Rates", "acceleration": "Accelerations"}
+"""Kinds of columns by their order, with the titles of their plots."""
 
 
 class Curve(NamedTuple):
@@ -30,24 +35,48 @@ class Curve(NamedTuple):
 
 def plots(run: Run) -> list[dict[str, Any]]:
     """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
-    shown = refined_at_jumps(run.at(_thinned(run.t, _POINTS)))
-    made, following = [], [c["name"] for c in run.source.dependent_coordinates]
-    for dots, (kind, title) in enumerate((("coordinate", "Coordinates"), ("rate", "Rates"), ("acceleration", "Accelerations"))):
-        names = [*run.coordinates, *following]
-        units = [column.unit for column in run.columns if column.kind == kind]
-        units += [column.unit for column in run.columns if column.kind == "dependent"][dots * len(following) :][: len(following)]
-        values = np.hstack([shown.blocks[kind], shown.blocks["dependent"].reshape(len(shown.t), 3, -1)[:, dots]])
-        curves = [Curve(unicode_name(name, dots), y) for name, y in zip(names, values.T, strict=True)]
-        for unit in dict.fromkeys(units):
-            made.append(_plot(title, unit, shown, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
-    made += _reactions(shown)
+    shown = refined_at_jumps(run.at(_thinned(run.t, _points(run))))
+    made = _coordinates(shown) + _reactions(shown)
     ledger = shown.energy
     stored = [
-        *(Curve(*entry) for entry in ledger.entries.items()),
+        *map(Curve, ledger.entries, ledger.entries.values()),
         Curve("kinetic + potential", ledger.kinetic + ledger.potential),
     ]
-    made += [_plot("Energy", "J", shown, stored), _plot("Energy error", "J", shown, [Curve("balance", ledger.balance)])]
+    made += [
+        _plot("Energy", "J", shown, _resolved(stored)),
+        _plot("Energy error", "J", shown, [Curve("balance", ledger.balance)]),
+    ]
     return made if run.recorded else made + _asked(shown)
+
+
+def _points(run: Run) -> int:
+    """How many of each curve are shown, so that all of them fit in a page."""
+    curves = 3 * len(run.coordinates) + 3 * len(run.source.dependent_coordinates) + 2 * len(run.reactions) + 10
+    return int(np.clip(_NUMBERS // curves, _LEAST_POINTS, _POINTS))
+
+
+def _coordinates(run: Run) -> list[dict[str, Any]]:
+    """Coordinates, those that follow from them too, their rates and accelerations; a plot for each unit."""
+    following = [c["name"] for c in run.source.dependent_coordinates]
+    names, dependent = [*run.coordinates, *following], run.blocks["dependent"].reshape(len(run.t), 3, -1)
+    orders = [np.hstack([run.blocks[kind], dependent[:, dots]]) for dots, kind in enumerate(_ORDERS)]
+    lasting = (run.t[-1] - run.t[0]) or 1.0
+    largest = np.max([np.abs(values).max(axis=0, initial=0.0) * lasting**dots for dots, values in enumerate(orders)], axis=0)
+    made = []
+    for dots, (values, (kind, title)) in enumerate(zip(orders, _ORDERS.items(), strict=True)):
+        units = [column.unit for column in run.columns if column.kind == kind]
+        units += [column.unit for column in run.columns if column.kind == "dependent"][dots * len(following) :][: len(following)]
+        heard = np.where(np.abs(values) > _ROUND_OFF * largest / lasting**dots, values, 0.0)
+        curves = [Curve(unicode_name(name, dots), y) for name, y in zip(names, heard.T, strict=True)]
+        for unit in dict.fromkeys(units):
+            made.append(_plot(title, unit, run, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
+    return made
+
+
+def _resolved(curves: Sequence[Curve]) -> list[Curve]:
+    """The curves, which are of one kind, with 0 for what is round-off beside the largest."""
+    least = _ROUND_OFF * max((float(np.nanmax(np.abs(curve.y), initial=0.0)) for curve in curves), default=0.0)
+    return [curve._replace(y=np.where(np.abs(curve.y) <= least, 0.0, curve.y)) for curve in curves]
 
 
 def _thinned(t: Array, most: int) -> Array:
@@ -56,17 +85,13 @@ def _thinned(t: Array, most: int) -> Array:
 
 
 def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = "") -> dict[str, Any]:
-    """One plot; at most eight curves, and a note that says so. Where something switched the curves have gaps."""
+    """One plot. Where something switched the curves have gaps."""
     breaks = gaps(run)
-    if len(curves) > _CURVES:
-        note = f"the first {_CURVES} of {len(curves)} curves. {note}".strip()
     return {
         "title": title,
         "unit": pretty_unit(unit),
         "t": floats(breaks(run.t)),
-        "curves": [
-            {"name": name, "y": floats(breaks(y, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves[:_CURVES]
-        ],
+        "curves": [{"name": name, "y": floats(breaks(y, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves],
         "note": note,
     }
 
@@ -78,25 +103,28 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     noise = couple_noise(run)
     couples = [Curve(name, reaction.M, name) for name, reaction in known if (np.abs(reaction.M) > noise).any()]
     sizes = [Curve(name, r.size, name) for name, r in known]
-    made = [_plot("Reactions, size of the force", "N", run, sizes, note)] if known or silent else []
+    made = [_plot("Reactions, size of the force", "N", run, _resolved(sizes), note)] if known or silent else []
     held, turned = (
         [Curve(plain(text), y, name) for name, each in held_by(run, unit).items() for text, y in each.items()]
         for unit in ("N", "N*m")
     )
     what = "Contacts, strings, stops, locks and motions"
-    made += [_plot(what, "N", run, held)] if held else []
-    made += [_plot(f"{what}, couple", "N*m", run, turned)] if turned else []
+    made += [_plot(what, "N", run, _resolved(held))] if held else []
+    made += [_plot(f"{what}, couple", "N*m", run, _resolved(turned))] if turned else []
     return made + ([_plot("Reactions, couple", "N*m", run, couples)] if couples else [])
 
 
 def _asked(run: Run) -> list[dict[str, Any]]:
-    """The reported quantities that are not plotted yet, over the whole run; one without any value is left out."""
+    """The reported quantities that are not plotted yet, over the whole run; one without any value is left out. An expression goes by
+    the name of its line in the report."""
     plotted = {"t", *(column.name for column in run.columns), *(f"{quote(joint)}.F" for joint in run.reactions)}
-    texts = [text for text in dict.fromkeys(item.value for item in run.source.report) if text not in plotted]
+    labels = {item.value: item.label for item in run.source.report if item.value not in plotted}
+    texts = list(labels)
     units = {text: run.unit_of(text) for text in texts}
     values = dict(zip(texts, run.motion.evaluate(texts, run.t).T, strict=True)) if texts else {}
+    names = {text: labels[text] if "(" in text else plain(text) for text in texts}
     made = []
     for unit in dict.fromkeys(units.values()):
-        curves = [Curve(plain(text), y) for text, y in values.items() if units[text] == unit and np.isfinite(y).any()]
-        made += [_plot("Reported quantities", unit, run, curves)] if curves else []
+        curves = [Curve(names[text], y) for text, y in values.items() if units[text] == unit and np.isfinite(y).any()]
+        made += [_plot("Reported quantities", unit, run, _resolved(curves))] if curves else []
     return made

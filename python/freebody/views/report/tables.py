@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,17 +24,47 @@ if TYPE_CHECKING:
 
 _EVENTS, _FIRST, _LAST = 100, 60, 3
 """Rows of long tables."""
+_MANY = 5
+"""Rows that are one line where they are alike."""
+_SETTINGS = {
+    "accepted": "steps",
+    "rejected": "steps tried again",
+    "closure": "loops closed to within",
+    "kinks": "switches of laws",
+}
+"""What the integrator counts, in words."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """A titled table with a remark below; ``shape`` is a class of its card."""
+    """A titled table with a remark below; ``shape`` is a class of its card. Many rows one after the other that agree in the columns
+    ``alike`` are one line that opens."""
 
     title: str
     heads: Sequence[str]
     rows: Sequence[Sequence[str]]
     remark: str = ""
     shape: str = ""
+    alike: tuple[int, ...] = ()
+
+    @property
+    def groups(self) -> Iterator[tuple[Sequence[str] | None, list[Sequence[str]]]]:
+        """The rows, those that are one line with this line before them."""
+        for _, rows in groupby(self.rows, lambda row: [row[k] for k in self.alike]):
+            group = list(rows)
+            if self.alike and len(group) >= _MANY:
+                yield self._line(group), group
+            else:
+                yield None, group
+
+    def _line(self, group: Sequence[Sequence[str]]) -> list[str]:
+        """The columns in which rows agree, how many they are, and from when to when."""
+        first = self.alike[0]
+        line = [cell if k in self.alike else "" for k, cell in enumerate(group[0])]
+        line[first] = f"{line[first]}, {len(group)} times"
+        when = next(k for k, head in enumerate(self.heads) if head == "t / s")
+        line[when] = f"{group[0][when]} to {group[-1][when]}"
+        return line
 
 
 def ending(run: Run) -> list[str]:
@@ -56,7 +87,7 @@ def beside(run: Run) -> list[Table]:
     remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
     tables = (
         Table("Report", ("quantity", "value", "at t / s"), reported),
-        Table("Events", ("event", "t / s", "kind", "direction"), events, remark),
+        Table("Events", ("event", "t / s", "kind", "direction"), events, remark, alike=(0, 2)),
     )
     return [table for table in tables if table.rows]
 
@@ -84,6 +115,11 @@ def below(run: Run) -> list[Table]:
 def sentence(text: str) -> str:
     """With a capital."""
     return text[:1].upper() + text[1:]
+
+
+def marked(text: str) -> Markup:
+    """A sentence with what stands between backticks as code."""
+    return Markup(re.sub("`([^`]*)`", r"<code>\1</code>", str(escape(text))))
 
 
 def is_figure(cell: str) -> bool:
@@ -115,7 +151,7 @@ def _mode_changes(run: Run) -> Table:
         rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", work, impulses, c.note))
     remark = f"the first {_FIRST} and the last {_LAST} of {len(changes)}" if many else ""
     heads = ("t / s", "kind", "what", "energy lost / J", "work of motions / J", "impulse / N·s", "")
-    return Table("Mode changes", heads, rows, remark, "across")
+    return Table("Mode changes", heads, rows, remark, "across", alike=(1, 2))
 
 
 def _peaks(run: Run) -> Table:
@@ -150,7 +186,10 @@ def settings(run: Run) -> Table:
         ("method", s.method),
         ("relative tolerance", _figure(s.rtol)),
         ("route", s.route),
-        *((key, _figure(value) if isinstance(value, (int, float)) else str(value)) for key, value in taken.items()),
+        *(
+            (_SETTINGS.get(key, key), _figure(value) if isinstance(value, (int, float)) else str(value))
+            for key, value in taken.items()
+        ),
         *((f"version of {name}", version) for name, version in versions().items() if name != "platform"),
     ]
     return Table("How it was computed", ("", ""), rows)
