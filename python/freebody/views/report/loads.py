@@ -157,8 +157,8 @@ def _effective(name: str, free: Sequence[FreeBodies], labels: Labels, sketch: Sk
     return {
         "figure": sketch.names.index(name),
         "G": [x, y],
-        "ma": f"{labels.mass(name).plain} {labels.acceleration(name, False).plain}",
-        "ia": "" if bodies[0].particle else f"{labels.inertia(name).plain} {labels.angular(name, False).plain}",
+        "ma": f"{labels.mass(name).plain} {labels.acceleration(name).plain}",
+        "ia": "" if bodies[0].particle else f"{labels.inertia(name).plain} {labels.angular(name).plain}",
         "fx": _column(np.array([body.mass * body.a[0] for body in bodies])),
         "fy": _column(np.array([body.mass * body.a[1] for body in bodies])),
         "m": _column(np.array([body.inertia * body.alpha for body in bodies])),
