@@ -13,15 +13,17 @@ from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import Add, Cross, Dot, walk
 
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, Family, NoMotion
 from .language.dimensions import misfit
-from .language.statements import symbols_in
+from .language.statements import Program, symbols_in
 from .motion_sampler import MotionSampler
 from .printed_symbols import PrintedSymbols
+from .prose import plainly
 from .symbols import DOUBTFUL, Symbols
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
@@ -93,8 +95,10 @@ class Checker:
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         checker.budget = Budget(self.seconds, begins=process_time())
+        plain = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
         try:
-            verdict = claimed(checker, text, letters or {}) or _stated(checker, with_condition_first(text), letters)
+            found = claimed(checker, plain, letters or {})
+            verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:
             return Verdict(Kind.UNDECIDABLE, text, str(error))
@@ -146,15 +150,24 @@ class Checker:
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
 
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
-        """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, and the only body turning
-        clockwise; each with declarations, whether it is read so tightly, and what is to be said of it."""
+        """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, with sizes of vectors, and
+        with the only body turning clockwise; each with declarations, whether it is read so tightly, and what is to be said of it."""
         if DOUBTFUL.search(text):
             yield {}, True, ()
         known = self.symbols(letters)
         program = known.read(text)
+        if sized := self._sized(program, known):
+            yield sized, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in sized)
         turned = {name: said for name, said in known.senses.items() if name in known.assumed}
         if turned and any(n.name in turned for n in symbols_in(program)):
             yield turned, False, tuple(f"Here {name} is read clockwise: {said}." for name, said in turned.items())
+
+    def _sized(self, program: Program, known: Symbols) -> dict[str, str]:
+        """The sizes of the letters of vectors that a statement about nothing else compares, each side one term: a_B = 2 a_A."""
+        used = [n.name for n in symbols_in(program)]
+        vectors = {name: known.meanings[name] for name in used if name in known.meanings and known.meanings[name].is_vector}
+        alone = not any(isinstance(n, Add | Cross | Dot) for n in walk(program)) and not known.own & {*vectors}
+        return {name: "hypot({}, {})".format(*m.texts[:2]) for name, m in vectors.items()} if alone else {}
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""

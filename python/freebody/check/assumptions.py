@@ -45,7 +45,6 @@ _WORDS: dict[str, dict[str, Any]] = {
 }
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
-_RELEASED = re.compile(r"(?:it |the motion )?(?:(?:is )?(?:released|started|starting|starts|begins) (?:from|at) rest|from rest)")
 _INFINITE = ("inf", "infinity", "∞", "oo")
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
@@ -246,7 +245,6 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
 
 def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Family:
     """Those of some motions of which a part is true, too."""
-    part = "the start is at rest" if _RELEASED.fullmatch(part) else part
     if part == SMALL_MOTIONS:
         rest = checker.vibration.rest
         places = rest.q if rest else np.zeros(len(checker.sampler.names))

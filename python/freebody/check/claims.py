@@ -48,7 +48,7 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
             said = ((part or "").strip() for part in found.groups())
-            return replace(judge(checker, {**declared, **given}, *said), text=text.strip())
+            return judge(checker, {**declared, **given}, *said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{claim}`", f"write `{form}`")

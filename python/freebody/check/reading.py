@@ -13,7 +13,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Column, Matrix, Sym, exchange, walk
+from freebody.symbolic.tree import Column, Matrix, Mul, Negative, Sym, Unit, exchange, walk
 
 from . import integrals
 from .language.dimensions import check_dimensions, dimension, misfit
@@ -21,7 +21,7 @@ from .language.elimination import eliminated
 from .language.parser import parse
 from .language.sizes import with_sizes
 from .language.spelling import spell as written
-from .language.statements import Integral, Program, symbols_in
+from .language.statements import Directed, Equation, Integral, Program, symbols_in
 from .user_symbols import INITIAL, Meaning
 from .usual_names import ENERGIES
 
@@ -35,6 +35,9 @@ _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _WORD = 3
 """Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
+_ARROWS = {"→": (1, "i"), "←": (-1, "i"), "↑": (1, "j"), "↓": (-1, "j")}
+_MEASURE = re.compile(r"(?<![\w.])(?:[1-9]\d*\.\d+|[1-9]\d+)\s*(?=[A-Za-z])")
+"""A figure that may have a unit behind it; half a force is no half newton."""
 
 
 class Reading:
@@ -66,7 +69,7 @@ class Reading:
             self._add(ENERGIES, program, assumed=True)
             self._vibrating(n.name for n in self._unknown(program) if not n.dots)
             names = (*names, *(name for name in self.known.names if name not in names))
-            program = self._eliminated(self._parsed(names))
+            program = self._eliminated(self._parsed(names), chains=True)
         self._require_written_out(program)
         return self._sized(self._fitting(program, names, units))
 
@@ -97,7 +100,7 @@ class Reading:
                 raise StatementError(what, n.span, f"give it in a line: `{n.name} = …`", program.text)
 
     def _parsed(self, names: Sequence[str], **way: bool) -> Program:
-        """The lines of the text, with integrals of what has a meaning as symbols of their own."""
+        """The lines of the text, with integrals of what has a meaning as symbols of their own, and with directions for arrows."""
         program = parse(self.text, names, self.known.constants, **{"tight": self.tight, **way})
         constants = self.known.of_kind("parameter", "gravity")
         for node in [n for n in walk(program) if isinstance(n, Integral)]:
@@ -108,13 +111,28 @@ class Reading:
                 size = parts[0].times(parts[1]) if None not in parts else None
                 self.known.put(name, replace(found, dimension=size))
                 program = exchange(program, node, Sym(name, span=node.span))
+        return self._directed(program)
+
+    def _directed(self, program: Program) -> Program:
+        """The lines, where an arrow behind what a vector is said to be is a direction; one behind a number says nothing."""
+        self.known.unjudged.clear()
+        for line in [line for line in program.lines if isinstance(line, Equation) and isinstance(line.right, Directed)]:
+            of, arrow = line.right.of, line.right.arrow
+            vector = isinstance(line.left, Sym) and line.left.name in self.known.meanings
+            if vector and self.known.meanings[line.left.name].is_vector and arrow in _ARROWS:
+                sign, axis = _ARROWS[arrow]
+                along = Mul((of, Sym(axis)), span=of.span)
+                of = Negative(along, span=of.span) if sign < 0 else along
+            else:
+                self.known.unjudged.add(arrow)
+            program = exchange(program, line.right, of)
         return program
 
     def _fitting(self, program: Program, names: Sequence[str], units: bool) -> Program:
         """The same, or where its dimensions do not fit, as it fits: T a period, 5 m/s a speed though m and s are symbols, 2k/3m with m below
         the stroke."""
         if not misfit(program, self.known.dimensions, strictly=True):
-            return program
+            return self._measured(program, names) if units else program
         ways: list[dict[str, bool]] = [{"units": True}, {"tight": True}] if units else [{"tight": True}]
         energy = self.known.meanings.get("T") if "T" in self.known.assumed else None
         period = self.known.vibration.meanings(["period"]).get("period") if energy and self.known.vibration else None
@@ -130,6 +148,16 @@ class Reading:
                     return other
         if energy:
             self.known.meanings["T"] = energy
+        return program
+
+    def _measured(self, program: Program, names: Sequence[str]) -> Program:
+        """The same, where 98.1 N is a measure though N is a symbol, if dimensions fit so, too."""
+        if _MEASURE.search(self.text):
+            with suppress(StatementError):
+                other = self._eliminated(self._parsed(names, units=True), chains=True)
+                check_dimensions(other, self.known.dimensions)
+                if sum(isinstance(n, Unit) for n in walk(other)) > sum(isinstance(n, Unit) for n in walk(program)):
+                    return other
         return program
 
     def _sized(self, program: Program) -> Program:
@@ -183,12 +211,16 @@ class Reading:
         given = {line.name for line in program.assignments}
         return [n for n in symbols_in(program) if n.name not in self.known.meanings and n not in given]
 
-    def _eliminated(self, program: Program) -> Program:
-        """The lines without unknowns of the writer's own; a word that is nearly one of the model is a slip, and none of them."""
-        own = [
-            n for n in self._unknown(program) if not n.dots and (len(n.name) < _WORD or not nearest(n.name, self.known.meanings))
-        ]
-        return eliminated(program, own) if own else program
+    def _eliminated(self, program: Program, chains: bool = False) -> Program:
+        """The lines without unknowns of the writer's own, ``chains`` as in ``eliminated``; a word that is nearly one of the model is a
+        slip, and none of them."""
+        own = [n for n in self._unknown(program) if not n.dots and not self._is_slip(n.name)]
+        return eliminated(program, own, chains) if own else program
+
+    def _is_slip(self, name: str) -> bool:
+        """Whether a name is one of the model but for a slip of the pen; T_A is none of r_A, but N_b is of N_B."""
+        near = nearest(name, self.known.meanings) if len(name) >= _WORD else None
+        return near is not None and (len(name.partition("_")[0]) >= _WORD or near.lower() == name.lower())
 
     def _clashing(self, program: Program) -> set[str]:
         """Symbols of the model to which a line of several gives a meaning of its own: what stands there cannot be theirs."""

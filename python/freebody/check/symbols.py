@@ -89,6 +89,7 @@ class Symbols:
         self.declared: set[str] = set()
         self.own = frozenset(declared or ())
         self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
+        self.unjudged: set[str] = set()  # arrows behind what is no vector
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         for name, said in (declared or {}).items():
             try:
@@ -139,6 +140,7 @@ class Symbols:
         made += [f"Here {name} is read as: {self.assumed[name]}." for name in self.assumed if name in said_names]
         if program.tight or (DOUBTFUL.search(program.text) and misfit(program, self.dimensions)):
             made.append(f"It is read as: {written(program)}")
+        made += [f"The arrow {arrow} is not judged: it stands behind what is no vector here." for arrow in self.unjudged]
         return (*clashes, *made, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))
 
     # --- values --------------------------------------------------------------------------------

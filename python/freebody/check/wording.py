@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
-_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|in the limit(?: (?:as|of|where|when))?|initially"
+_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|initially"
 _BEFORE = re.compile(rf"({_STARTS}|with)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
@@ -15,7 +15,7 @@ _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]
 _ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶)\s*")
 _INFINITY = re.compile(r"([-+]?)\s*(?:\\infty|∞|infinity)")
 _START = re.compile(
-    r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release|beginning)|being released|it is released)"
+    r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release(?: from rest)?|beginning)|being released|it is released)"
 )
 _CONSTANT = re.compile(
     r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
@@ -25,6 +25,8 @@ _CONSTANT = re.compile(
 """``E = T + V = const``, ``p is conserved``."""
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|\\[\[\]]")
 """What sets one formula apart in LaTeX and Markdown."""
+_GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
+"""``m = 2 kg, r = 0.1 m: a = 3.2 m/s²``."""
 _NUMBERED = re.compile(r"([^=:;\n]+)=([^=:;\n]+)")
 _TWICE = {"1": re.compile(r"(?<=\w)_?\{?[1₁]\}?(?!\w)"), "2": re.compile(r"(?<=\w)_?\{?[2₂]\}?(?!\w)")}
 _ENERGIES = re.compile(r"[\sTVUEK+=()_{}12₁₂]+")
@@ -48,6 +50,8 @@ def with_condition_first(text: str) -> str:
     )
     if said.startswith("limit:"):
         return said
+    if found := _GIVEN.fullmatch(said):
+        return f"if {found[1]}: {found[2]}"
     if found := _LIMIT.fullmatch(said):
         return f"as {next(filter(None, found.groups()[:3]))}: {found[4]}"
     if (
@@ -70,8 +74,6 @@ def as_claim(text: str) -> str:
     if not found:
         return text
     word, said, statement = " ".join(found[1].split()), _plainly(found[2]), found[3]
-    if word == "with" and "=" not in said:
-        return f"if with {said}: {statement}"
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
     side = word.split()[-1]
@@ -99,7 +101,7 @@ def _plainly(condition: str) -> str:
 def _condition(part: str) -> str:
     """One part of a condition in the words of a hypothesis."""
     said = part.strip()
-    said = re.sub(r"\A(?:for|when|at|as|if)\s+(?=small|large|\S+\s*(?:=|->))", "", said)
+    said = re.sub(r"\A(?:(?:when|if)\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))", "", said)
     if re.fullmatch(r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)", said):
         return "small motions"
     if found := re.fullmatch(r"(small|large) (.+)", said):

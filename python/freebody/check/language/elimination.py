@@ -15,9 +15,10 @@ class Elimination(Assignment):
     """A line solved for an unknown of the writer's own, which stands in the others."""
 
 
-def eliminated(program: Program, unknowns: Iterable[Sym]) -> Program:
+def eliminated(program: Program, unknowns: Iterable[Sym], chains: bool = False) -> Program:
     """The lines, each unknown given by the first line in which it stands once and linearly, and which leaves another line that
-    states something of it; those for which there is none stay unknown."""
+    states something of it; those for which there is none stay unknown. With ``chains`` it may also be only what the rest of a chain,
+    P = M ω = dE/dt, is called."""
     lines = list(program.lines)
     for unknown in unknowns:
         holding = [i for i, line in enumerate(lines) if unknown in symbols_in(line)]
@@ -26,8 +27,16 @@ def eliminated(program: Program, unknowns: Iterable[Sym]) -> Program:
             if isinstance(line, Equation) and line.relation == "=" and (value := _solved(line, unknown)) is not None:
                 lines[i] = Elimination(unknown, value, span=line.span)
                 break
+        if chains and len(holding) == 1 and _begins_chain(lines, *holding, unknown):
+            lines[holding[0]] = Elimination(unknown, lines[holding[0]].right, span=lines[holding[0]].span)
     whole = replace(program, lines=tuple(lines))
     return whole if whole.equations else program
+
+
+def _begins_chain(lines: list[Assignment | Equation], i: int, unknown: Sym) -> bool:
+    """Whether a line only says that an unknown is what the next begins with."""
+    line, after = lines[i], lines[i + 1] if i + 1 < len(lines) else None
+    return isinstance(line, Equation) and line.left == unknown and isinstance(after, Equation) and after.left is line.right
 
 
 def _solved(line: Equation, unknown: Sym) -> Node | None:

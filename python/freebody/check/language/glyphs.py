@@ -52,11 +52,15 @@ _COMMANDS = {
     **dict.fromkeys(("approx", "simeq", "cong", "equiv"), "="),
     **{"le": "<=", "leq": "<=", "ge": ">=", "geq": ">=", "lt": "<", "gt": ">"},
     **{"frac": "frac", "tfrac": "frac", "dfrac": "frac", "sqrt": "sqrt", "{": "(", "}": ")", "lbrack": "[", "rbrack": "]"},
-    **{"partial": "∂", "circ": "°", "degree": "°", "quad": " ", "qquad": " ", "|": "|"},
+    **{"partial": "∂", "circ": "°", "degree": "°", "|": "|", "%": "%"},
+    **dict.fromkeys(("to", "rightarrow", "longrightarrow", "xrightarrow"), "→"),
+    **{"leftarrow": "←", "uparrow": "↑", "downarrow": "↓", "nearrow": "↗", "searrow": "↘", "nwarrow": "↖", "swarrow": "↙"},
+    **{"circlearrowleft": "↺", "circlearrowright": "↻", "curvearrowleft": "↺", "curvearrowright": "↻"},
 }
 _DOTS = {"dot": 1, "ddot": 2, "dddot": 3}
 _WORDS = {"mathrm", "mathsf", "operatorname", "text", "textbf"}
 """Commands of fonts whose names may have blanks in them."""
+_SAME_WORDS = {"Sigma": "sum"}
 _FONTS = {
     *_WORDS,
     *("vec", "hat", "mathbf", "boldsymbol", "bm", "bar", "underline", "overrightarrow"),
@@ -68,7 +72,9 @@ _NOTHING = {
     *("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr"),
     *("displaystyle", "allowdisplaybreaks", "notag", "nonumber", "limits"),
 }
-_THEREFORE = {"Rightarrow", "implies", "therefore", "Longrightarrow", "Leftrightarrow", "iff"}
+ARROWS = tuple("→←↑↓↗↘↖↙↺↻")
+"""Which way a vector points, behind it; else what follows."""
+_THEREFORE = {"quad", "qquad", "Rightarrow", "implies", "therefore", "Longrightarrow", "Leftrightarrow", "iff"}
 _FUNCTIONS = {"sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "exp", "ln", "log", "arcsin", "arccos", "arctan"}
 _COMMAND = re.compile(r"\\(?:[A-Za-z]+|.)", re.DOTALL)
 _ENVIRONMENT = re.compile(r"\\(begin|end)\s*\{([A-Za-z]*)\*?\}(?:\{[clr|]*\})?")
@@ -80,12 +86,23 @@ _LIMITS = re.compile(
 """The limits of an integral, as in ``_0^{t_1}`` and ``₀ᵗ``."""
 _UPRIGHT = {Kind.LOW: Kind.DIGIT, Kind.RAISED: Kind.WORD}
 _BLANKS = re.compile(r"\s*")
-_COMMENT = re.compile(r"(?<!\\)[#%][^\n]*")
-_CONDITION = r"at|as|when|once|if|in|for|with|after|before|initially|just|immediately|right|until|while|during|lim"
+_COMMENT = re.compile(r"(?<!\\)(?:#|%(?<!\d%)(?<!\d %))[^\n]*")
+_CONDITION = (
+    r"at|as|when|once|if|in|for|with|after|before|initially|just|immediately|right|until|while|during|lim|given|assuming|provided"
+    r"|neglecting|without|suppose|starting|released|from rest"
+)
 """Words with which no label begins: what stands there says of which motions it is."""
+_ARROW = (
+    rf"(?:[{''.join(ARROWS)}]|\\(?:(?:circle|curve)arrow\w+|(?:right|left|up|down|[ns][ew])arrow)"
+    r"|\\(?:x(?:right|left)arrow|overset|stackrel)\s*\{[^{}]*\}(?:\s*\{[^{}]*\})?)"
+)
+_SENSE = rf"(?:[(\[]?\s*\+?\s*{_ARROW}\s*\+?\s*[)\]]?:?)"
+"""What is positive, as in ``(↺+)`` and ``+→``."""
+_SUM = r"\s*(?:\\sum|\\Sigma|[Σ∑])"
 _LABEL = re.compile(
-    rf"(?m)^(?!\s*(?:{_CONDITION})\b)[^=:\n\\]*:(?!=)|^\s*(?:\\sum|[Σ∑])[^:\n]*:(?!=)"
-    r"|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?<=\s\s)\(\d+\w?\)\s*$"
+    rf"(?m)(?:^|(?<=;))(?!\s*(?:{_CONDITION})\b)[^=:;\n\\]*:(?!=)|(?:^|(?<=;))\s*{_SENSE}?{_SUM}[^:;\n]*:(?!=)"
+    rf"|^\s*{_SENSE}{_SUM}[^:;\n]*=\s*(?:0|[^:;\n]*(?:a|α|M_?\{{?k)[^:;\n]*);|^\s*{_SENSE}(?={_SUM})"
+    r"|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?:(?<=\s\s)|\\q?quad\s*)\(\d+\w?\)\s*$"
 )
 _FITTED = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$)(.*?)\$\}", re.DOTALL)
 
@@ -94,7 +111,22 @@ def glyphs(text: str) -> list[Glyph]:
     """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and what fits the width
     read as blanks. Raises ``StatementError``."""
     fitted = _FITTED.sub(lambda found: f"{' ' * len(found[1])}{found[2]}  ", _COMMENT.sub(_blank, text))
-    return _carried_on(_Reader(_LABEL.sub(_blank, fitted)).all())
+    return _carried_on(_pointing(_Reader(_LABEL.sub(_blank, fitted)).all()))
+
+
+def _pointing(row: list[Glyph]) -> list[Glyph]:
+    """The glyphs, where an arrow with something behind it is the end of a line: it says what follows."""
+    out = list(row)
+    for i, glyph in enumerate(row):
+        behind = next((other for other in row[i + 1 :] if other.kind is not Kind.SPACE), None)
+        if (
+            glyph.text in ARROWS
+            and behind is not None
+            and behind.kind is not Kind.LINE
+            and behind.text not in (",", ";", ".", ")")
+        ):
+            out[i] = replace(glyph, kind=Kind.LINE, text="\n")
+    return out
 
 
 def _carried_on(row: list[Glyph]) -> list[Glyph]:
@@ -184,7 +216,7 @@ class _Reader:
         if not found:
             raise StatementError("a `\\` with nothing behind it", (start, start + 1))
         self.at = found.end()
-        word, span = found[0][1:], (start, found.end())
+        word, span = _SAME_WORDS.get(found[0][1:], found[0][1:]), (start, found.end())
         if word in _DOTS:
             inside = self.group()
             first = next((g for g in inside if g.kind is Kind.WORD), None)  # dots stand on the first letter

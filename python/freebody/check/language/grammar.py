@@ -15,7 +15,8 @@ from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Neg
 
 from ...model import units
 from ...model.errors import ModelProblem
-from .statements import Equation, Integral, Partial, Rate
+from .glyphs import ARROWS
+from .statements import Directed, Equation, Integral, Partial, Rate
 from .tokens import Names, Token
 
 RELATIONS = ("=", "<=", ">=", "<", ">")
@@ -73,6 +74,8 @@ class Line:
         while self.now.kind in RELATIONS:
             relation = self.take().kind
             behind, right = self.now.span[0], self.sum()
+            if arrow := self.accept(*ARROWS):
+                right = Directed(right, arrow.kind, span=self.span(right))
             out.append(Equation(left, right, relation, span=(begins, self.row[self.at - 1].span[1])))
             begins, left = behind, right
         self.expect("end")
@@ -108,7 +111,9 @@ class Line:
         """Factors side by side, with ``*`` and ``/``, from left to right."""
         factors = [self.factor()]
         while True:
-            if unit := self.unit(factors[-1]):
+            if isinstance(factors[-1], Num) and self.accept("%"):
+                factors[-1] = Quotient(factors[-1], Num(100.0), span=self.span(factors[-1]))
+            elif unit := self.unit(factors[-1]):
                 factors.append(unit)
             elif self.accept("/"):
                 top, below = _product(factors), [self.signed(self.factor)]

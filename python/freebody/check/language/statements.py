@@ -51,6 +51,14 @@ class Integral(Node):
 
 
 @dataclass(frozen=True)
+class Directed(Node):
+    """What an arrow behind it says to point which way: ``2.5 m/s ↑``."""
+
+    of: Node
+    arrow: str
+
+
+@dataclass(frozen=True)
 class Equation(Node):
     """Two sides that are said to be equal, or as ``relation`` says: ``=``, ``<=``, ``>=``, ``<``, ``>``."""
 
