@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
 _CORNER = 74.0  # points
-_OVER_LINES, _OVER_ARROWS = 8.0, 15.0  # what a label pays for each place that it covers
+_USUAL, _LARGE, _MANY = (8.0, 6.0), (11.0, 8.5), 20  # inches of the drawing; how many names take a large one
+_OVER_LINES, _OVER_ARROWS = 8.0, 40.0  # what a label pays for each place that it covers
 UNNAMED = ("origin", "G", "centre", "start", "end")
 """Points that nearly every body has, of which a drawing says nothing."""
 
@@ -63,7 +64,8 @@ class _Drawing:
 def drawing(source: CompiledModel, state: State, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
     """Draw the mechanism at a state. ``layers`` chooses what is labelled, by default all of ``LAYERS``."""
     with quiet():
-        ax = axes(ax, (8.0, 6.0))
+        named = sum(len(source.spec[part]) for part in ("bodies", "joints", "forces")) + len(source.metadata["coordinates"])
+        ax = axes(ax, _LARGE if named > _MANY else _USUAL)
         sheet = _Drawing(sketch_of_state(source, state), ax)
         ax.set_axis_off()
         frame_axes(sheet.sketch, ax, margin=6.0)
