@@ -12,14 +12,14 @@ from freebody.core import FreeBodies, Load, Pair
 from freebody.document.blocks import Block, Bullets, Equation, Heading, Paragraph, Words
 from freebody.equations.balances.reasons import Place, agree, why_absent
 from freebody.equations.balances.virtual_motions import placed
-from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.sentences import joined
 from freebody.solve.symbolic_state import Balance, SymbolicState
 from freebody.solve.symbols import load_words
 from freebody.symbolic.algebra import opposite, signed
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.linear import Linear
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.tree import ONE, Add, Sym, Tree, is_negative, is_zero, negative, symbols
+from freebody.symbolic.tree import ONE, Add, Sym, Tree, is_negative, is_zero, minus, negative, symbols
 
 _GIVEN = ("origin", "centre", "start", "end", "G")
 """Points that every body has; the names of others are better known to a person."""
@@ -53,32 +53,48 @@ class Stated:
         return f"{self.kind} {self.word} {self.where} for {' + '.join(self.balance.bodies)}"
 
     @cached_property
-    def _collected(self) -> tuple[Tree, Tree, bool]:
-        """Both sides, each unknown with one factor; and whether all their signs are changed, so that the acceleration that it is for
-        is positive, or, where it is for none, some term that has one, or some term."""
+    def _collected(self) -> tuple[Tree, Tree]:
+        """What is moved and what acts, each unknown with one factor."""
         unknowns = list(self.balance.linear.coefficients)
-        sides = (presented(tree, unknowns=unknowns) for tree in (self.balance.right, self.balance.left))
-        left, right = (signed(tree, self.constants) for tree in sides)
+        left, right = (presented(tree, unknowns=unknowns) for tree in (self.balance.right, self.balance.left))
+        return signed(left, self.constants), signed(right, self.constants)
+
+    @cached_property
+    def turned(self) -> bool:
+        """Whether the sides have all signs changed, so that the acceleration that it is for is positive, or, where it is for none, some
+        term that has one, or some term."""
+        if self.own:
+            return self.own < 0
+        left, right = self._collected
         every = left.terms if isinstance(left, Add) else (left,)
         terms = [term for term in every if any(x.dots == 2 for x in symbols(term))] or every
-        turned = self.own < 0 or (self.own == 0 and all(map(is_negative, terms)) and not isinstance(right, Sym))
-        return (opposite(left), opposite(right), True) if turned else (left, right, False)
+        return all(map(is_negative, terms)) and not isinstance(right, Sym)
 
-    @property
+    @cached_property
     def sides(self) -> tuple[Tree, Tree]:
-        """What is moved = what acts, with the signs that read better."""
-        return self._collected[:2]
+        """What is moved = what acts, with the signs that read better; found when it is asked for."""
+        left, right = self._collected
+        return (opposite(left), opposite(right)) if self.turned else (left, right)
 
     @property
-    def turned(self) -> bool:
-        """Whether the sides have all signs changed."""
-        return self._collected[2]
+    def left(self) -> Tree:
+        """What is moved."""
+        return self.sides[0]
 
     @property
-    def printed(self) -> Printed:
-        """The equation with its title, and as linear in what is unknown."""
-        linear = self.balance.linear
-        return Printed(self.title, *self.sides, linear.with_trees(negative) if self.turned else linear)
+    def right(self) -> Tree:
+        """What acts."""
+        return self.sides[1]
+
+    @property
+    def residual(self) -> Tree:
+        """left − right."""
+        return minus(*self.sides)
+
+    @cached_property
+    def linear(self) -> Linear:
+        """The residual by what is unknown."""
+        return self.balance.linear.with_trees(negative) if self.turned else self.balance.linear
 
     def blocks(self, subject: SymbolicState) -> list[Block]:
         """The equation with all that a reader needs to believe it."""

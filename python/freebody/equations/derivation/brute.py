@@ -15,7 +15,7 @@ from freebody.solve.symbolic_state import SymbolicState
 def brute(subject: SymbolicState, long: bool = False) -> Form:
     """The form of a subject; ``long``: with all that a reader may ask for."""
     stated = [replace(s, label=str(i)) for i, s in enumerate(of_bodies(subject, "its mass centre"), 1)]
-    form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(subject.rows))
+    form = Form.of(subject.nomenclature, [*stated, *loop_closure.printed(subject.rows)])
     closed = Closed(subject)
     made = loop_closure.section(subject.rows, subject.names) if long and subject.rows else page.closure(subject, closed)
     reactions, rows = len(form.reactions), len(form.equations) - len(stated)

@@ -9,6 +9,7 @@ from typing import Any
 from freebody.document.blocks import Block, Heading, MatrixEquation, Paragraph, equations
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved, page, preamble
+from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
 from freebody.equations.derivation.first_order import first_order
@@ -43,7 +44,7 @@ class Equations(Document):
     content: Form = field(kw_only=True, repr=False)
 
     @property
-    def parts(self) -> tuple[Printed, ...]:
+    def parts(self) -> tuple[Printed | Stated, ...]:
         """The equations with their titles and sides."""
         return self.content.equations
 

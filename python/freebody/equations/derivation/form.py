@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from freebody.document.blocks import Block
 from freebody.symbolic.linear import Linear
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.tree import ZERO, Sym, Tree, minus, negative
+
+if TYPE_CHECKING:
+    from freebody.equations.derivation.balance_text import Stated
 
 
 @dataclass(frozen=True)
@@ -58,13 +62,13 @@ class System:
 class Form:
     """The equations of a form, their matrix form, the blocks that derive them, and symbols that these have besides."""
 
-    equations: tuple[Printed, ...]
+    equations: tuple[Printed | Stated, ...]
     system: System
     blocks: tuple[Block, ...] = field(default=(), repr=False)
     symbols: Sequence[SymbolEntry] = ()
 
     @classmethod
-    def of(cls, nomenclature: Nomenclature, equations: Sequence[Printed]) -> Form:
+    def of(cls, nomenclature: Nomenclature, equations: Sequence[Printed | Stated]) -> Form:
         """The form of some equations, with the unknowns in the order of the symbols."""
         return cls(tuple(equations), System.of([equation.linear for equation in equations], list(nomenclature)))
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 from freebody.document.blocks import Block, Equation, Heading, Paragraph
+from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.form import Printed
 from freebody.equations.derivation.plain_rows import below, on_sides, times
 from freebody.solve.symbolic_state import SymbolicState
@@ -14,7 +15,7 @@ from freebody.symbolic.presentation import presented
 from freebody.symbolic.tree import Add, Mul, Pow, Sym, Tree, add, number, power, replace, symbols
 
 
-def section(subject: SymbolicState, equations: Sequence[Printed], limits: Mapping[str, str]) -> list[Block]:
+def section(subject: SymbolicState, equations: Sequence[Printed | Stated], limits: Mapping[str, str]) -> list[Block]:
     """Every equation in each limit, to ``inf``, 0 or a number in SI: of what it holds the terms that are largest there; divided by the
     power of the symbol that they have, so that a length may vanish. Raises ``ValueError``."""
     known = subject.nomenclature.of_kind("parameter", "constant")
@@ -32,7 +33,7 @@ def section(subject: SymbolicState, equations: Sequence[Printed], limits: Mappin
     return made
 
 
-def _at(equation: Printed, name: str, to: str) -> Tree:
+def _at(equation: Printed | Stated, name: str, to: str) -> Tree:
     """What vanishes in the limit."""
     symbol = Sym(name)
     if str(to) not in ("inf", "0"):

@@ -40,7 +40,7 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
         chosen = found if found or not search.wanted else of_coordinates(subject, momentum=False)
     added = _of_bearing_friction(subject, chosen)
     stated = [replace(s, label=str(i), constants=subject.constants) for i, s in enumerate([*chosen, *added], 1)]
-    form = Form.of(subject.nomenclature, [s.printed for s in stated] + loop_closure.printed(rows))
+    form = Form.of(subject.nomenclature, [*stated, *loop_closure.printed(rows)])
     if not long:
         closed = Closed(subject)
         brief = [*page.closure(subject, closed), *page.kinematics(subject, closed), *_friction(subject)]

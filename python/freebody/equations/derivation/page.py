@@ -32,6 +32,8 @@ _SIGNS = {
 """How the signs of a law are set in type; the others are letters."""
 OF_A_PAGE = 250
 """Symbols, numbers and operations of an expression beyond which it does not stand on a page."""
+_LONG = 1000
+"""As many in both sides of a balance before it is written in a person's form, beyond which that is not done."""
 _NONE = 1e-6
 _AXIS = re.compile(r" along [xy](?= of )")
 _BRIEFLY = tuple(
@@ -119,27 +121,34 @@ def balances(subject: SymbolicState, stated: Sequence[Stated], closed: Closed) -
     stands alone also the acceleration."""
     made: list[Block] = []
     shown: set[tuple[str, ...]] = set()
-    for given in stated:
-        each, known = closed.reduced(given)
-        bodies = each.balance.bodies
-        short = signs(each.sides) <= OF_A_PAGE
-        parts = _parts(subject, each, closed, closed.put_in if known else closed.put) if short else ()
-        carried, turned = map(len, parts[1:]) if parts else (len(bodies), len(bodies) if each.balance.turns else 0)
-        name = [_absent(subject, each), *_law(each, carried, turned)]
-        name += [", times ", each.factor] if each.factor != ONE else []
-        name += [", with ", *listed(known, " and "), " as above"] if known else []
-        whole = Equation(*closed.alone(*each.sides), name, each.label)
+    for each in stated:
+        bodies, raw = each.balance.bodies, (each.balance.right, each.balance.left)
         made.append(Heading(each.title, 3))
         if bodies not in shown:
             shown.add(bodies)
             made.append(free_body(subject, bodies, len(shown)))
-        split = [tree for some in parts[1:] for tree in some]
-        if parts and not is_zero(parts[0]) and len(split) > 1 and _below(parts[0], *split) <= _below(*each.sides):
-            made += [Equation(parts[0], Add(tuple(split)), name), replace(whole, name="")]
+        if signs(raw) > _LONG:  # no page has it, in whatever form
+            made.append(Equation(*raw, [_absent(subject, each), *_law(each, len(bodies), len(bodies))], each.label))
         else:
-            made.append(whole)
-        made += closed.result(whole) if len(stated) == 1 else []
+            made += _balance(subject, *closed.reduced(each), closed)
+    if len(stated) == 1 and isinstance(whole := made[-1], Equation):
+        made += closed.result(whole)
     return made
+
+
+def _balance(subject: SymbolicState, each: Stated, known: Sequence[Sym], closed: Closed) -> list[Block]:
+    """What does not enter, what acts = what is moved, part by part, and the scalar equation."""
+    short = signs(each.sides) <= OF_A_PAGE
+    acting, carried, turned = _parts(subject, each, closed, closed.put_in if known else closed.put) if short else (ZERO, [], [])
+    bodies = len(each.balance.bodies)
+    name = [_absent(subject, each), *_law(each, *((len(carried), len(turned)) if short else (bodies, bodies)))]
+    name += [", times ", each.factor] if each.factor != ONE else []
+    name += [", with ", *listed(known, " and "), " as above"] if known else []
+    whole = Equation(*closed.alone(*each.sides), name, each.label)
+    split = (*carried, *turned)
+    if is_zero(acting) or len(split) < 2 or not _below(acting, *split) <= _below(*each.sides):
+        return [whole]
+    return [Equation(acting, Add(split), name), replace(whole, name="")]
 
 
 def free_body(subject: SymbolicState, bodies: Sequence[str], number: int) -> Figure:

@@ -29,11 +29,10 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: b
     if found.virtual:
         return replace(Form.of(subject.nomenclature, []), blocks=(*_virtual(found.virtual), *numbers))
     stated = [replace(s, constants=subject.constants) for s in from_search(subject, found.equations)]
-    printed = [s.printed for s in stated]
     free = [x.name for x in map(_symbol, found.values) if x.dots]
-    moving = {x.name for equation in printed for x in equation.linear.coefficients if x.dots}
+    moving = {x.name for equation in stated for x in equation.linear.coefficients if x.dots}
     following = loop_closure.followers(subject.rows, free, moving)
-    form = Form.of(subject.nomenclature, printed + loop_closure.printed(following))
+    form = Form.of(subject.nomenclature, [*stated, *loop_closure.printed(following)])
     number, names = len(found.equations), listed(map(_symbol, found.values), " and ")
     said = ["One balance equation gives ", *names, " by itself; no other unknown is in it."]
     if number > 1:
