@@ -3,13 +3,15 @@ import type { Point } from "../data/types";
 const LEAD = 10; // px, straight at both ends
 const WIDTH = 7; // px to both sides
 const ASIDE = 10; // px between the middles of a spring and a damper beside it
-const COILS = 8;
+const COILS = { least: 4, most: 8, each: 10 }; // and px a coil
 
 /** Lines of a spring from 0 to its length along, in px. */
 export function coils(length: number): Point[][] {
   const lead = Math.min(LEAD, 0.2 * length);
-  const step = (length - 2 * lead) / (2 * COILS);
-  const teeth = Array.from({ length: 2 * COILS - 1 }, (_, i): Point => [lead + (i + 1) * step, i % 2 ? -WIDTH : WIDTH]);
+  const count = Math.round(Math.min(COILS.most, Math.max(COILS.least, length / COILS.each)));
+  const width = Math.min(WIDTH, 0.25 * length);
+  const step = (length - 2 * lead) / (2 * count);
+  const teeth = Array.from({ length: 2 * count - 1 }, (_, i): Point => [lead + (i + 1) * step, i % 2 ? -width : width]);
   return [[[0, 0], [lead, 0], ...teeth, [length - lead, 0], [length, 0]]];
 }
 

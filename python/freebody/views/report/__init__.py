@@ -37,6 +37,7 @@ def report_html(run: Run) -> str:
         data=report_data(run),
         style=style,
         script=script,
+        outcome=tables.outcome(run),
         ending=tables.ending(run),
         beside=tables.beside(run),
         notes=[tables.sentence(note) for note in run.metadata["notes"]],

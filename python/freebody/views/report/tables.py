@@ -67,6 +67,11 @@ class Table:
         return line
 
 
+def outcome(run: Run) -> str:
+    """How the run ended, in a word or two."""
+    return re.sub(r"(?<=[a-z])[A-Z]", lambda capital: f" {capital[0].lower()}", run.outcome.name)
+
+
 def ending(run: Run) -> list[str]:
     """How and when the run ended, and how many digits hold, line by line."""
     end = run.outcome.t if run.recorded else run.accuracy.end
