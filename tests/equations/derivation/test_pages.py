@@ -94,6 +94,9 @@ def test_a_root_that_is_there_again_and_again_has_a_symbol():
     """Of a string over two eyelets the lengths beyond them."""
     said = fb.load(ROOT / "systems/19.3.20/cable.yaml").equations().text()
     assert "s₂ = √(bob.x² + bob.y²)" in said and "s₁ + s₂ = l" in said and said.count("√") == 2
+    for form in ({"form": "brute"}, {"want": "bob.x"}):
+        said = fb.load(ROOT / "systems/19.3.20/cable.yaml").equations(**form).text()
+        assert "s₂ = √(bob.x² + bob.y²)" in said and "s₂" in said.partition("s₂ =")[2]
 
 
 def test_what_touches_where_a_coordinate_is_0_holds_it_there():

@@ -31,5 +31,5 @@ def brute(subject: SymbolicState, long: bool = False) -> Form:
         if s.balance.bodies[0] != body:
             body = s.balance.bodies[0]
             made += [Heading(f"Body {body}", 3), page.free_body(subject, (body,), list(subject.free.bodies).index(body) + 1)]
-        made.append(Equation(*map(closed.settled, s.sides), f"{s.kind} {s.word} {s.where}", s.label))
-    return replace(form, blocks=tuple(made), symbols=closed.symbols)
+        made.append(Equation(*(s.sides if long else map(closed.settled, s.sides)), f"{s.kind} {s.word} {s.where}", s.label))
+    return replace(form, blocks=tuple(made), symbols=[] if long else closed.symbols)

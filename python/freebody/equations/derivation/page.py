@@ -110,10 +110,15 @@ def closure(subject: SymbolicState, closed: Closed) -> list[Block]:
     """What is closed or prescribed: the places, the velocities, the accelerations; first what roots are called."""
     if not closed.rows:
         return []
-    made: list[Block] = [Equation(Sym(entry.name), power(base, "1/2")) for entry, base in closed.named]
+    made = roots(closed)
     for left, right in (pair for level in on_two_sides(closed.rows, subject.names) for pair in level):
         made.append(Equation(signed(left, subject.constants), signed(right, subject.constants) if is_tree(right) else right))
     return [Heading(loop_closure.title(subject.rows), 3), *made]
+
+
+def roots(closed: Closed) -> list[Block]:
+    """What the roots are that have symbols."""
+    return [Equation(Sym(entry.name), power(base, "1/2")) for entry, base in closed.named]
 
 
 def balances(subject: SymbolicState, stated: Sequence[Stated], closed: Closed) -> list[Block]:

@@ -123,7 +123,7 @@ def plain(rows: Sequence[Row], coordinates: Sequence[str], values: Mapping[Sym, 
     while found := next(((i, x) for i, row in enumerate(made) if (x := _held_at_zero(row, coordinates, values, still))), None):
         still.append(found[1])
         made = [_standing(row, found[1], i == found[0]) for i, row in enumerate(made)]
-    return [_cleared(row, coordinates) for row in made]
+    return [_cleared(row, coordinates, values) for row in made]
 
 
 def with_rates(row: Row, coordinates: Sequence[str], give: Callable[[float, int], Sym]) -> Row:
@@ -169,11 +169,13 @@ def _standing(row: Row, x: Sym, holds: bool) -> Row:
     return replace(made, linear=Linear(kept, made.linear.rest))
 
 
-def _cleared(row: Row, coordinates: Sequence[str]) -> Row:
+def _cleared(row: Row, coordinates: Sequence[str], values: Mapping[Sym, float]) -> Row:
+    """What is 0 at the state is no factor that could be left out."""
     moving = {*coordinates, "t"}
     levels = [tree for tree in (row.value, row.rate, row.acceleration) if tree is not None]
     above = below(levels, lambda part: not _moves(part, moving))
-    shared = common_factors([times(tree, above) for tree in levels], lambda factor: not _moves(factor, moving))
+    fixed = lambda factor: not _moves(factor, moving) and evaluate(factor, values) != 0
+    shared = common_factors([times(tree, above) for tree in levels], fixed)
     factor = quotient(above, shared)
     return row if factor == ONE else row.with_trees(lambda tree: times(tree, factor))
 
@@ -192,7 +194,12 @@ def level_by_level(row: Row) -> Row:
 def _held_at_zero(row: Row, coordinates: Sequence[str], values: Mapping[Sym, float], still: Sequence[Sym]) -> Sym | None:
     """The one coordinate of a row, where the row holds it at 0, whatever the parameters are, and it is none of those found before."""
     moving = [x for x in symbols(row.value or ZERO) if x.name in coordinates or x.name == "t"]
-    if len(moving) != 1 or (x := moving[0]) in still or abs(values[x]) > _NONE or not is_zero(with_zero(row.value or ONE, x)):
+    if (
+        len(moving) != 1
+        or (x := moving[0]) in (*still, Sym("t"))
+        or abs(values[x]) > _NONE
+        or not is_zero(with_zero(row.value or ONE, x))
+    ):
         return None
     slope = linear_in(row.rate, [Sym(x.name, 1)]).coefficients.get(Sym(x.name, 1), ZERO) if row.rate else ZERO
     return x if abs(evaluate(slope, values)) > _NONE else None

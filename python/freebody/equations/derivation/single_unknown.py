@@ -39,9 +39,12 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: b
         smaller = [] if about else ["; no smaller set determines ", _symbol(found.wanted)]
         said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, " and no other unknown", *smaller, "."]
     made: list[Block] = [*[Heading("Balance equations")] * long, Paragraph(said)]
-    made += [block for s in stated for block in s.blocks(subject)] if long else page.balances(subject, stated, Closed(subject))
+    closed = Closed(subject)
+    made += (
+        [b for s in stated for b in s.blocks(subject)] if long else [*page.roots(closed), *page.balances(subject, stated, closed)]
+    )
     made += _following(subject, form, free, following) if following else []
-    return replace(form, blocks=(*made, *numbers))
+    return replace(form, blocks=(*made, *numbers), symbols=[] if long else closed.symbols)
 
 
 def _following(subject: SymbolicState, form: Form, free: Sequence[str], rows: Sequence[Row]) -> list[Block]:
