@@ -51,6 +51,7 @@ describe.runIf(folder)("every report", () => {
     const page = await open(name, DESKTOP, "dark");
     await page.emulateMedia({ media: "print" });
     expect(await page.locator(".card").first().evaluate((card) => getComputedStyle(card).backgroundColor)).toBe("rgb(255, 255, 255)");
+    expect(await page.locator("body").evaluate((body) => getComputedStyle(body).backgroundColor)).toBe("rgb(255, 255, 255)");
     for (const control of [".play", ".bar", ".view", ".loads"]) expect(await page.locator(control).isVisible()).toBe(false);
     expect(await page.locator("output").isVisible()).toBe(true);
     await page.close();
@@ -113,6 +114,14 @@ describe.runIf(folder)("the four-bar", () => {
     expect(await transform()).not.toBe(zoomed);
     await page.getByRole("button", { name: "fit" }).click();
     expect(await transform()).toBe(before);
+    await page.close();
+  });
+
+  test("plots and mechanism say in words what they show", async () => {
+    const page = await open("four_bar.html");
+    expect(await page.locator(".mechanism svg").getAttribute("aria-label")).toContain("crank, coupler, rocker");
+    const label = await page.getByRole("img", { name: /^Energy \[J\] over time/ }).getAttribute("aria-label");
+    expect(label).toMatch(/kinetic from 0 to 14\.\d+/);
     await page.close();
   });
 
