@@ -161,9 +161,9 @@ class StatementSymbols:
 
     @cached_property
     def _parameters(self) -> list[Sym]:
-        there = self.symbols.of_kind("parameter", "gravity")  # of them those that are more than numbers of the start
+        there = self.symbols.of_kind("parameter", "gravity")  # of them those that are said, or more than numbers of the start
         used = (name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in there)
-        own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters]
+        own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters or Sym(name) in self.used]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
         declared = map(Sym, self.symbols.of_kind("declared"))  # some only name a parameter anew
         renamed = [n for n in declared if _meant(self._one(n).texts)[0] in self.sampler.free_parameters]
@@ -273,8 +273,9 @@ class Case:
 
     def elsewhere(self, values: Mapping[str, Array], bound: bool = True) -> dict[str, Array]:
         """Values that are no true state, where only what is the same by itself is the same; or, if ``bound``, by what the model
-        defines its parameters to be."""
-        names, given = self.meaning.names(), self.meaning.given() if bound else ()
+        defines its parameters to be, and places at its start."""
+        names, given = self.meaning.names(), self.meaning.given() if bound else frozenset()
+        given |= {n.key for n in self.meaning.vocabulary.coordinates} if bound and self.hypothesis.at_start else set()
         sizes = {key: np.where(np.any(value), value, 1.0) for key, value in values.items()}
         rng, draws = np.random.default_rng(5), {}  # always the same places
         for key, value in sizes.items():

@@ -22,7 +22,7 @@ from . import timed_claims
 from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
-from .correction import corrections
+from .correction import SECOND, corrections
 from .families import ALL, AT_START, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 _STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what the integrator leaves
 _MOMENTS = 6
 _RUNS = 12
+_ENOUGH, _CLEARLY = 5, 1e-3  # runs after which what changes by so much is no constant
 _NEWTON = 20  # steps by which premises are made true
 _FEWEST = 8  # places at which they have to be
 
@@ -137,7 +138,7 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
             continue
         if not first_order(case, equation, case.hypothesis):
             found = residual(equation, case.values())
-            mends = tuple(corrections(near[1], equation)) if case.correcting and (near := tiny(case, equation)) else ()
+            mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and (near := tiny(case, equation)) else ()
             seen = evidence(found, case.values())
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
@@ -151,6 +152,8 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     # What a hypothesis makes 0 has no size of its own there, only round-off.
     usual = float(np.median(magnitude(node, case.values(ALL)))) if case.hypothesis.vanishing else 0.0
     for sample in case.samples(count=_RUNS).states:
+        if len(runs) >= _ENOUGH and worst > _CLEARLY:
+            break
         along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
         values = case.meaning.values(along)
         runs.append(values)

@@ -31,6 +31,12 @@ def recognised(value: float) -> Node | None:
     return None
 
 
+def snapped(value: float, near: float) -> float:
+    """The fraction of small figures that is as ``near`` to a number, relative to it; the number itself where none is."""
+    part = float(Fraction(value).limit_denominator(_DENOMINATOR))
+    return part if abs(part - value) <= near * abs(value) else value
+
+
 def multiplied(node: Node, value: float) -> Node | None:
     """A term times a number; None where that is no number that a person writes."""
     if isinstance(node, Negative):

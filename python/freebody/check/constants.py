@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .case import Case
 
 _STEADY = 1e-7  # change along a motion, relative to the terms: what the integrator leaves
+_NEAREST = 40  # single edits beside which a second is looked for
 _ZERO = Num(0.0, "0")
 
 
@@ -32,14 +34,15 @@ def constant_corrections(case: Case, node: Node, runs: Sequence[Mapping[str, Arr
     """The corrections of what was said to be constant, from the values of its symbols at moments of several motions."""
     values = {key: np.concatenate([run[key] for run in runs]) for key in runs[0]}
     search = _Search(case, node, values, len(next(iter(runs[0].values()))))
-    found = sorted(((search.size(edit), edit) for edit in search.found()), key=lambda pair: (pair[0], depth(pair[1].after)))
-    made: dict[object, tuple[float, Edit]] = {}
-    for size, edit in found:
+    every = [*search.found()] or [*search.pairs()]
+    found = sorted(((search.size(chosen), chosen) for chosen in every), key=lambda pair: (pair[0], depth(pair[1][-1].after)))
+    made: dict[object, tuple[float, tuple[Edit, ...]]] = {}
+    for size, chosen in found:
         if np.isfinite(size) and size <= found[0][0] + EQUAL:
-            made.setdefault(search.mark(edit.after.left), (size, edit))
+            made.setdefault(search.mark(chosen[-1].after.left), (size, chosen))
     return tuple(
-        Correction((stated(edit),), f"{spell(tidied(edit.after.left))} = const", size, why=search.why(edit))
-        for size, edit in [*made.values()][:MOST]
+        Correction(tuple(map(stated, chosen)), f"{spell(tidied(chosen[-1].after.left))} = const", size, why=search.why(chosen))
+        for size, chosen in [*made.values()][:MOST]
     )
 
 
@@ -49,17 +52,40 @@ class _Search:
         self.equation, self.vocabulary, self.within = Equation(node, _ZERO), case.meaning.vocabulary, case.budget.within
         self.fits, self.elsewhere, self.admissible = case.meaning.fits, case.elsewhere(values), case.admissible
 
-    def found(self) -> Iterator[Edit]:
+    def found(self) -> Iterator[tuple[Edit, ...]]:
         """The edits after which it is constant."""
         with np.errstate(all="ignore"):
-            plain = chain(edits(self.equation, self.vocabulary), conventions(self.equation, self.vocabulary))
-            for edit in self.within(chain(plain, self._rates(), self._factors(), self._missing())):
+            for edit in self.within(chain(self._plain(), self._rates(), self._fitted(self.node))):
                 if self.fits(edit.after) and self._is_steady(edit.after.left):
-                    yield edit
+                    yield (edit,)
 
-    def size(self, edit: Edit) -> float:
-        """How large an edit is, larger where it is none that people make."""
-        return edit.size + unlikely(edit, self.equation, self.vocabulary, self.values, self.elsewhere)
+    def pairs(self) -> Iterator[tuple[Edit, ...]]:
+        """Pairs of an edit that brings it near, and of what is then another number or lacking."""
+        with np.errstate(all="ignore"):
+            left = ((self._left(edit.after.left), edit) for edit in self.within(self._plain()) if self.fits(edit.after))
+            near = sorted(((size, edit) for size, edit in left if size), key=lambda pair: pair[0])[:_NEAREST]
+            for _, first in self.within(near):
+                for second in self._fitted(first.after.left):
+                    if self.fits(second.after) and self._is_steady(second.after.left):
+                        yield first, second
+
+    def _plain(self) -> Iterator[Edit]:
+        return chain(edits(self.equation, self.vocabulary), conventions(self.equation, self.vocabulary))
+
+    def _fitted(self, node: Node) -> Iterator[Edit]:
+        return chain(self._factors(node), self._missing(node))
+
+    def _left(self, node: Node) -> float:
+        """By how much it changes beside its terms."""
+        try:
+            found = np.abs(self._changes(sampled(node, self.values))) / magnitude(node, self.values)
+        except (KeyError, ValueError):
+            return 0.0
+        return float(np.mean(found)) if found.ndim == 1 and np.isfinite(found).all() else 0.0
+
+    def size(self, edits: tuple[Edit, ...]) -> float:
+        """How large edits are, larger where they are none that people make."""
+        return sum(edit.size + unlikely(edit, self.equation, self.vocabulary, self.values, self.elsewhere) for edit in edits)
 
     def mark(self, node: Node) -> object:
         """What an expression is but for its size, whatever letters it is written in."""
@@ -70,9 +96,9 @@ class _Search:
             else node
         )
 
-    def why(self, edit: Edit) -> str:
-        """What is wrong with what stood there."""
-        return why(edit, self.equation, self.vocabulary)
+    def why(self, edits: tuple[Edit, ...]) -> str:
+        """What is wrong with what stood there, a sentence for each edit."""
+        return "; ".join(dict.fromkeys(filter(None, (why(edit, self.equation, self.vocabulary) for edit in edits))))
 
     def _changes(self, value: Array) -> Array:
         """By how much something differs from what it was at the beginning of each motion."""
@@ -91,42 +117,44 @@ class _Search:
         moves = all(np.abs(self._changes(sampled(part, self.values))).max() > _STEADY * size.max() for part in parts)
         return moves and np.abs(self._changes(value)).max() < _STEADY * size.max()
 
-    def _terms(self) -> tuple[Node, ...]:
-        return self.node.terms if isinstance(self.node, Add) else (self.node,)
-
-    def _factors(self) -> Iterator[Edit]:
+    def _factors(self, node: Node) -> Iterator[Edit]:
         """A term with another number."""
-        whole = self._changes(sampled(self.node, self.values))
-        for term in self._terms():
+        equation, whole = Equation(node, _ZERO), self._changes(sampled(node, self.values))
+        for term in _terms(node):
             own = self._changes(sampled(term, self.values))
             number = 1 - np.sum(whole * own) / np.sum(own**2)
             if np.isfinite(number) and (new := multiplied(term, float(number))) is not None and new != term:
                 sign = (isinstance(new, Negative) and new.of == term) or (isinstance(term, Negative) and term.of == new)
-                yield Edit.at(self.equation, "sign" if sign else "factor", term, new)
+                yield Edit.at(equation, "sign" if sign else "factor", term, new)
 
-    def _missing(self) -> Iterator[Edit]:
+    def _missing(self, node: Node) -> Iterator[Edit]:
         """A sum that lacks a term."""
-        whole = self._changes(sampled(self.node, self.values))
-        nodes, rows = FittedEdits(self.values, self.vocabulary, self.within).dictionary(self.equation, highest=1)
-        if not len(rows):
+        whole = self._changes(sampled(node, self.values))
+        nodes, changes = self._lacked
+        if not len(changes) or changes.shape[1] != whole.size:  # a vector lacks no number
             return
-        changes = np.array([self._changes(row) for row in rows]).reshape(len(rows), -1)
-        if changes.shape[1] != whole.size:  # a vector lacks no number
-            return
-        forces = {n for n in self.vocabulary.others if (its := self.vocabulary.dimension(n)) is None or its.time == -2}
         for place in proportional(changes, whole, _STEADY):
-            if forces & {*symbols_in(nodes[place])}:
-                continue  # a force is none of what is constant
             number = -np.sum(whole * changes[place]) / np.sum(changes[place] ** 2)
             if (term := multiplied(nodes[place], float(number))) is not None:
-                after = Equation(Add((*self._terms(), term)), _ZERO)
-                yield Edit("missing term", None, term, after, 0.02 * depth(term))
+                yield Edit("missing term", None, term, Equation(Add((*_terms(node), term)), _ZERO), 0.02 * depth(term))
+
+    @cached_property
+    def _lacked(self) -> tuple[list[Node], Array]:
+        """What may be lacking, and how it changes along each motion; a force is none of what is constant."""
+        nodes, rows = FittedEdits(self.values, self.vocabulary, self.within).dictionary(self.equation, highest=1)
+        forces = {n for n in self.vocabulary.others if (its := self.vocabulary.dimension(n)) is None or its.time == -2}
+        kept = [(node, self._changes(row)) for node, row in zip(nodes, rows, strict=True) if not forces & {*symbols_in(node)}]
+        return [node for node, _ in kept], np.array([change for _, change in kept]).reshape(len(kept), -1)
 
     def _rates(self) -> Iterator[Edit]:
-        """One rate for another."""
-        known = [Sym(n.name, 1) for n in self.vocabulary.coordinates] + list(self.vocabulary.others)
+        """Another rate for one, or a coordinate."""
+        known = [Sym(n.name, dots) for n in self.vocabulary.coordinates for dots in range(2)] + list(self.vocabulary.others)
         for node in walk(self.node):
             its = dimension(node, self.vocabulary.dimensions) if isinstance(node, Sym) else None
             if its is not None and its.mass == 0 and its.time == -1:
-                same = (n for n in known if n != node and self.vocabulary.dimension(n) == its)
-                yield from (Edit.at(self.equation, "symbol", node, Sym(n.name, n.dots, span=node.span)) for n in same)
+                others = (Sym(n.name, n.dots, span=node.span) for n in known if n != node)
+                yield from (Edit.at(self.equation, "symbol", node, other) for other in others)
+
+
+def _terms(node: Node) -> tuple[Node, ...]:
+    return node.terms if isinstance(node, Add) else (node,)

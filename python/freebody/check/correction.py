@@ -48,6 +48,7 @@ _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
+_BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
@@ -164,7 +165,7 @@ class _Search:
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self.within = partial(case.budget.within, part=part)
         self.confirming = partial(case.budget.within, part=part + _CONFIRMING)
-        self.fits = FittedEdits(self.values, self.vocabulary, self.within)
+        self.fits = FittedEdits(self.values, self.vocabulary, self.within, _BLUR if family.small else 1.0)
         self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
         self.holds = _LINEAR if family.small else HOLDS
         self.right = self._worst(equation, self.values) < self.holds

@@ -15,7 +15,7 @@ from freebody.symbolic.dimensions import INERTIA, LENGTH, NUMBER_ONLY, Dimension
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, walk
 
-from .coefficients import multiplied, powered, recognised
+from .coefficients import multiplied, powered, recognised, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms
@@ -29,19 +29,22 @@ _NEARLY = 1e-5  # relative spread below which one is meant
 _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
 _HIGHEST_POWER = 4  # that a factor may be wrong by
+_MOST_TERMS = 4  # of sums of which two are thought of together
 _MOST_LENGTHS = 5  # of which sums and differences are thought of
 
 
 @dataclass
 class FittedEdits:
     """What can be fitted to an equation: ``values`` are those of true states, ``vocabulary`` has the shapes of missing terms,
-    of which as many are tried as lie ``within`` a budget."""
+    of which as many are tried as lie ``within`` a budget. What an equation lacks is known to ``blur`` times round-off."""
 
     values: Mapping[str, Array]
     vocabulary: Vocabulary
     within: Callable[[Iterable[Any]], Iterator[Any]] = iter
+    blur: float = 1.0
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
     _terms: dict[Equation, Monomials] = field(default_factory=dict)
+    _numbers: dict[Node, bool] = field(default_factory=dict)
     _made_pairs: dict[object, tuple[list[tuple[Node, Node]], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
@@ -53,11 +56,13 @@ class FittedEdits:
                 yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
                 node = required.node  # a number, or a fraction of two
                 parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
-                found = _constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
+                found = self._constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
                 if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
                     yield Edit.at(equation, "factor", required.node, number)
                 if required.addend:
                     yield from self._factors(equation, required)
+                if isinstance(node, Add):
+                    yield from self._parts(equation, required)
                 if isinstance(node, Add) or id(node) in whole:
                     yield from self._missing(equation, required)
                 if node in (equation.left, equation.right) and not any(symbols_in(n.bottom) for n in quotients):
@@ -138,7 +143,7 @@ class FittedEdits:
         node, factor = required.node, required.factor
         if factor is None or not np.isfinite(factor).all():
             return
-        found = _constant(factor)
+        found = self._constant(factor)
         if found is None:
             yield from self._other_powers(equation, node, factor)
         elif abs(found + 1) < _SAME:
@@ -147,6 +152,13 @@ class FittedEdits:
             own = 0.05 if any(isinstance(n, Num) for n in walk(node)) else 0.0
             yield Edit.at(equation, "factor", node, new, own)
 
+    def _constant(self, values: Array) -> float | None:
+        """The number that a factor is on all states; None where it is none."""
+        if values.ndim != 1 or not np.isfinite(values).all():
+            return None
+        mean, same = float(np.median(values)), _SAME * self.blur
+        return snapped(mean, same) if mean and np.max(np.abs(values - mean)) <= same * abs(mean) else None
+
     def _other_powers(self, equation: Equation, node: Node, factor: Array) -> Iterator[Edit]:
         """A term that lacks a product of powers: a ratio of it upside down, a ratio that counts twice, or what is forgotten."""
         if factor.ndim != 1:
@@ -154,10 +166,10 @@ class FittedEdits:
         number, own = powers_of(node)
         sizes = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
         still = [n for n in own if not isinstance(n, Sym) or n in sizes]
-        lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), ()).powers(factor)
+        lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), (), self.blur).powers(factor)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
             return
-        rest = _constant(factor / sampled(written(1.0, lacked), self.values))
+        rest = self._constant(factor / sampled(written(1.0, lacked), self.values))
         if rest is None or recognised(number * rest) is None:
             return
         after = Counter(own)
@@ -168,9 +180,20 @@ class FittedEdits:
         elif len(lacked) > 1 and all(n == own.get(base) for base, n in lacked.items()) and {*lacked.values()} == {1, -1}:
             yield Edit.at(equation, "ratio once", node, new)
         else:
-            plain = powered(node, rest, lacked) if {*lacked} <= {*symbols_in(written(1.0, lacked))} else None
+            plain = powered(node, rest, lacked) if min(lacked.values()) > 0 else None
             size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
             yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1))
+
+    def _parts(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """Two terms of a sum of more that lack the same factor."""
+        terms = required.node.terms if isinstance(required.node, Add) and required.missing.ndim == 1 else ()
+        for pair in combinations(terms, 2) if 2 < len(terms) <= _MOST_TERMS else ():
+            both = Add(pair)
+            rest = tuple(term for term in terms if term not in pair)
+            gathered = exchange(equation, required.node, Add((*rest, both), span=required.node.span))
+            factor = 1 + required.missing / sampled(both, self.values)
+            if np.isfinite(factor).all() and self._constant(factor) is None:
+                yield from self._other_powers(gathered, both, factor)
 
     # -- terms
 
@@ -205,9 +228,10 @@ class FittedEdits:
             bases = sorted(sizes, key=lambda n: (n in known.coordinates, n not in said))
             pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
             own = [n for n in bases if n in said]
-            shapes = known.shapes(self._of(equation), [n for n in said if n in known.others], self._angles(equation))
+            every = known.shapes(self._of(equation), [n for n in said if n in known.others], self._angles(equation))
+            shapes = (shape for shape in every if not any(map(self._is_number, shape)))
             self._terms[equation] = Monomials(
-                self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *pairs, *bases)), shapes
+                self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *pairs, *bases)), shapes, self.blur
             )
         return self._terms[equation]
 
@@ -266,8 +290,16 @@ class FittedEdits:
             )
             rows = self._rows(nodes)
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
+            good &= np.array([not any(map(self._is_number, n.factors if isinstance(n, Mul) else ())) for n in nodes], dtype=bool)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
         return self._made[key]
+
+    def _is_number(self, factor: Node) -> bool:
+        """Whether a sine or cosine has one value on all states: it says nothing there."""
+        base = factor.base if isinstance(factor, Pow) else factor
+        if isinstance(base, Fn) and base not in self._numbers:
+            self._numbers[base] = bool(np.ptp(sampled(base, self.values)) <= _SAME)
+        return self._numbers.get(base, False)
 
     def _of(self, equation: Equation) -> Known:
         """The dimension of most terms of an equation: one of them may be wrong."""
@@ -293,13 +325,6 @@ class FittedEdits:
 
 def _bare(node: Node) -> Node:
     return node.of if isinstance(node, Negative) else node
-
-
-def _constant(values: Array) -> float | None:
-    if values.ndim != 1 or not np.isfinite(values).all():
-        return None
-    mean = float(np.median(values))
-    return mean if mean and np.max(np.abs(values - mean)) <= _SAME * abs(mean) else None
 
 
 def proportional(rows: Array, wanted: Array, same: float = _SAME) -> list[int]:

@@ -10,12 +10,12 @@ import numpy as np
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Node, Quotient
 
-from .coefficients import multiplied, product
+from .coefficients import multiplied, product, snapped
 from .powers import power_of
 
 _MOST_SHAPES = 4000
 _SAME = 1e-7  # of a logarithm: below it two values are one
-_WHOLE = 1e-5  # off a whole number, below which a power is one
+_WHOLE = 1e-4  # off a whole number, below which a power is one
 _HIGHEST = 3
 _MOST_POWERS = 6
 _DEPENDENT = 1e-9  # of a column: what is left of it beside others, below which it says nothing new
@@ -23,10 +23,12 @@ _DEPENDENT = 1e-9  # of a column: what is left of it beside others, below which 
 
 class Monomials:
     """What can be made of ``bases``, those that count first in front, and ``shapes``, products of what changes with the motion and
-    of sines and cosines, at ``values``."""
+    of sines and cosines, at ``values``, which are known to ``blur`` times round-off."""
 
-    def __init__(self, values: Mapping[str, Array], bases: Iterable[Node], shapes: Iterable[tuple[Node, ...]]) -> None:
-        self.values, count = values, len(next(iter(values.values())))
+    def __init__(
+        self, values: Mapping[str, Array], bases: Iterable[Node], shapes: Iterable[tuple[Node, ...]], blur: float = 1.0
+    ) -> None:
+        self.values, self.same, count = values, _SAME * blur, len(next(iter(values.values())))
         self.bases: list[Node] = []
         columns, basis = [np.ones(count)], np.ones((count, 1)) / np.sqrt(count)
         for node in bases:
@@ -49,7 +51,7 @@ class Monomials:
         solve, left, logs, rests = self._solved
         log = np.log(np.abs(wanted))
         off = np.abs((left @ log)[:, None] - rests).max(axis=0)
-        for place in np.flatnonzero(off < _SAME).tolist():
+        for place in np.flatnonzero(off < self.same).tolist():
             whole = _whole((solve @ (log - logs[:, place]))[1:])
             few = whole is not None and max(map(abs, whole), default=0) <= _HIGHEST and sum(map(abs, whole)) <= _MOST_POWERS
             if few and (found := self._term(whole, place, wanted)):
@@ -64,7 +66,7 @@ class Monomials:
             return None
         found = {node: power for node, power in zip(self.bases, whole, strict=True) if power}
         ratio = wanted / self._value(tuple(power_of(node, power) for node, power in found.items()))
-        return found if np.ptp(ratio) <= _SAME * np.abs(ratio).max() else None
+        return found if np.ptp(ratio) <= self.same * np.abs(ratio).max() else None
 
     @cached_property
     def _solved(self) -> tuple[Array, Array, Array, Array]:
@@ -99,9 +101,9 @@ class Monomials:
         top = product([*above, *self._shapes[place]])
         found = Quotient(top, product(below)) if below else top
         ratio = wanted / sampled(found, self.values)
-        if np.ptp(ratio) > _SAME * np.abs(ratio).max():
+        if np.ptp(ratio) > self.same * np.abs(ratio).max():
             return None  # of changing sign
-        return multiplied(found, float(np.median(ratio)))
+        return multiplied(found, snapped(float(np.median(ratio)), self.same))
 
 
 def _whole(powers: Array) -> list[int] | None:

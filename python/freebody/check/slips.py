@@ -47,7 +47,8 @@ def unlikely(
             unsaid = new in vocabulary.others and new not in symbols_in(equation)
             return math.inf if same else _ODD * mixed + _NEW * unsaid
         case "symbol", _, Add() as new:
-            return 3 * _NEW * sum(n not in symbols_in(equation) for n in symbols_in(new))
+            unsaid = [n for n in symbols_in(new) if n not in symbols_in(equation)]
+            return _NEW * sum(3 if vocabulary.is_rate(n) else 1 for n in unsaid)
         case "missing term" | "other term", _, new:
             found = {n.name for n in symbols_in(new)} - {n.name for n in symbols_in(equation)}
             forces = [n for n in vocabulary.parameters if vocabulary.dimension(n) in (FORCE, ENERGY)]
@@ -58,6 +59,7 @@ def unlikely(
                 strange += [new] * (2 if strange else 1)
             strange += [n for n in walk(new) if isinstance(n, Add) and n not in {*walk(equation)}] * 2
             again = edit.kind == "missing term" and any(_is_multiple(new, term, elsewhere) for term in terms(equation))
+            strange += [n for n in symbols_in(new) if n.dots == 2 and _is_solved(equation, n)] * 2
             return _NEW * len(strange) + _ODD * again - _PARTNER * _is_centripetal(new, equation)
     return 0.0
 
@@ -72,6 +74,13 @@ def _is_centripetal(term: Node, equation: Equation) -> bool:
     sizes = {n for n in symbols_in(term) if not n.dots}
     partners = (part for part in terms(equation, expand=True) if Sym(squared.name, 2) in symbols_in(part))
     return any(sizes <= {*symbols_in(part)} for part in partners)
+
+
+def _is_solved(equation: Equation, other: Sym) -> bool:
+    """Whether an equation says what one acceleration is, and nothing of another."""
+    return any(
+        isinstance(side, Sym) and side.dots == 2 and other != side for side in (equation.left, equation.right)
+    ) and not any(n == other for n in symbols_in(equation))
 
 
 def _bare(node: Node) -> Node:
@@ -144,6 +153,9 @@ _WHY = {
 }
 
 
+_OF_MOTION = ("a momentum, of a rotation or of another body,", "a kinetic energy, of a rotation or of another body,")
+
+
 def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
     """What a term is, in a balance or in an energy."""
 
@@ -168,7 +180,7 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
             "r × m a of a point that accelerates, or of what moves as well," if its == ENERGY else "a mass times its acceleration"
         )
     if rates and not balance:
-        return "a kinetic energy, of a rotation or of another body,"
+        return _OF_MOTION[len(rates) > 1 or squared] if its is None or its.mass else "a part of the motion"
     if squared:
         return "the centripetal part of the acceleration"
     if len(rates) > 1:

@@ -89,7 +89,7 @@ class Vocabulary:
         dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
 
-    def _is_rate(self, symbol: Sym) -> bool:
+    def is_rate(self, symbol: Sym) -> bool:
         its = self.dimension(symbol)
         return its is not None and its.mass == 0 and its.time == -1
 
@@ -107,13 +107,13 @@ class Vocabulary:
         yield (), NUMBER_ONLY
         for q in self.coordinates:
             yield (Sym(q.name, 2),), self.dimension(Sym(q.name, 2))
-        for a, b in combinations_with_replacement([Sym(q.name, 1) for q in self.coordinates], 2):
+        rates = [Sym(q.name, 1) for q in self.coordinates]
+        for a, b in combinations_with_replacement((*rates, *filter(self.is_rate, moving)), 2):
             yield (_square(a),) if a == b else (a, b), _joined([self.dimension(a), self.dimension(b)])
         for symbol in dict.fromkeys((*self.others, *moving)):
             yield (symbol,), self.dimension(symbol)
-            if self._is_rate(symbol):
+            if self.is_rate(symbol) and symbol not in moving:
                 yield (_square(symbol),), _joined([self.dimension(symbol)] * 2)
-        rates = [Sym(q.name, 1) for q in self.coordinates]
         for a, b in ((a, b) for a, b in combinations(rates, 2) if self.dimension(a) == self.dimension(b)):
             yield from (((_square(Add((a, c))),), _joined([self.dimension(a)] * 2)) for c in (b, Negative(b)))
         for q in self.coordinates:
@@ -128,7 +128,7 @@ class Vocabulary:
             )
         if wanted is None or wanted.time != _OF_POWER:
             return
-        rates = [Sym(q.name, 1) for q in self.coordinates] + [n for n in self.others if self._is_rate(n)]
+        rates = [Sym(q.name, 1) for q in self.coordinates] + [n for n in self.others if self.is_rate(n)]
         loads = [Sym(q.name, 2) for q in self.coordinates] + [n for n in self.others if self.is_load(n)]
         for rate, load in product(rates, loads):
             yield (rate, load), _joined([self.dimension(rate), self.dimension(load)])
