@@ -191,7 +191,7 @@ class _Search:
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
-        every = list(edits(self.equation, self.vocabulary))
+        every = list(self.within(edits(self.equation, self.vocabulary)))
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
         for first, second in chain(combinations(near, 2), combinations(plain, 2)):

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from freebody.symbolic.differentiate import rate as rate_of
 from freebody.symbolic.errors import Span, StatementError
@@ -353,12 +354,19 @@ class Line:
 
     def unit_of(self, written: str, start: int, end: int) -> Unit | None:
         """The unit that a text is, read up to ``end``; None where it is none."""
-        try:
-            size = float(units.unit(written).size)
-        except ModelProblem:
+        if (size := _size_of(written)) is None:
             return None
         self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
         return Unit(size, written.strip(), span=(start + len(written) - len(written.lstrip()), end))
+
+
+@lru_cache(4096)
+def _size_of(unit: str) -> float | None:
+    """A unit in SI; None where a text is none."""
+    try:
+        return float(units.unit(unit).size)
+    except ModelProblem:
+        return None
 
 
 def _product(factors: Sequence[Node]) -> Node:
