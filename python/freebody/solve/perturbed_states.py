@@ -49,7 +49,7 @@ def nearby(source: CompiledModel, state: State, parameters: Sequence[Array] = ()
     changes = [p - state.p for p in parameters] or [np.zeros_like(state.p)]
     part = 1.0
     for _ in range(TRIES):
-        closing = Closing(source, replace(state, p=state.p + part * changes[len(found) % len(changes)]), first)
+        closing = Closing(source, state, first, state.p + part * changes[len(found) % len(changes)])
         other = closing.near(state.q + steps * part * rng.uniform(-1, 1, len(steps)))
         if other is not None and alike(other, first) and np.isfinite(_places(other)).all():
             found.append(other)
@@ -107,10 +107,12 @@ def _senses(free: FreeBodies) -> list[bool]:
 
 
 class Closing:
-    """Brings coordinates onto closed loops, and what touches or is taut in a state back to a gap of 0."""
+    """Brings coordinates onto closed loops of the assembly of a state, and what touches or is taut in it back to a gap of 0; with
+    other parameters ``p`` if these are given."""
 
-    def __init__(self, source: CompiledModel, state: State, first: FreeBodies) -> None:
-        self.core, self.state = source, state
+    def __init__(self, source: CompiledModel, state: State, first: FreeBodies, p: Array | None = None) -> None:
+        self.core, self.beginning = source, state
+        self.state = state if p is None else replace(state, p=p)
         motions = [{**motion, "level": "acceleration"} for motion in source.spec.get("motions", [])]
         self.loose = (
             CompiledModel.of({**source.spec, "motions": motions}) if motions else source
@@ -137,13 +139,14 @@ class Closing:
 
     def place(self, q: Array) -> Array | None:
         """The coordinates near ``q`` where loops and gaps are closed, these from outside; None where they do not close."""
-        s, outward = self.state, self.back @ self.normal
+        s, outward, found = self.state, self.back @ self.normal, self.beginning
         q = s.q + (np.eye(len(q)) - self.back @ self.slopes) @ (q - s.q)
         out = OUT * self.size
         try:
             for _ in range(CORRECTIONS):
-                q = self.loose.assemble(s.p, s.t, guess=dict(zip(self.names, q.tolist(), strict=True)), history=s.history)[0].q
-                gaps = self._gaps(q)
+                guess = dict(zip(self.names, q.tolist(), strict=True))
+                found, _ = self.loose.assemble(s.p, s.t, guess=guess, history=s.history, beginning=found)
+                q, gaps = found.q, self._gaps(found.q)
                 if gaps is None:
                     q, out = q + out * outward, 2 * out
                 elif (largest := np.abs(gaps).max(initial=0.0)) < CLOSED * self.size:

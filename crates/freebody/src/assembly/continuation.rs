@@ -30,7 +30,7 @@ pub(super) fn follow(
     let way = Way::new(workspace, t, request, from);
     let (mut done, mut part, mut q) = (0.0, 1.0, from.q.clone());
     way.go_to(workspace, 0.0, &mut q);
-    let beginning = Independence::of(workspace, &way.held_at(0.0));
+    let mut beginning = Independence::of(workspace, &way.held_at(0.0));
     let mut here = beginning.clone();
     while done < 1.0 {
         if part < SHORTEST {
@@ -42,7 +42,12 @@ pub(super) fn follow(
         let there = Independence::of(workspace, &way.held_at(at));
         let units = workspace.units();
         let near = (0..q.len()).all(|i| (next[i] - q[i]).abs() <= LONGEST * units[i]);
-        if closed && near && there.joins(&here) && there.least >= BESIDE * beginning.least {
+        // From a singular position every way out is one.
+        let leaves = done == 0.0 && there.rank > beginning.rank;
+        if closed && near && (leaves || there.joins(&here) && there.least >= BESIDE * beginning.least) {
+            if leaves {
+                beginning = there.clone();
+            }
             (done, q, here) = (at, next, there);
             part *= 2.0;
         } else {
