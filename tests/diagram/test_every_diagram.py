@@ -266,17 +266,17 @@ def test_a_sheet_is_no_wider_than_its_column(model):
 
 @every_model
 def test_forces_of_hinges_touch_their_pins(model):
-    """Or stand beside them, where another force has the same line."""
+    """Or stand beside them, where another force has the same line; not those of a detail, which begin at its rim."""
     now = store.instant(model)
     joints = {j["name"]: j["with"]["of"] for j in mechanism(model).source().spec["joints"] if j["type"] == "hinge"}
     for cut in drawn(model).cuts:
         scale = cut.panels[0].scenery.scale
-        for mark in cut.forces:
+        for mark in cut.panels[0].marks:
             if mark.action.kind == "joint" and mark.action.name in joints:
                 pin = scale * np.array([[now[f"x({p})"], now[f"y({p})"]] for p in joints[mark.action.name]])
                 ends = np.array([mark.tail, mark.head])
                 gaps = np.hypot(*(pin[:, None] - ends[None]).transpose(2, 0, 1))
-                others = [other for other in cut.forces if other is not mark and isinstance(other, Arrow)]
+                others = [other for other in cut.panels[0].marks if other is not mark and isinstance(other, Arrow)]
                 beside = any(shared(onto(mark, scale), onto(other, scale)) for other in others)
                 assert gaps.min() < (12.0 if beside else 1e-6 * scale), (mark.action.label, gaps)
 
@@ -293,8 +293,8 @@ def onto(mark, scale):
 def test_no_arrow_lies_on_another(model, of, to_scale):
     """Where they meet they touch."""
     for cut in drawn(model, of, to_scale).cuts:
-        for marks in (cut.forces, cut.effective):
-            for one, other in combinations((mark for mark in marks if isinstance(mark, Arrow)), 2):
+        for panel in (*cut.panels, *cut.apart):
+            for one, other in combinations((mark for mark in panel.marks if isinstance(mark, Arrow)), 2):
                 assert shared(one, other) <= 0.5, (cut.group, one.action.label, other.action.label)
 
 

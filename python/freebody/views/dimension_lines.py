@@ -20,7 +20,7 @@ _LEAST = 0.35  # rad, the arc that shows the sense of an angle whose own cannot 
 _LEVELS, _ARCS = np.arange(8), np.arange(5)  # places further and further out where an arrow or an arc may keep off others
 _NEARER = -0.9  # one for an angle that meets others on all of them
 _APART, _TOUCH = 1.6, 0.2  # sizes of symbols between two arrows, between an arc and an arrow
-_STUB = 5.2  # sizes of symbols that are shown of an arrow from far away
+_STUB, _GUIDE = 5.2, 14.0  # sizes of symbols that are shown of an arrow from far away, of a guide to bodies that are cut free
 _TWO_POINTS = "direction"
 _GAP = "gap"  # of a follower from its curve
 _OWN_ANGLE = "phi"  # of a body by itself
@@ -150,7 +150,7 @@ def _offers(sketch: Sketch, asked: _Asked, place: Array, paper: Paper) -> Iterat
         return
     for aside in (2.6 + 2.4 * _LEVELS) * sketch.size:
         if asked.dimension:
-            yield from (_length(sketch, asked, place, side * aside, paper.far) for side in (1, -1))
+            yield from (_length(sketch, asked, place, side * aside, paper) for side in (1, -1))
         else:
             yield _along_curve(sketch, asked, aside, paper.far)
 
@@ -170,7 +170,7 @@ def _angle(sketch: Sketch, asked: _Asked, place: Array, radius: float, paper: Pa
     return shapes.arc(at, radius, start, start + asked.sense * shown), guides, shown
 
 
-def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float, far: float) -> _Offered:
+def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float, paper: Paper) -> _Offered:
     """Beside the way from where the joint would be at 0."""
     along = _way(sketch, asked)
     if asked.word == _GAP:  # measured to the rim of the follower
@@ -182,9 +182,10 @@ def _length(sketch: Sketch, asked: _Asked, place: Array, aside: float, far: floa
     foot = sketch.place(asked.joint["with"]["of"][0]) if asked.word in _AXES else zero
     guides = [np.array([foot, arrow[0] + 0.2 * left])]
     guides += [np.array([place, place + 1.2 * left])] * (shown == asked.value)
-    if abs(shown) > far:
+    longest = paper.far if paper.cut is None else min(paper.far, _GUIDE * sketch.size)
+    if abs(shown) > paper.far:
         return _end(arrow, _STUB * sketch.size), [], shown
-    return arrow, [guide for guide in guides if shapes.length(guide) <= far / 2], shown
+    return arrow, [guide for guide in guides if shapes.length(guide) <= longest], shown
 
 
 def _along_curve(sketch: Sketch, asked: _Asked, aside: float, far: float) -> _Offered:

@@ -23,7 +23,7 @@ _FINE = 4  # text is measured on a grid this much finer than a point
 _DIRECTIONS = np.linspace(0, 2 * np.pi, 16, endpoint=False)
 _DISTANCES = (3.0, 7.0, 13.0, 22.0, 34.0, 48.0, 66.0, 90.0)
 _LED = 14.0  # pt from which a thin line leads to what is labelled
-_ALONG = np.linspace(0.1, 1.0, 16)  # of a leader, where it is looked at
+_ALONG = np.linspace(0.05, 1.0, 40)  # of a leader, where it is looked at
 _CROSSED = 1e3  # what a leader through a label costs
 _OWN = 5.0  # pt from its anchor, where a leader may be on a line
 _CELL = 2.0  # pt, by which it is looked up what a leader is on

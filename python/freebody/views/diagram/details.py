@@ -79,7 +79,7 @@ def _named(action: Action, number: int, scenery: Scenery) -> str:
 
 def marked(scenery: Scenery, details: Sequence[Detail]) -> Scenery:
     """The bodies with a ring about every place that is drawn large, and its name."""
-    rings = [Drawn("dash", shapes.circle(each.at, _RING), stroke.tint, True, stroke.body)
+    rings = [Drawn("mark", shapes.circle(each.at, _RING), stroke.tint, True, stroke.body)
              for each in details for stroke in scenery.strokes[:1]]  # fmt: skip
     known = {tag.text for tag in scenery.points}
     tags = [Tag(each.name, each.at) for each in details if each.name not in known]
