@@ -1,5 +1,5 @@
 """Mechanisms of textbooks with statements as students write them, right and with a slip, in two halves: none is made by a rule. The check
-was mended with those in ``books/``; those in ``books_unseen/`` were written by someone who did not know it, and are for its score alone.
+was mended with those in ``books/``; those in ``books_unseen/`` were written by people who did not know it, and are for its score alone.
 
 A file holds a ``model``, ``letters``, and ``statements``: what is said, the ``verdict`` that a person came to, and the ``correction``
 that a tutor would give. Both were written down before the program had seen them.
@@ -71,7 +71,8 @@ class Book:
         one, other = (case.equations[0] for case in cases)
         places = cases[0].elsewhere(values)
         at = {n: places[n.key] for n in (*symbols_in(one), *symbols_in(other))}
-        if _proportional(one, other, places) or independent.says_the_same(one, other, at):
+        scalar = all(np.ndim(value) < 2 for value in at.values())
+        if _proportional(one, other, places) or (scalar and independent.says_the_same(one, other, at)):
             return True
         kinematic = any(case.is_kinematic(case.equations[0]) for case in cases)
         return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})

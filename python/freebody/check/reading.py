@@ -36,7 +36,7 @@ _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _WORD = 3
 """Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
 _ARROWS = {"→": (1, "i"), "←": (-1, "i"), "↑": (1, "j"), "↓": (-1, "j")}
-_MEASURE = re.compile(r"(?<![\w.])(?:[1-9]\d*\.\d+|[1-9]\d+)\s*(?=[A-Za-z])")
+_MEASURE = re.compile(r"(?<![\w.])(?:[1-9]\d*\.\d+|[1-9]\d+)(?![eE][-+]?\d)\s*(?=[A-Za-z])")
 """A figure that may have a unit behind it; half a force is no half newton."""
 
 
@@ -155,8 +155,8 @@ class Reading:
         if _MEASURE.search(self.text):
             with suppress(StatementError):
                 other = self._eliminated(self._parsed(names, units=True), chains=True)
-                check_dimensions(other, self.known.dimensions)
-                if sum(isinstance(n, Unit) for n in walk(other)) > sum(isinstance(n, Unit) for n in walk(program)):
+                more = sum(isinstance(n, Unit) for n in walk(other)) > sum(isinstance(n, Unit) for n in walk(program))
+                if more and not misfit(other, self.known.dimensions, strictly=True):
                     return other
         return program
 
