@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from freebody.core import cards
+from freebody.core import ModelError, cards
 from freebody.mechanism import Mechanism
 from freebody.model.errors import ModelFileError
 
@@ -130,6 +130,25 @@ def test_the_spec_is_made_again_only_after_a_change():
     assert m.lowered() is first
     m.model.bodies["a"].mass = 2
     assert m.lowered().spec["bodies"][0]["pieces"][0]["mass"] == 2.0
+
+
+BOX = """
+freebody: 1
+parameters: {e: 0.5, mu: 0.3, mu_rest: 0.4, mass: 2 kg}
+ground: {lines: {floor: {through: O, angle: 0}}}
+bodies: {box: {shape: rectangle, width: 1 m, height: 1 m, mass: mass}}
+joints: {place: {type: free, of: [ground.O, box.centre], coordinates: [x, y, phi]}}
+contacts: {touch: {of: [box, ground.floor], restitution: e, friction: mu, static_friction: mu_rest}}
+initial: {x: 0, y: 2 m, phi: 0}
+"""
+
+
+@pytest.mark.parametrize("number", [{"e": 1.2}, {"e": -0.1}, {"mu": -0.2}, {"mu_rest": 0.1}, {"mass": -1.0}], ids=str)
+def test_numbers_that_nothing_can_have_are_refused_at_any_call(number):
+    m = Mechanism.loads(BOX)
+    for call in (m.solve, m.simulate):
+        with pytest.raises(ModelError, match="restitution|friction|mass"):
+            call(**number, **({"until": 0.1} if call == m.simulate else {}))
 
 
 def test_many_items_take_linear_time():

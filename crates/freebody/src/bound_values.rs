@@ -3,7 +3,7 @@
 use crate::error::{CompileError, DynamicsError};
 use crate::expr::{Env, Table};
 use crate::gauges::{ModelExpr, ModelVariable};
-use crate::mechanism::{Body, Coordinate, Mechanism, PointLocation, ValueId};
+use crate::mechanism::{Body, Coordinate, Friction, FrictionSource, Mechanism, PointLocation, ValueId};
 use crate::plane::{Turn, Vec2};
 use crate::scalar::{Dual, Scalar};
 
@@ -183,7 +183,7 @@ impl Mechanism {
     /// Refuses numbers that no body can have.
     ///
     /// # Errors
-    /// A number that is undefined; a negative mass or inertia.
+    /// A number that is undefined; a negative mass, inertia or friction; a restitution that is not from 0 to 1.
     pub fn check(&self, p: &[f64]) -> Result<(), CompileError> {
         let n = self.bind(p);
         let named = |i: usize| format!("parameters.{}", self.parameters[i].name);
@@ -216,8 +216,51 @@ impl Mechanism {
                 ));
             }
         }
+        self.check_contacts(&n)?;
+        self.check_joint_friction(&n)
+    }
+
+    fn check_contacts(&self, n: &BoundValues<f64>) -> Result<(), CompileError> {
+        for group in &self.groups {
+            for constraint in &self.unilateral[group.constraints.clone()] {
+                let e = n.values[constraint.restitution];
+                if !(0.0..=1.0).contains(&e) {
+                    let what = format!("a coefficient of restitution of {e}");
+                    let path = format!("{}.restitution", group.path());
+                    return Err(CompileError::new(path, what, "it is between 0, plastic, and 1, elastic"));
+                }
+                if let Some(Friction::Coulomb { fixed, kinetic }) = constraint.friction {
+                    check_friction(&group.path(), n.values[fixed], n.values[kinetic])?;
+                }
+            }
+        }
         Ok(())
     }
+
+    fn check_joint_friction(&self, n: &BoundValues<f64>) -> Result<(), CompileError> {
+        for friction in &self.joint_friction {
+            let path = match friction.of {
+                FrictionSource::Joint { joint, .. } => format!("joints.{}", self.joints[joint].name),
+                FrictionSource::Unilateral(constraint) => self.groups[self.unilateral[constraint].group].path(),
+            };
+            check_friction(&path, n.values[friction.fixed], n.values[friction.kinetic])?;
+        }
+        Ok(())
+    }
+}
+
+/// Refuses coefficients that no friction has.
+fn check_friction(path: &str, fixed: f64, kinetic: f64) -> Result<(), CompileError> {
+    if !(kinetic >= 0.0) {
+        let what = format!("a coefficient of friction of {kinetic}");
+        return Err(CompileError::new(format!("{path}.friction"), what, "it is 0 or more"));
+    }
+    if fixed < kinetic {
+        let what = format!("friction at rest, {fixed}, is below that of sliding, {kinetic}");
+        let hint = "the coefficient at rest is the larger one";
+        return Err(CompileError::new(format!("{path}.static_friction"), what, hint));
+    }
+    Ok(())
 }
 
 impl Mechanism {

@@ -141,7 +141,7 @@ class Checker:
             if len(found) == 1:
                 return found[0]
         later = [change for change in run.changes if change.t > run.t[0]]
-        impacts = dict.fromkeys(change.of[0] for change in later if change.kind == "impact" and change.of)
+        impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
         if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):
             return next(iter(impacts))
         if len(events) == 1 and not later:  # nothing else can be meant

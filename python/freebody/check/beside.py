@@ -116,6 +116,8 @@ class Letters:
 
     def _read(self, name: str) -> str:
         """How a symbol of a balance is read: a load by itself, a mass without a name by its value."""
+        if name == "pi":
+            return name
         entry = self._table[name]
         return {"unknown": name, "number": repr(entry["value"])}.get(entry["kind"]) or quote(name)
 

@@ -179,10 +179,10 @@ class Symbols:
         (line,), given = inlined(program), {}
         for symbol in self.require(program):
             meaning = self._meaning(symbol)
-            if meaning.is_vector or meaning.kind in ("integral", "quadrature", "vibration"):
+            said = () if meaning.is_vector or meaning.kind in ("integral", "quadrature", "vibration") else meaning.needed(symbol.dots)
+            if len(said) != 1:
                 raise ModelProblem(f"`{symbol.key}` cannot stand in a condition")
-            (said,) = meaning.needed(symbol.dots)
-            given[symbol] = Sym(f"({said})")
+            given[symbol] = Sym(f"({said[0]})")
         return written(substitute(line.left, given))
 
     # --- building ------------------------------------------------------------------------------

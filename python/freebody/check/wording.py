@@ -12,7 +12,10 @@ _BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
 _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
-_ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶)\s*")
+_ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶|->)\s*")
+_NOTHING = re.compile(r"\A((?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)[^:=;\n]*)=\s*0\s*:")
+"""``ΣF_y = 0:``, a label."""
+_CONSTANT_FIRST = re.compile(r"(?:const(?:ant)?|\\(?:text|mathrm)\s*\{\s*const(?:ant)?\s*\})\s*=\s*([^=:;\n]+)")
 _INFINITY = re.compile(r"([-+]?)\s*(?:\\infty|∞|infinity)")
 _START = re.compile(
     r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release(?: from rest)?|beginning)|being released|it is released)"
@@ -23,7 +26,7 @@ _CONSTANT = re.compile(
     r"(?=\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``."""
-_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|\\[\[\]]")
+_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$?|\\[\[\]]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
 """``m = 2 kg, r = 0.1 m: a = 3.2 m/s²``."""
@@ -48,8 +51,11 @@ def with_condition_first(text: str) -> str:
     said = _FROM_TO.sub(
         r"\1_{\3}^{\4}\2", _COMPONENT.sub(lambda found: _component(*found.groups()), _DISPLAYED.sub("", text).strip())
     )
+    said = _NOTHING.sub(r"\1:", said)
     if said.startswith("limit:"):
         return said
+    if found := _CONSTANT_FIRST.fullmatch(said):
+        return f"constant: {found[1]}"
     if found := _GIVEN.fullmatch(said):
         return f"if {found[1]}: {found[2]}"
     if found := _LIMIT.fullmatch(said):

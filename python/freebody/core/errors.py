@@ -54,11 +54,14 @@ class OutcomeKind(str, Enum):
 
 
 class ModelError(ValueError):
-    """A model that cannot be compiled: ``path`` is like ``joints.pivot.of[1]``."""
+    """A model that cannot be compiled, or numbers that none can have: ``path`` is like ``joints.pivot.of[1]``."""
 
     def __init__(self, path: str, what: str, hint: str) -> None:
         super().__init__(path, what, hint)
         self.path, self.what, self.hint = path, what, hint
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.what}" + f"\n  {self.hint}" * bool(self.hint)
 
 
 class ExpressionError(ValueError):
