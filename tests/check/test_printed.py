@@ -109,7 +109,7 @@ def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: 
         assert checker.check(line).kind is Kind.TRUE, line
 
 
-LINES = 24
+LINES = 10
 """Of each random model at each moment, drawn from all that is printed: of all of them at least 2000."""
 MATRICES = 1
 """More of them, of equations of matrices: entries that have a name there have one that means nothing else."""
