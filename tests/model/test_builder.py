@@ -147,7 +147,7 @@ initial: {x: 0, y: 2 m, phi: 0}
 def test_numbers_that_nothing_can_have_are_refused_at_any_call(number):
     m = Mechanism.loads(BOX)
     for call in (m.solve, m.simulate):
-        with pytest.raises(ModelError, match="restitution|friction|mass"):
+        with pytest.raises(ModelError, match=r"restitution|friction|mass"):
             call(**number, **({"until": 0.1} if call == m.simulate else {}))
 
 

@@ -227,7 +227,9 @@ class AskedModel:
     def rolls_in_loop(self) -> bool:
         """Whether something that rolls or meshes closes a loop: that binds rates, and of the places only what follows from the start."""
         cut = {joint["name"] for joint in self.metadata["joints"] if joint.get("cut")}
-        return any(joint["name"] in cut and joint["type"].startswith(("rolling", "gear", "belt")) for joint in self.spec["joints"])
+        return any(
+            joint["name"] in cut and joint["type"].startswith(("rolling", "gear", "belt")) for joint in self.spec["joints"]
+        )
 
     def shapes_loop(self, name: str) -> bool:
         """Whether a parameter may be a length of a closed loop."""

@@ -179,7 +179,11 @@ class Symbols:
         (line,), given = inlined(program), {}
         for symbol in self.require(program):
             meaning = self._meaning(symbol)
-            said = () if meaning.is_vector or meaning.kind in ("integral", "quadrature", "vibration") else meaning.needed(symbol.dots)
+            said = (
+                ()
+                if meaning.is_vector or meaning.kind in ("integral", "quadrature", "vibration")
+                else meaning.needed(symbol.dots)
+            )
             if len(said) != 1:
                 raise ModelProblem(f"`{symbol.key}` cannot stand in a condition")
             given[symbol] = Sym(f"({said[0]})")
