@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
@@ -136,9 +137,9 @@ def _documents(mechanism: fb.Mechanism, state: State, asked: dict[str, float]) -
 
 
 def _alone(document: Document) -> Iterator[str]:
-    """Its equations, one by one; a derivative of the energy behind the line that says what that is; matrices as they are set in type,
+    """Its equations, one by one; a derivative of the energy behind the line that says what that is, a root by its symbol likewise; matrices as they are set in type,
     but those that are too wide for it, whose entries are listed."""
-    energy = ""
+    energy, roots = "", {}
     for block in _stated(document):
         alone = Document((block,), document.letters)
         if isinstance(block, MatrixEquation) and "not listed" not in (line := alone.markdown()):
@@ -146,7 +147,10 @@ def _alone(document: Document) -> Iterator[str]:
         elif isinstance(block, Equation):
             line = alone.text(width=400)
             energy = energy or line
-            yield f"{energy}\n{line}" if "∂" in line else line
+            before = [root for name, root in roots.items() if re.search(rf"(?<!\w){name}(?!\w)", line)]
+            if found := re.match(r"\s*(s[₁-₉]?) = √", line):
+                roots[found[1]] = line
+            yield "\n".join([*before, *([energy] if "∂" in line else []), line])
 
 
 @every(map(str, range(120)), "seed", share=30)

@@ -18,6 +18,8 @@ from freebody.run.moments import START, state_of
 from freebody.solve.perturbed_states import independent
 from freebody.symbolic.dimensions import Dimension
 
+from .sides import changes_side, squares
+
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
@@ -135,8 +137,9 @@ class AskedModel:
         return self.core.assemble(p, t, fixed, named, rates, history=state.history, beginning=state)[0]
 
     def staying(self, motion: Trajectory, begins: float, ends: float) -> float:
-        """An end of a motion before which its loops are of the assembly in which it begins: it may go on through a singular position."""
-        for _ in range(_HALVES if self.loops and not self.rolls_in_loop else 0):
+        """An end of a motion before which its loops are of the assembly in which it begins, and its distances on one side: it may go on
+        through a singular position, or a point through its anchor."""
+        for _ in range(_HALVES):
             states = [motion.state(t) for t in np.linspace(begins, ends, _MOMENTS).tolist()]
             if all(self._joined(one, other) for one, other in pairwise(states)):
                 break
@@ -144,11 +147,19 @@ class AskedModel:
         return ends
 
     def _joined(self, one: State, other: State) -> bool:
+        if changes_side(self.core, self._squares, one.q, other):
+            return False
+        if not self.loops or self.rolls_in_loop:
+            return True
         try:
             reached = self.moved(one, other.q, {}, t=other.t)
         except MotionError:
             return False
         return bool(np.all(np.abs(reached.q - other.q) < _SAME_PLACE * self.sizes))
+
+    @cached_property
+    def _squares(self) -> list[str]:
+        return list(squares(self.spec))
 
     @cached_property
     def _places(self) -> list[int]:

@@ -144,7 +144,7 @@ class _Search:
         nodes, rows = FittedEdits(self.values, self.vocabulary, self.within).dictionary(self.equation, highest=1)
         forces = {n for n in self.vocabulary.others if (its := self.vocabulary.dimension(n)) is None or its.time == -2}
         kept = [(node, self._changes(row)) for node, row in zip(nodes, rows, strict=True) if not forces & {*symbols_in(node)}]
-        return [node for node, _ in kept], np.array([change for _, change in kept]).reshape(len(kept), -1)
+        return [node for node, _ in kept], np.array([change for _, change in kept]).reshape(len(kept), -1 if kept else 0)
 
     def _rates(self) -> Iterator[Edit]:
         """Another rate for one, or a coordinate."""

@@ -24,14 +24,14 @@ from .admissible import UnderOtherLoads
 from .asked_model import AskedModel
 from .budget import Budget
 from .families import ALL, Family, NoMotion, Samples, at_start
-from .sides import changes_side, squares
+from .sides import changes_side
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 SAMPLES = 64
 _TRIES = 40  # for one sample; a four-bar with random bars closes in about one of three
-_FEW_TRIES = 8  # where a parameter is far from the model's, and states are rarer or none
+_FEW_TRIES = 16  # where a parameter is far from the model's, and states are rarer or none
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
@@ -214,10 +214,6 @@ class MotionSampler(AskedModel):
             if not self._vanishes(text, state):
                 state = self._vanished(text, state, free)
         return state
-
-    @cached_property
-    def _squares(self) -> list[str]:
-        return list(squares(self.spec))
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""

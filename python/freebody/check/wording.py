@@ -26,7 +26,7 @@ _CONSTANT = re.compile(
     r"(?=\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``."""
-_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$?|\\[\[\]]")
+_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|\\[\[\]]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
 """``m = 2 kg, r = 0.1 m: a = 3.2 m/s²``."""

@@ -133,17 +133,16 @@ def with_rates(row: Row, coordinates: Sequence[str], give: Callable[[float, int]
 
     def put(part: Tree) -> Tree | None:
         factors = part.factors if isinstance(part, Mul) else (part,)
-        powers = [
-            f.exponent if isinstance(f, Pow) else Fraction(1)
-            for f in factors
-            if f == time or (isinstance(f, Pow) and f.base == time)
-        ]
+        times = [f for f in factors if f == time or (isinstance(f, Pow) and f.base == time)]
         others = [f for f in factors if not symbols(f) or isinstance(f, Fn)]
-        if len(powers) != 1 or len(others) + 1 != len(factors):
+        if len(times) != 1:
             return None
+        if len(others) + 1 != len(factors):  # a symbol beside it has the unit
+            return mul(*(f if f in times else rebuilt(f, put) for f in factors))
+        power_of_t = times[0].exponent if isinstance(times[0], Pow) else Fraction(1)
         size = math.prod(float(f.value) for f in others if isinstance(f, Num))
         rest = (rebuilt(f, put) for f in others if not isinstance(f, Num))
-        return mul(number(-1 if size < 0 else 1), give(abs(size), int(powers[0])), power(time, powers[0]), *rest)
+        return mul(number(-1 if size < 0 else 1), give(abs(size), int(power_of_t)), power(time, power_of_t), *rest)
 
     if row.kind != "motion" or row.value is None or (value := rebuilt(row.value, put)) == row.value:
         return row
