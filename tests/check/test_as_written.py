@@ -15,7 +15,7 @@ T, W, IF, D, U = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF, Kind.DIMENSIONS, Kind.UNDE
 
 def book(name: str, **letters: str | list[str]) -> Checker:
     found = next(each for each in BOOKS if each.name == name)
-    return Checker(Mechanism.loads(f"freebody: 1\n{found.model}"), {**dict(found.letters), **letters})
+    return Checker(Mechanism.loads(f"freebody: 1\n{found.model}"), {**dict(found.letters), **letters}, seconds=60.0)
 
 
 TABLE = """
