@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import freebody as fb
-from freebody.views.peaks import peak_reactions
+from freebody.run.peaks import peak_reactions
 
 FOUR_BAR = """
 freebody: 1

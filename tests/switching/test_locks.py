@@ -7,8 +7,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import freebody as fb
+from freebody.run.peaks import peak_reactions
 from freebody.views import plots
-from freebody.views.peaks import peak_reactions
 
 G = 9.81
 PARTICLE = """

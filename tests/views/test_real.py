@@ -8,10 +8,10 @@ import pytest
 from matplotlib.axes import Axes
 
 from freebody.mechanism import Mechanism
+from freebody.run.peaks import peak_reactions
 from freebody.run.simulation import Run
 from freebody.views import plots, shapes
 from freebody.views.labels import Label, Obstacles, placed
-from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html
 
 matplotlib.use("Agg")

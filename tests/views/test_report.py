@@ -9,8 +9,8 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+from freebody.run.peaks import peak_reactions
 from freebody.run.simulation import Run
-from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html, write_report
 from freebody.views.report.series import Curve, _resolved
 from freebody.views.report.tables import Table, raised

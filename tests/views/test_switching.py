@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from freebody.mechanism import Mechanism
+from freebody.run.peaks import peak_reactions
 from freebody.run.simulation import Run
 from freebody.views import plots
 from freebody.views.animate import animate
 from freebody.views.compare import compare
 from freebody.views.contact_glyphs import way
 from freebody.views.impact_markers import LASTING
-from freebody.views.peaks import peak_reactions
 from freebody.views.report import report_html
 from freebody.views.scene import of_run
 from freebody.views.style import IMPACT

@@ -17,7 +17,6 @@ from freebody.cli.models import how_far
 from freebody.cli.terminal import print_json
 from freebody.solve.figures import figure
 from freebody.solve.rich_tables import table
-from freebody.views.peaks import known_peaks
 
 if TYPE_CHECKING:
     from freebody.core import Change, CompiledModel
@@ -62,7 +61,7 @@ def runs_as_json(done: Sequence[Run], files: Sequence[Sequence[Path]]) -> None:
                 for label, reported in each.accuracy.report.items()
             },
             "energy": {"balance": float(abs(each.energy.balance).max(initial=0.0)), "relative": closure(each)},
-            "peaks": [asdict(peak) | _digits(size=peak.size, couple=peak.couple) for peak in known_peaks(each)],
+            "peaks": [asdict(peak) | _digits(size=peak.size, couple=peak.couple) for peak in each.peaks],
             "stats": each.stats,
             "files": [str(path) for path in made],
         }
@@ -83,7 +82,7 @@ def run(done: Run) -> None:
     ledger = [(name, float(done.energy.entries[name][0]), end) for name, end in accuracy.energy.items()]
     peaks = [
         (peak.joint, peak.body, peak.size if peak.determinate else math.nan, peak.t, peak.couple, peak.t_couple)
-        for peak in known_peaks(done)
+        for peak in done.peaks
     ]
     put(
         _ending(done),

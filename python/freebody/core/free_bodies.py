@@ -237,7 +237,7 @@ def _load_data(load: Load, group: Collection[str]) -> dict[str, Any]:
 
 def _pair(values: Any) -> Pair:
     x, y = values
-    return float(x), float(y)
+    return x, y
 
 
 def _body(item: Mapping[str, Any]) -> Body:

@@ -61,6 +61,7 @@ _EVERYDAY = {
     "W": Unit(Fraction(1), Dimension(2, 1, -3)),
     "Pa": Unit(Fraction(1), Dimension(-1, 1, -2)),
     "Hz": Unit(Fraction(1), Dimension(0, 0, -1)),
+    "rpm": Unit(Fraction(math.pi) / 30, Dimension(0, 0, -1, 1)),
 }
 """What most models do with, so that they need not wait for the registry to be read."""
 _MORE = (
@@ -87,6 +88,7 @@ _FACTOR = re.compile(
     rf"\s*(?P<sign>[*/·]?)\s*(?P<word>{_WORD})(?![^\W²³])(?P<power>[²³]|\s*(?:\^|\*\*)\s*-?\s*\d{{1,2}}(?![\w.]))?(?!\s*[(\[.'])"
 )
 _INVERSE = re.compile(r"\s+1\s*(?=/)")
+_CALLED = re.compile(r"([^\W\d]\w*)\(")
 _WITH_TIME = re.compile(r"[*/·\s]t(?!\w)")
 _TIMES = {"s", "ms", "min"}
 """Over one of which a number is a rate: ``10/s``."""
@@ -169,6 +171,8 @@ def quantity(text: str) -> Quantity | None:
     written = text[found.end() :].strip() if found else ""
     if not found or not (written[:1].isalpha() or written[:1] == "°") or _WITH_TIME.search(written):
         return None
+    if set(_CALLED.findall(written)) - set(COMMON):
+        return None  # a function, for which the registry need not be read
     try:
         size, dimension = unit(written)
     except ModelProblem:

@@ -8,7 +8,7 @@ order 6 and integrals the closed formula of Newton and Cotes (Abramowitz & Stegu
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -80,12 +80,18 @@ class Certificate:
     @cached_property
     def routes(self) -> list[Route]:
         """All routes."""
-        return [*self._at_instants(), *self._over_time(), *self._over_impacts(), *self._integrated_again()]
+        return [*self.own_routes, *self._integrated_again()]
+
+    @cached_property
+    def own_routes(self) -> list[Route]:
+        """Those for which the motion is not integrated once more."""
+        tighter = Route("tighter tolerance", _held(self.run.accuracy), "the motion, and a start that differs by round-off")
+        return [*self._at_instants(), *self._over_time(), *self._over_impacts(), tighter]
 
     @property
     def weakest(self) -> Route:
         """The route on which fewest digits agree."""
-        return min((route for route in self.routes if not math.isnan(route.digits)), key=lambda route: route.digits)
+        return weakest(self.routes)
 
     @property
     def _parts(self) -> list[dict[str, Any]]:
@@ -196,13 +202,17 @@ class Certificate:
             half["rtol"] = settings.rtol / 2 if settings.rtol >= 2 * TIGHTEST else 2 * settings.rtol
         other = simulate(self.run.source, self.run.start, replace(settings, method=adaptive[0], step=None))
         finer = simulate(self.run.source, self.run.start, replace(settings, **half))
-        yield Route("second integrator", self._held(Accuracy(self.run, other)), f"the motion by {adaptive[0]}")
-        yield Route("tolerance halved", self._held(Accuracy(self.run, finer)), "the motion at half the tolerance or step")
-        yield Route("tighter tolerance", self._held(self.run.accuracy), "the motion, and a start that differs by round-off")
+        yield Route("second integrator", _held(Accuracy(self.run, other)), f"the motion by {adaptive[0]}")
+        yield Route("tolerance halved", _held(Accuracy(self.run, finer)), "the motion at half the tolerance or step")
 
-    @staticmethod
-    def _held(accuracy: Accuracy) -> float:
-        return float(accuracy.held[-1]) if accuracy.parting == math.inf else 0.0
+
+def weakest(routes: Sequence[Route]) -> Route:
+    """The route on which fewest digits agree."""
+    return min((route for route in routes if not math.isnan(route.digits)), key=lambda route: route.digits)
+
+
+def _held(accuracy: Accuracy) -> float:
+    return float(accuracy.held[-1]) if accuracy.parting == math.inf else 0.0
 
 
 def apart(one: Array, other: Array, least: float) -> float:

@@ -26,13 +26,14 @@ Signal = Callable[[Array], Array]  # values (nt,) of one expression at times (nt
 KINDS = ("coordinate", "rate", "acceleration", "dependent", "reaction", "limit", "energy", "pose")
 """Of columns, in their order."""
 _DEGREE = 16
-"""Of the polynomial that follows a signal between two samples: eight of them are in a step, which one of degree 8 follows."""
+"""Of the polynomial that follows a signal between two samples: three of them or more are in a step, which one of degree 8 follows."""
 _FOLLOWED = 1e-9
 """Part of its swing that the last coefficients of a polynomial may have which follows a signal."""
 _LEVEL = 1e-13
 """Part of the size of a signal that is round-off."""
 _CONVERGED = 1e-3
 """Part of an integral that its error may be: at a kink less is left, over a pole all."""
+_MANY = 1600  # times at which a quantity is looked at in search of its largest value, in which steps follow it closely
 _UNEVEN = 0.38196601125010515
 """Part of a step at which it is cut to integrate it again: no halving comes to it."""
 _RARE = ("work of parameter changes", "work of impacts", "work of friction")
@@ -170,8 +171,9 @@ class Window:
         """A time within every step, where no halving comes to."""
         return self.edges[:-1] + _UNEVEN * np.diff(self.edges)
 
-    def samples(self, per_step: int = 8) -> Array:
-        """Times evenly spread over every step."""
+    def samples(self, least: int = 8) -> Array:
+        """Times evenly spread over every step: eight in each, of very many steps not so many, but at least ``least``."""
+        per_step = int(np.clip(_MANY // len(self.edges), least, 8))
         fractions = np.arange(per_step) / per_step
         inner = self.edges[:-1, None] + np.diff(self.edges)[:, None] * fractions
         return np.append(inner.ravel(), self.edges[-1])
@@ -179,7 +181,7 @@ class Window:
 
 def maximum(signal: Signal, window: Window, candidates: int = 6, rate: Signal | None = None) -> tuple[float, float]:
     """Time and value of the largest value in the window: the best samples, each refined; by the ``rate`` of the signal, if given."""
-    t = window.samples()
+    t = window.samples(least=3)
     return refined(signal, t, signal(t), candidates, rate)
 
 

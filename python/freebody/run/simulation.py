@@ -27,6 +27,7 @@ from freebody.core import (
 )
 from freebody.run import storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
+from freebody.run.peaks import Peak, known_peaks
 from freebody.run.records import (
     KINDS,
     Array,
@@ -146,6 +147,11 @@ class Run(PlainText):
         return self.motion.evaluate(texts, self.t) if texts else np.empty((len(self.t), 0))
 
     @cached_property
+    def dependent(self) -> Array:
+        """Coordinates that follow from others (nt, 3 k): their values, then their rates, then their accelerations."""
+        return self._read("dependent")
+
+    @cached_property
     def poses(self) -> Array:
         """Frame origin x, y (m) and angle (rad) of every body (nt, nb, 3)."""
         return self.motion.poses(self.t)
@@ -184,6 +190,11 @@ class Run(PlainText):
             least, evaluate = partial(self._least, i), partial(self.motion.evaluate, times=self.t)
             made[joint["name"]] = Reaction.of(joint, values, ~np.isnan(values), least, evaluate)
         return Reactions(made)
+
+    @cached_property
+    def peaks(self) -> list[Peak]:
+        """The largest load of each joint, contact, string, stop, lock and prescribed motion, with the digits that hold."""
+        return known_peaks(self)
 
     @cached_property
     def energy(self) -> Energy:
@@ -332,13 +343,13 @@ class Run(PlainText):
     @cached_property
     def columns(self) -> list[Column]:
         """Everything that is kept over ``t``, in the order of ``blocks``."""
-        return columns_of(self.source, self.energy.names)
+        return columns_of(self.source, self.motion.ledger(self.t[:0])[0])
 
     @property
     def blocks(self) -> dict[str, Array]:
         """Values of the columns by kind, each (nt, k); an indeterminate reaction is NaN."""
         nt = len(self.t)
-        own = (self.q, self.u, self.accelerations, self._dependent)
+        own = (self.q, self.u, self.accelerations, self.dependent)
         arrays = (*own, self._reactions, self._limits, self.energy.values, self.poses)
         return {kind: array.reshape(nt, -1) for kind, array in zip(KINDS, arrays, strict=True)}
 
@@ -414,10 +425,6 @@ class Run(PlainText):
         values, determinate = self.motion.instants(self.t)
         known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
         return np.where(known, values, np.nan)
-
-    @cached_property
-    def _dependent(self) -> Array:
-        return self._read("dependent")
 
     @cached_property
     def _limits(self) -> Array:

@@ -278,7 +278,15 @@ class Sketch:
     def bounds(self) -> tuple[float, float, float, float]:
         """x from, x to, y from, y to: a box about everything that is drawn at any time."""
         frames = np.unique(np.linspace(0, len(self.t) - 1, 80).astype(int))
-        everything = np.vstack([line for k in frames for line in self.lines(k)] or [np.zeros((1, 2))])
+        seen = [line for k in frames for pair in self.pairs for line in self.pair_lines(pair, k)]
+        seen += [cord.path[k] for cord in self.cords for k in frames if cord.shown[k]]
+        for figure, poses in zip(self.figures.values(), self.poses[frames].swapaxes(0, 1), strict=True):
+            cosine, sine = np.cos(poses[:, 2:]), np.sin(poses[:, 2:])
+            for each in figure.strokes:
+                x, y = each.points.T
+                moved = np.stack([poses[:, :1] + cosine * x - sine * y, poses[:, 1:2] + sine * x + cosine * y], axis=2)
+                seen.append(moved[slice(None) if each.shown is None else each.shown[frames]].reshape(-1, 2))
+        everything = np.vstack(seen or [np.zeros((1, 2))])
         (x0, y0), (x1, y1) = everything.min(axis=0), everything.max(axis=0)
         return float(x0), float(x1), float(y0), float(y1)
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from freebody.core import Array, quote
+from freebody.run.peaks import couple_noise
 from freebody.run.records import plain
 from freebody.symbolic.symbols import unicode_name
-from freebody.views.peaks import couple_noise
 from freebody.views.plots import gaps, held_by, pretty_unit, refined_at_jumps
 from freebody.views.report.floats import floats
 
@@ -51,15 +51,15 @@ def plots(run: Run) -> list[dict[str, Any]]:
 
 def _points(run: Run) -> int:
     """How many of each curve are shown, so that all of them fit in a page."""
-    curves = 3 * len(run.coordinates) + 3 * len(run.source.dependent_coordinates) + 2 * len(run.reactions) + 10
+    curves = 3 * len(run.coordinates) + 3 * len(run.source.dependent_coordinates) + 2 * len(run.metadata["joints"]) + 10
     return int(np.clip(_NUMBERS // curves, _LEAST_POINTS, _POINTS))
 
 
 def _coordinates(run: Run) -> list[dict[str, Any]]:
     """Coordinates, those that follow from them too, their rates and accelerations; a plot for each unit."""
     following = [c["name"] for c in run.source.dependent_coordinates]
-    names, dependent = [*run.coordinates, *following], run.blocks["dependent"].reshape(len(run.t), 3, -1)
-    orders = [np.hstack([run.blocks[kind], dependent[:, dots]]) for dots, kind in enumerate(_ORDERS)]
+    names, dependent = [*run.coordinates, *following], run.dependent.reshape(len(run.t), 3, -1)
+    orders = [np.hstack([own, dependent[:, dots]]) for dots, own in enumerate((run.q, run.u, run.accelerations))]
     lasting = (run.t[-1] - run.t[0]) or 1.0
     largest = np.max([np.abs(values).max(axis=0, initial=0.0) * lasting**dots for dots, values in enumerate(orders)], axis=0)
     made = []

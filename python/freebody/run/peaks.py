@@ -39,9 +39,11 @@ class Peak:
 
 def peak_reactions(run: Run) -> list[Peak]:
     """Peaks of all that can carry a load, refined between the steps where the motion is known there."""
-    sampled = run if run.recorded else run.at(Window(run.edges).samples())
+    sampled = run if run.recorded else run.at(Window(run.edges).samples(least=3))
     noise = couple_noise(sampled)
-    peaks = [_peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(run.reactions.items()) if reaction.carries]
+    peaks = [
+        _peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(sampled.reactions.items()) if reaction.carries
+    ]
     return peaks + [_peak_of_part(run, sampled, *part) for part in _parts(run)]
 
 
@@ -69,7 +71,10 @@ def known_peaks(run: Run) -> list[Peak]:
     band = accuracy.band(lambda run, t: np.abs(run.motion.evaluate([*texts, *others], t)))
     joints, known = len(texts) // 2, []
     pairs = list(zip(peak_reactions(run), peak_reactions(accuracy.other), strict=True))
-    force, couple = max((peak.size or 0.0 for peak, _ in pairs), default=0.0), couple_noise(run) / _ROUND_OFF
+    force, couple = (
+        max((value(peak) or 0.0 for peak, _ in pairs), default=0.0) for value in (lambda p: p.size, lambda p: p.couple)
+    )
+    couple = max(couple, force * _farthest(run))
     for i, (peak, other) in enumerate(pairs):
         column, parts = i if i < joints else joints + i, {}
         if peak.size is not None:
@@ -87,10 +92,14 @@ def known_peaks(run: Run) -> list[Peak]:
 def couple_noise(run: Run) -> float:
     """The couple (N·m) up to which one is round-off, beside the largest couple and the largest force at its farthest place."""
     known = [reaction for reaction in run.reactions.values() if reaction.determinate]
-    force, couple, far = (
-        float(np.abs(values).max(initial=0)) for values in ([r.size for r in known], [r.M for r in known], run.poses[..., :2])
-    )
-    return _ROUND_OFF * max(couple, force * far)
+    force, couple = (float(np.abs(values).max(initial=0)) for values in ([r.size for r in known], [r.M for r in known]))
+    return _ROUND_OFF * max(couple, force * _farthest(run))
+
+
+def _farthest(run: Run) -> float:
+    """The largest coordinate of a body at about a hundred output times, m."""
+    places = run.poses if run.recorded else run.motion.poses(run.t[:: len(run.t) // 100 + 1].copy())
+    return float(np.abs(places[..., :2]).max(initial=0))
 
 
 def _peak(run: Run, sampled: Run, i: int, name: str, noise: float) -> Peak:
