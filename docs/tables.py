@@ -18,7 +18,15 @@ from freebody.document.rendering import FORMATS
 from freebody.equations.topics import TOPICS, described
 
 DOCS = Path(__file__).parent
-WRITTEN = {"point": "P", "points": "[P, Q]", "line": "LINE", "circle": "{centre, radius}", "area": "AREA", "curve": "CURVE", "numbers": "[a, b]"}
+WRITTEN = {
+    "point": "P",
+    "points": "[P, Q]",
+    "line": "LINE",
+    "circle": "{centre, radius}",
+    "area": "AREA",
+    "curve": "CURVE",
+    "numbers": "[a, b]",
+}
 MARKED = re.compile(r"(<!-- (\w+) -->\n).*?(<!-- /\2 -->)", re.DOTALL)
 
 
