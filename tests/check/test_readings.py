@@ -53,6 +53,8 @@ def test_a_doubtful_reading_is_shown() -> None:
         ("rod", "T = ½ I_O ω²", "T is read as: kinetic()."),
         ("rod", "v_B = L ω", "v_B is read as: the size of"),
         ("wheel_down_a_slope", "v = R ω", "α"),
+        ("rod", "ω = θ' (of the rod)", "`(of the rod)` is read as a remark, and not judged."),
+        ("rod", "at the pin O: ω = θ'", "`the pin O` is read as a label, and not judged."),
     ):
         notes = "\n".join(judged_alone(checker(name), text).notes)
         assert note in notes or (note == "α" and "ω is read as" in notes), notes

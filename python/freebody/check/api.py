@@ -58,7 +58,7 @@ class Checker:
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
         self._runs: list[Any] = []  # the model's own, once it is asked for
-        self._beside: dict[tuple[str, str], Checker] = {}  # the same of other moments
+        self._beside: dict[tuple[Any, ...], Checker] = {}  # the same of other moments
 
     def symbols(self, declared: Declared | None = None) -> Symbols:
         """The symbols of the model with own ones. Raises ``ModelProblem``."""
@@ -95,10 +95,11 @@ class Checker:
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         checker.budget = Budget(self.seconds, begins=process_time())
-        plain = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
+        plain, passed = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
         try:
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
+            verdict = replace(verdict, notes=(*verdict.notes, *passed))
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:
             return Verdict(Kind.UNDECIDABLE, text, str(error))
@@ -114,16 +115,15 @@ class Checker:
         start = text.find(word)
         raise StatementError(what, (start, start + len(word)), hint, text)
 
-    def beside(self, side: str, event: str) -> Checker:
+    def beside(self, side: str, event: str, held: Mapping[str, float]) -> Checker:
         """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
-        part that changes. Raises ``ModelProblem``."""
+        part that changes; with parameters that are ``held``. Raises ``ModelProblem``."""
         name = self._happening(event)
-        if (side, name) not in self._beside:
-            asked = {word: given for word, given in self._asked.items() if word not in ("at", "before", "after")}
-            self._beside[side, name] = type(self)(
-                self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: name}
-            )
-        other = copy(self._beside[side, name])
+        key = (side, name, *held.items())
+        if key not in self._beside:
+            asked = {word: given for word, given in {**self._asked, **held}.items() if word not in ("at", "before", "after")}
+            self._beside[key] = type(self)(self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: name})
+        other = copy(self._beside[key])
         other.correcting = self.correcting
         return other
 

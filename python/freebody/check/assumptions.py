@@ -45,6 +45,7 @@ _WORDS: dict[str, dict[str, Any]] = {
 }
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
+IN_EQUILIBRIUM = "in equilibrium"
 _INFINITE = ("inf", "infinity", "∞", "oo")
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
@@ -252,6 +253,9 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
             (f"({spell(name)}) - ({q!r})", SMALL) for name, q in zip(checker.sampler.names, places.tolist(), strict=True)
         )
         return replace(given, small=(*given.small, *near))
+    if part == IN_EQUILIBRIUM:
+        still = (f"accel({spell(name)})" for name in checker.sampler.names)
+        return replace(given, at_rest=True, vanishing=(*given.vanishing, *still))
     if part in _WORDS:
         return replace(given, **_WORDS[part])
     if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(.+)", part):

@@ -23,7 +23,7 @@ from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
 from .correction import SECOND, corrections
-from .families import ALL, AT_START, SINCE_START, Samples
+from .families import ALL, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -69,14 +69,61 @@ def _defined(text: str) -> tuple[dict[str, str], str]:
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """Under a hypothesis."""
-    verdict = checker.check(statement, declared, family(condition, checker, declared))
-    return replace(verdict, assumption=condition) if verdict.ok else verdict
+    try:
+        given = family(condition, checker, declared)
+    except ModelProblem as problem:
+        return _labelled(checker, declared, condition, statement, problem)
+    verdict = checker.check(statement, declared, given)
+    if verdict.ok or given.since:
+        return replace(verdict, assumption=condition) if verdict.ok else verdict
+    others = []
+    if given.vanishing and verdict.kind is Kind.UNDECIDABLE:  # it may be so only where something switches
+        others = [(replace(given, since="start"), condition)]
+    elif given.at_rest and "at rest" in condition and _is_of_places(checker.case(statement, declared)):
+        others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
+    for other, words in others:
+        found = checker.check(statement, declared, other, correcting=verdict.kind is Kind.UNDECIDABLE)
+        if found.ok:
+            return replace(found, assumption=words)
+        verdict = found if verdict.kind is Kind.UNDECIDABLE and found.kind is not verdict.kind else verdict
+    return verdict
+
+
+def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
+    """At a moment of the model's own run."""
+    try:
+        checker.moment(moment)
+    except ModelProblem as problem:
+        return _labelled(checker, declared, moment, statement, problem)
+    return timed_claims.at(checker, declared, moment, statement)
+
+
+def _labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
+    """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
+    that is the ``problem``. Raises it."""
+    parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
+    names = bool(parts & {*re.findall(r"\w+", words)})
+    said = re.search(r"[=<>≤≥→]|->", words) is None
+    verdict = checker.check(statement, declared, correcting=checker.correcting and names) if said else None
+    if verdict is None or not (names or verdict.ok):
+        raise problem
+    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
+
+
+def _is_of_places(case: Case) -> bool:
+    """Whether equations are of the configuration alone."""
+    known = case.meaning.vocabulary
+    used = symbols_in(case.program)
+    return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
 
 
 def _beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
     """Before or after something that happens on a motion, at once or until the next change."""
-    there = checker.beside(side, event)
-    verdict = there.check(statement, declared, AT_START if just else None)
+    held = {name: float(value) for name, value in checker.hypothesis.held if _FIGURE.fullmatch(str(value))}
+    there = checker.beside(side, event, held)
+    just = just or there.sampler.stated  # before what happens at the start there is no motion
+    given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
+    verdict = there.check(statement, declared, given)
     if verdict.ok or just or side == "after":
         return verdict
     until = checker.check(statement, declared, SINCE_START, correcting=False)  # what is before it may be the motion up to it
@@ -145,7 +192,7 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
-    """The same at all times of each motion; of motions from the start, until something switches."""
+    """The same at all times of each motion, until it goes on in another mode; of motions from the start, until something switches."""
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
     worst, seen, lost, runs = 0.0, None, "", []
@@ -181,10 +228,12 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
 
 
 def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples, str]:
-    """States along the motion that goes on from a true state, to its first change if that is asked for; and what changes on it."""
+    """States along the motion that goes on from a true state, to its first change if that is asked for or rates do not jump there, as
+    where something lifts off; and what changes on it."""
     sampler = checker.sampler
     motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
     change = next((each for each in motion.changes if each.t > state.t), None)
+    until_change |= change is not None and change.before is None
     ends = sampler.staying(motion, state.t, change.t if change and until_change else motion.end.t)
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
@@ -281,6 +330,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
     return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(found, there))
 
 
+_FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
@@ -302,7 +352,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),
     (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), timed_claims.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
-    (re.compile(r"at (.+?):(.+)", re.S), timed_claims.at),
+    (re.compile(r"at (.+?):(.+)", re.S), _at),
     (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), _beside_event),
     (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), _changes),
     (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),

@@ -1,10 +1,18 @@
-"""Words around an equation that are no part of it: *Thus*, *the tension T = …*, *(i.e. to the left)*; *from rest* and *with the given
-numbers* are conditions."""
+"""Words around an equation that are no part of it: *Thus*, *the tension T = …*, *(i.e. to the left)*, *for all t*, *(2)*; *from rest* and
+*with the given numbers* are conditions. What is passed over and might have been meant otherwise is told."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Collection
+
+from freebody.symbolic.symbols import folded
+
+from ..model.errors import ModelProblem
+from ..model.names import nearest
+from ..model.units import unit
+from .language.glyphs import CONDITION
+from .language.tokens import CALLS
 
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
 _FROM_REST = re.compile(
@@ -29,7 +37,7 @@ _SENSE = {re.compile(rf"\s*,?\s*(\()?\b(?:{words})\b(?(1)\))(?=\s*(?:[,;.]|$))",
 _REMARK = re.compile(
     r"\s*\((?:i\.?\s?e\b|e\.?\s?g\b|that is|because|since|so|as|hence|thus|note|acting|by|from|see)\b[^()=]*\)(?=\s*(?:[,;.]|$))"
 )
-_IN_LATEX = re.compile(r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([a-z]+(?:[\s,]+[a-z]+)*[,.:]?)\s*\}")
+_IN_LATEX = re.compile(r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,]+[A-Za-z]+)*\s*[,.:]?)\s*\}")
 _CONNECTIVES = {
     *(
         "and",
@@ -53,8 +61,9 @@ _CONNECTIVES = {
     *("from", "rest", "start", "the", "we", "get", "have", "initially", "just", "after", "before", "starting", "released"),
 }
 _THUS = re.compile(
-    r"(?m)^\s*(?:(?:thus|hence|so|then|therefore|finally|consequently|also|now|or|(?:which |this )?gives|we (?:get|have|find|obtain)"
-    r"|it follows(?: that)?|i\.e\.|solving(?: for \S+)?|\d[.)]|•)[,:]?\s+)+",
+    r"(?m)(?:^|(?<=[,;$])|(?<=\\\[))\s*(?:(?:thus|hence|so|then|therefore|finally|consequently|also|now|or|(?:which |this )?gives"
+    r"|(?:and )?(?:thus|hence|so|therefore|then)|we (?:get|have|find|obtain)"
+    r"|it follows(?: that)?|i\.e\.|solving(?: for \S+)?|\d{1,2}[.)]|\(\d{1,2}\w?\)|•)[,:]?\s+)+",
     re.IGNORECASE,
 )
 _NOUN = (
@@ -66,21 +75,82 @@ _CALLED = re.compile(
     rf"(?m)(?:(?<=^)|(?<=[,;:]\s))\s*(?:the\s+)?(initial\s+)?((?:(?:{_NOUN}|the)\s+)+)(?=\\?[^\s=<>]+\s*[=<>])", re.I
 )
 """``the natural period T = …``."""
+_SPACES = re.compile(r"(?<!\\)\\[,;:!>]")
+_CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
+"""A condition that begins a sentence."""
+_FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
+"""``=>`` where no sign of relation can stand."""
+_CLOSES = r"(?=\s*(?:\$+|\\[\])]|\\end\s*\{[^{}]*\})?\s*(?:\Z|[;\n]|\\\\|⇒))"
+"""The end of a line, behind which only its display is closed."""
+_STOP = re.compile(
+    rf"\s*(?:(?<![.;,])[.;,!]|[□■∎✓✔]|\\(?:square|blacksquare|checkmark)|\bq\.?e\.?d\b\.?){_CLOSES}", re.IGNORECASE
+)
+_EVER = (
+    r"(?:\b(?:for|at)\s+(?:all|any|every|each)\s+(?:(?:time|instant|moment|angle|position|motion)s?\b|\\?\w+)(?:\s+(?:t\b|\\?theta\b|θ))?"
+    r"(?:\s*(?:>=?|≥|\\geq?\b)\s*0)?|\balways|\bidentically|\b(?:throughout|during) the motion)"
+)
+_ALWAYS = re.compile(rf"(?:,|\\q?quad)?\s*{_EVER}{_CLOSES}|\A\s*{_EVER}\s*[,:]", re.IGNORECASE)
+_BEHIND = r"(?<=[^\s=+*/·<>≈-])"
+_NUMBER = re.compile(rf"{_BEHIND}\s+\((?:eq(?:uation|n)?\.?\s*)?(?:\d{{1,2}}[a-z]?|\*+|ii+|iv|vi+|[IVX]{{2,}})\){_CLOSES}")
+_LETTER = re.compile(r"\A\s*(?:\([a-h]\)\s+(?=[\w\\$])|[a-h]\)\s+)")
+_AS = r"as (?:expected|required|before|usual|given|shown|stated|above)"
+_COMMENT = re.compile(
+    rf"{_BEHIND}(?:\s*,(?:(?!\s*(?:{CONDITION})\b)|(?=\s*{_AS}\b))([^=<>≈≤≥,;:()+*/^\\$]+)"
+    rf"|\s+[(\[]\s*(?:in\s)?\+?((?:[^()\[\]=<>≈≤≥+\\$]|\([^()]*\))+?)\+?\s*[)\]]){_CLOSES}"
+)
+"""Words behind an equation, after a comma or in brackets."""
 
 
-def plainly(text: str, known: Collection[str] = ()) -> str:
+def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...]]:
     """A statement without words that say nothing of it, and with the conditions among them in the words of claims; names that are
-    ``known`` are no words."""
-    said = _IN_LATEX.sub(_of_latex, text)
+    ``known`` are no words. And what is to be said of what was passed over."""
+    passed: list[str] = []
+
+    def told(found: re.Match[str], what: str) -> str:
+        passed.append(f"`{found[0].strip(' ,')}` is read as {what}.")
+        return " "
+
+    def comment(found: re.Match[str]) -> str:
+        measured = said[: found.start()].strip()[-1].isdigit()  # 5 [m/s] is a measure
+        is_comment = _is_comment(found[1] or found[2], known, measured)
+        return told(found, "a remark, and not judged") if is_comment else found[0]
+
+    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", text))
+    said = _CAPITAL.sub(lambda found: found[0].lower(), said)
     said = _FROM_REST.sub("if the start is at rest", said)
     said = _THESE_NUMBERS.sub("if with these numbers", said)
     said = _REMARK.sub("", said)
     for sense, sign in _SENSE.items():
         said = sense.sub(f" {sign}", said)
-    said = _THUS.sub("", said)
-    return _CALLED.sub(lambda found: found[0] if {*found[2].split()} & {*known} else "initially: " * bool(found[1]), said)
+    said = _ALWAYS.sub(" ", _STOP.sub("", _FOLLOWS.sub(r"\1 ⇒", said)))
+    said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
+    said = _STOP.sub("", _COMMENT.sub(comment, said))
+    said = _LETTER.sub(lambda found: told(found, "the letter of a question"), said)
+    said = _THUS.sub(lambda found: found[0] if {*re.findall(r"\w+", found[0])} & {*known} else " ", said)
+    said = _CALLED.sub(lambda found: found[0] if {*found[2].split()} & {*known} else "initially: " * bool(found[1]), said)
+    return said, tuple(passed)
+
+
+def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
+    """Whether what stands behind an equation, or a figure that is ``measured``, is words: one of them at least, and none nearly a name that
+    is known; or the unit of a formula."""
+    if _is_unit(words) and words not in known:
+        return not measured
+    found = re.findall(r"[^\W\d_]{3,}", words) if not re.search(r"[*/^·×_-]|\.\w", words) else []
+    return any(word not in CALLS for word in found) and not any(
+        nearest(folded(word), map(folded, known)) or word in CALLS or word.lower().startswith("const") for word in found
+    )
+
+
+def _is_unit(words: str) -> bool:
+    try:
+        return bool(unit(words))
+    except ModelProblem:
+        return False
 
 
 def _of_latex(found: re.Match[str]) -> str:
-    """Words that are set upright in LaTeX, if they join what stands around them."""
-    return f" {found[1]} " if {*re.findall("[a-z]+", found[1])} <= _CONNECTIVES else found[0]
+    """Words that are set upright in LaTeX, if they are several or join what stands around them."""
+    words = re.findall("[A-Za-z]+", found[1])
+    several = len(words) > 1 or found[1][-1] in ",.:"
+    return f" {found[1]} " if several or {*words} <= _CONNECTIVES else found[0]

@@ -106,7 +106,7 @@ def magnitude(node: Node, values: Mapping[str, Array]) -> Array:
         case Negative(of=of):
             return inside(of)
         case Add(terms=terms):
-            return reduce(np.add, [inside(term) for term in terms])
+            return reduce(np.add, [inside(term) for term in terms if not is_zero(term)] or [np.abs(sampled(node, values))])
         case Mul(factors=factors):
             return reduce(_times, [inside(factor) for factor in factors])
         case Quotient(top=top, bottom=bottom):

@@ -66,7 +66,7 @@ def _points(spec: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
     ]
     if len(spec["bodies"]) == 1:
         named.append((spec["bodies"][0]["name"], f"{spell(spec['bodies'][0]['name'])}.G", "G"))
-    letters = [each for each in named if _LETTER.fullmatch(each[2])]
+    letters = [each for each in dict.fromkeys(named) if _LETTER.fullmatch(each[2])]
     moving = {letter for body, _, letter in letters if body != "ground"}
     letters = [each for each in letters if each[0] != "ground" or each[2] not in moving]
     letters += [] if any(letter == "O" for *_, letter in letters) else [("ground", "ground.O", "O")]

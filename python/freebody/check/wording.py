@@ -6,11 +6,14 @@ from __future__ import annotations
 import re
 
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
-_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|initially"
-_BEFORE = re.compile(rf"({_STARTS}|with)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
+_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
+_BEFORE = re.compile(rf"({_STARTS}|with|in|on)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
+_PARTS = re.compile(r",|\band\b")
+_SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
+_BESIDE = re.compile(rf"(?:{_INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))\S.*")
 _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
 _ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶|->)\s*")
 _NOTHING = re.compile(r"\A((?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)[^:=;\n]*)=\s*0\s*:")
@@ -82,18 +85,23 @@ def as_claim(text: str) -> str:
     word, said, statement = " ".join(found[1].split()), _plainly(found[2]), found[3]
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
+    parts = [part for part in _PARTS.split(said) if not _SUM.match(part)]
+    said = ",".join(parts)
+    if len(parts) > 1 and (beside := next((p for p in (f"{word} {parts[0]}", *parts[1:]) if _BESIDE.fullmatch(p.strip())), None)):
+        others = [_condition(p) for p in (f"{word} {parts[0]}", *parts[1:]) if p is not beside]
+        return as_claim(f"if {', '.join(others)}: {beside.strip()}: {statement}")
     side = word.split()[-1]
     is_start = word == "initially" or (" " in word and side == "after" and (not said or _START.fullmatch(said)))
     if side in ("after", "before") and not is_start:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
     said = "at the start" if is_start else said
-    parts = [_condition(part) for part in re.split(r",|\band\b", said)]
+    parts = [_condition(part) for part in _PARTS.split(said)]
     if any("->" in part or part == "small motions" for part in parts):
         inner = re.fullmatch(r"limit:\s*(.+)\s+as\s(.+)", as_claim(statement), re.S)
         statement, parts = (inner[1], [*parts, inner[2]]) if inner else (statement, parts)
         return f"limit: {_ARROW.sub(' = ', statement)} as {', '.join(parts)}"
     if word == "at" and parts == [said] and not re.search("[=<>]", said):
-        return text  # a moment of the run by its name
+        return f"at {said}: {statement}"  # a moment of the run by its name
     if word == "at" and (moment := re.fullmatch(r"t\s*=\s*([\d.]+\s*\w*)", said)) and parts == [said]:
         return f"at {moment[1]}: {statement}"
     return f"if {', '.join(parts)}: {statement}"
@@ -114,6 +122,8 @@ def _condition(part: str) -> str:
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
     if _START.fullmatch(said):
         return "at the start"
+    if re.fullmatch(r"(?:in |at )?(?:static )?equilibrium", said):
+        return "in equilibrium"
     return "at rest" if said == "rest" else said
 
 

@@ -38,7 +38,7 @@ def opening(mechanism: Builder, start: State, source: CompiledModel) -> Run | No
     try:
         time = 1 / source.free_bodies(start).usual_rate(source.metadata["coordinates"], start.u)
     except MotionError:  # what the events put in place is missed
-        time = (mechanism.run_numbers().until or start.t + 1.0) - start.t
+        time = _end(mechanism, start) - start.t
     run = simulate(source, start, mechanism.run_plan(start.t + _MOMENT * time, {"step": _MOMENT * time}))
     if run.outcome.t == start.t:
         raise Unreached(f"after the events at the start: {run.outcome.name}: {run.outcome.sentence}")
@@ -67,7 +67,7 @@ def state_of(
     if t == start.t and (named in (None, START) or named in happen):
         run = opening(mechanism, start, source)
         return replace(run.motion.state(t), moment=f"after {' and '.join(happen)}") if run else start
-    run = simulate(source, start, mechanism.run_plan(None if named else t, {}))
+    run = simulate(source, start, mechanism.run_plan(_end(mechanism, start) if named else t, {}))
     if named:
         t = time_of(run, named)
     elif run.outcome.t < t:
@@ -76,6 +76,11 @@ def state_of(
     if before and t == start.t:
         return replace(start, moment=stated)
     return replace(run.motion.state(float(np.nextafter(t, -np.inf)) if before else t), moment=stated)
+
+
+def _end(mechanism: Builder, start: State) -> float:
+    """When the model's own run ends, a second after its start where it says nothing, s."""
+    return mechanism.run_numbers().until or start.t + 1.0
 
 
 def time_of(run: Run, name: str) -> float:

@@ -324,7 +324,8 @@ class Line:
         if not (isinstance(before, Num) or after_bracket) or not (self.names.known or self.now.text == "°"):
             return None
         start = self.row[self.at - 1].span[1]
-        if self.now.kind in CLOSES.values() or self.now.span[0] < start:  # within ½ or the braces of a fraction
+        inside = self.now.kind in CLOSES.values() or self.now.span[0] < start  # ½, or the braces of a fraction
+        if inside or self.now.kind == "differential":
             return None
         if upright := _UPRIGHT.match(self.text, start):
             # A word with a subscript, or one that is a symbol here, is printed upright as well.

@@ -107,7 +107,8 @@ def _is_vector(node: Node, vectors: Collection[str]) -> bool | None:
         case Cross():
             return True
         case Dot(left=left, right=right):
-            return False if inside(left) or inside(right) else inside(left)
+            kinds = [inside(left), inside(right)]
+            return _at_most_one(kinds) if False in kinds else False
         case Fn(name="abs"):
             return False
         case Add(terms=parts):

@@ -1,0 +1,26 @@
+"""What is right stays right in whichever manner it is written, as do its parts of speech."""
+
+from __future__ import annotations
+
+import random
+
+from books import FILES, UNSEEN, Book
+from manners import rewritten
+from store import every
+
+from freebody.check import Kind
+from freebody.check.file import judged_alone
+
+BOTH = FILES | UNSEEN
+TIMES = 2  # that each statement is written otherwise
+
+
+@every(BOTH, "book", share=24)
+def test_a_right_statement_is_right_in_every_manner(book: str) -> None:
+    rng, checker = random.Random(book), Book(book).checker
+    checker.correcting = False
+    right = [each["says"] for each in Book(book).data["statements"] if each["verdict"] == "right"]
+    for says in right:
+        for text in filter(None, (rewritten(rng, checker, says) for _ in range(TIMES))):
+            verdict = judged_alone(checker, text)
+            assert verdict.kind is Kind.TRUE, (says, text, str(verdict))
