@@ -26,8 +26,10 @@ MAY_USE = {
     "equations": SOLVED | {"document", "codegen", "stability"},
     "check": SOLVED | {"equations", "stability"},
     "catalogue": SOLVED | {"document", "equations", "check", "mechanism"},
+    "site": SOLVED | {"document", "check", "views", "catalogue", "mechanism"},
     "cli": SOLVED
     | {
+        "site",
         "document",
         "codegen",
         "equations",

@@ -26,6 +26,9 @@ def systems(
     as_json: AsJson = False,
     full: Annotated[bool, typer.Option("--full", help="Variants unfolded, and all figures of long rows.")] = False,
     table: Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Write every figure beside its check.")] = None,
+    site: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Write pages of all systems or this one, to be browsed offline.")
+    ] = None,
     symbolic: Annotated[bool, typer.Option("--equations", help="Its equations in the three forms, instead of answers.")] = False,
 ) -> None:
     """The worked catalogue: list it, run systems and print their answers, draw their diagrams, or judge what is stated."""
@@ -38,6 +41,8 @@ def systems(
         raise UserError(error.args[0], "freebody systems lists them") from None
     if diagrams:
         _draw(chosen, output)
+    elif site:
+        _pages(chosen, site)
     elif stated:
         _judge(chosen, as_json)
     elif identity is None and not everything:
@@ -82,6 +87,20 @@ def _answer(systems: list[System], as_json: bool, full: bool, table: Path | None
     else:
         show.show_summary(results)
     if not all(asked.ok for questions in results.values() for asked in questions):
+        raise typer.Exit(NOT_TRUE)
+
+
+def _pages(systems: list[System], folder: Path) -> None:
+    """The pages of systems, a line for each. Ends with an error where one has no page, or has an answer or a verdict that is not as it
+    should be."""
+    from freebody.site import write_site
+
+    found = []
+    for card in write_site(systems, folder):
+        found.append(card)
+        print(f"{card.id}: {card.failure or card.title}{'' if card.ok else '  (not as expected)'}", flush=True)
+    written(folder / "index.html")
+    if not all(card.ok for card in found):
         raise typer.Exit(NOT_TRUE)
 
 
