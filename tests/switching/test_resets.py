@@ -12,15 +12,16 @@ joints:
   B: {{type: free, of: [ground.O, b.centre], coordinates: [z, k]}}
 motions: {{pull: {{of: x, is: "v*t"}}}}
 initial: {{z: 1, h: 0, k: 0, rates: {{z: 4, h: 0, k: 0}}}}
-events: {{go: {{at: 0.5 s, then: {{{then}}}}}}}
+{events}
 run: {{until: 1}}
 """
+GO = "events: {{go: {{at: 0.5 s, then: {{{then}}}}}}}"
 
 
 def test_a_drive_does_the_work_of_holding_its_rate_in_a_reset():
     """Impulse m w at b, and its opposite at a, that the drive balances at its speed v: work m w v, of which ½ m w² comes from
     what resets."""
-    run = motion(CARRIER.format(then="reset: {'z - x': 1.5 m/s}"), 1)
+    run = motion(CARRIER.format(events=GO.format(then="reset: {'z - x': 1.5 m/s}")), 1)
     [reset] = changes(run, "reset")
     assert reset.lost == pytest.approx(-0.5 * 2 * 1.5**2, rel=1e-12)
     assert run.energy.works["pull"][-1] == pytest.approx(2 * 1.5 * 4, rel=1e-9)
@@ -38,7 +39,7 @@ def test_a_drive_does_the_work_of_holding_its_rate_in_a_reset():
     ],
 )
 def test_all_that_contradict_each_other_are_named_and_nothing_else(then, names, others):
-    run = model(CARRIER.format(then=then)).simulate()
+    run = model(CARRIER.format(events=GO.format(then=then))).simulate()
     assert run.outcome.name.value == "inconsistent_velocities" and run.edges[-1] == pytest.approx(0.5)
     assert all(f"{name} is off by" in run.outcome.sentence for name in names), run.outcome.sentence
     assert not any(f"{name} is off" in run.outcome.sentence for name in others)
@@ -46,17 +47,30 @@ def test_all_that_contradict_each_other_are_named_and_nothing_else(then, names, 
 
 @pytest.mark.parametrize(("until", "left"), [(2.0, False), (2.5, True)])
 def test_a_table_that_is_left_is_named(until, left):
-    text = CARRIER.replace('"v*t"', "ramp(t)").format(then="reset: {h: 1 m/s}")
+    text = CARRIER.replace('"v*t"', "ramp(t)").format(events=GO.format(then="reset: {h: 1 m/s}"))
     table = "tables: {ramp: {x: [0 s, 1 s, 2 s], y: [0 m, 2 m, 3 m], interpolation: pchip}}\n"
     run = model(text + table).simulate(until=until)
     assert run.outcome.ok and ("the table `ramp` was left, from t = 2.0" in run.outcome.sentence) == left
 
 
-@pytest.mark.parametrize(("until", "left"), [(2.0, False), (2.5, True)])
-def test_a_table_that_only_a_report_reads_is_named_where_it_is_left(until, left):
-    table = "tables: {ramp: {x: [0 s, 1 s, 2 s], y: [0 m, 2 m, 3 m]}}\nreport: {height: {max: ramp(t)}}\n"
-    run = model(CARRIER.format(then="reset: {h: 1 m/s}") + table).simulate(until=until)
-    assert run.outcome.ok and ("the table `ramp` was left, from t = 2.0" in run.outcome.sentence) == left
+READERS = {
+    "report: {height: {max: ramp(t)}}": None,
+    "events: {late: {when: ramp(t) - 9 m}}": None,
+    "events: {late: {when: h - 9 m, if: ramp(t) > 1 m, then: {lock: h}}}": None,
+    "events: {late: {at: 0.7 s, then: {set: {v: ramp(t)/(1 s)}}}}": 0.7,
+    "events: {late: {at: 0.7 s, then: {reset: {h: ramp(t)/(1 s)}}}}": 0.7,
+}
+"""Where nothing but this reads a table; when, s, if not all along."""
+
+
+@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("end", [0.6, 0.8, 2.0])
+def test_a_table_that_no_law_reads_is_named_where_it_is_left(reader, end):
+    read = READERS[reader]
+    table = f"tables: {{ramp: {{x: [0 s, {end} s], y: [0 m, 2 m]}}}}\n"
+    run = model(CARRIER.format(events=reader) + table).simulate()
+    assert run.outcome.ok and ("`ramp` was left" in run.outcome.sentence) == ((read or 1) > end)
+    assert "left" not in run.outcome.sentence or f"from t = {read or end}" in run.outcome.sentence
 
 
 CAM = """

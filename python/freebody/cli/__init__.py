@@ -12,7 +12,7 @@ from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.find import find
 from freebody.cli.inverse import inverse
-from freebody.cli.models import leading_to, moment, obtained, opened, simulated, warn_how_far, written
+from freebody.cli.models import how_far, leading_to, moment, obtained, opened, simulated, time_of, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
 from freebody.cli.periodic import periodic
 from freebody.cli.stability import stability
@@ -97,7 +97,7 @@ def solve(
     opening = None if timed else mechanism.opening(**asked)
     routes = [each for each in get_args(Route) if each != "all"] if route == "all" else [route]
     solved = [mechanism.solve(route=name, **asked | ({"before": "start"} if opening else {})) for name in routes]
-    show.instants(solved, opening, leading_to(mechanism, asked), axes == "joint", balance, as_json)
+    show.instants(solved, opening, leading_to(mechanism, time_of(mechanism, asked)), axes == "joint", balance, as_json)
 
 
 @app.command(cls=Command)
@@ -142,19 +142,23 @@ def diagram(
 ) -> None:
     """Draw free-body diagrams, by default of every body by itself; or impulse diagrams of an impact."""
     asked, mechanism = moment(at, before, after), opened(model, changes)
-    warn_how_far(mechanism, asked)
     if impact is None:
-        drawn = mechanism.diagram(of, to_scale=to_scale, effective=effective, column=column, **asked)
+        t, drawn = (
+            time_of(mechanism, asked),
+            mechanism.diagram(of, to_scale=to_scale, effective=effective, column=column, **asked),
+        )
     elif asked.keys() - {"at"}:
         raise UserError(
             "--impact is of the run: --at takes a time, and --before and --after are not for it", "change the start in the model"
         )
     else:
-        drawn = mechanism.impulse_diagram(of, impact, at=asked.get("at"), to_scale=to_scale, effective=effective, column=column)
+        t = mechanism.blow(impact, **asked).change.t
+        drawn = mechanism.impulse_diagram(of, impact, to_scale=to_scale, effective=effective, column=column, **asked)
+    known = leading_to(mechanism, t)
     if as_json:
-        print_json(drawn.data)
+        print_json([cut | ({"digits": known.to_json()} if known else {}) for cut in drawn.data])
     if output or not as_json:
-        saved = drawn.save(output or Path("fbd.svg"))
+        saved = drawn.with_remark(how_far(known)).save(output or Path("fbd.svg"))
         if not as_json:
             written(saved)
 

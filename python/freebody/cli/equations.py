@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from freebody.cli.models import moment, opened, pairs, warn_how_far, written
+from freebody.cli.models import how_far, leading_to, moment, opened, pairs, time_of, written
 from freebody.cli.options import After, Before, Model, offering
 from freebody.cli.terminal import speaks_unicode, spelt, width
 from freebody.cli.user_errors import UserError
@@ -106,7 +106,7 @@ def equations(
             found = derived(mechanism, form, wanted[0] if wanted else None, at_rest, substituted, when, asked_for)
     except KeyError as error:
         raise UserError(error.args[0], "freebody equations MODEL --form brute lists all unknowns") from None
-    warn_how_far(mechanism, when)
+    found = found.with_remark(how_far(leading_to(mechanism, time_of(mechanism, when))))
     kinds = [each.ending for each in FORMATS.values() if asked[each.word]]
     if len(kinds) > 1:
         raise UserError(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -89,21 +88,19 @@ def moment(at: list[str] | None, before: str | None = None, after: str | None = 
     return {name: text for name, text in named.items() if text} | ({} if times else pairs(at))
 
 
-def leading_to(mechanism: Mechanism, asked: Mapping[str, str]) -> Accuracy | None:
-    """How far the motion is known that leads to a moment of it; None at a start."""
-    t = mechanism.moment(**asked)[0].t if {"at", "before", "after"} & asked.keys() else 0.0
+def time_of(mechanism: Mechanism, asked: Mapping[str, str]) -> float:
+    """When a moment is, s; 0 where it is a start."""
+    return mechanism.moment(**asked)[0].t if {"at", "before", "after"} & asked.keys() else 0.0
+
+
+def leading_to(mechanism: Mechanism, t: float) -> Accuracy | None:
+    """How far the motion is known that leads to a time, s; None at a start."""
     return mechanism.simulate(t).accuracy if t > 0 else None
 
 
-def how_far(known: Accuracy) -> str:
-    """The sentence of it."""
-    return f"The motion until then {known.sentence}."
-
-
-def warn_how_far(mechanism: Mechanism, asked: Mapping[str, str]) -> None:
-    """Says so beside what is printed or drawn of that moment."""
-    if known := leading_to(mechanism, asked):
-        print(how_far(known), file=sys.stderr)
+def how_far(known: Accuracy | None) -> str:
+    """The sentence of it; none where there is nothing to say."""
+    return f"The motion until then {known.sentence}." if known else ""
 
 
 def written(*files: Path) -> None:

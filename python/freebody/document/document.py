@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from freebody.document.blocks import Block, Equation, Figure, MatrixEquation, is_tree
+from freebody.document.blocks import Block, Equation, Figure, MatrixEquation, Paragraph, is_tree
 from freebody.document.rendering import FORMATS
 from freebody.document.rendering.html import page
 from freebody.document.rendering.text import Text
@@ -23,6 +23,11 @@ class Document:
 
     blocks: Sequence[Block]
     letters: Nomenclature = field(default_factory=Nomenclature)
+
+    def with_remark(self, words: str) -> Document:
+        """The same with a sentence below the title, if there is one."""
+        title, rest = self.blocks[:1], self.blocks[1:]
+        return replace(self, blocks=[*title, Paragraph(words), *rest]) if words else self
 
     def printed(self, kind: str, beside: str = "") -> str:
         """In an output format, by the ending of its files; figures are files whose names begin with ``beside``, words where that is

@@ -7,6 +7,8 @@ use crate::mechanism::{FrictionSource, Mechanism};
 
 /// Part of the way of a motion within which bodies are in one place.
 const ONE_PLACE: f64 = 1e-12;
+/// Part of the largest term that what is left of an acceleration has to exceed: below it what balances is off by round-off.
+const BALANCED: f64 = 1e-12;
 
 impl Mechanism {
     /// The median distance of the places from their bodies' joint origins; else of the lengths that the model tells, m.
@@ -81,12 +83,15 @@ impl Workspace<'_> {
         self.placed.u.iter().zip(units).map(|(u, unit)| u.abs() / unit).fold(fall, f64::max)
     }
 
-    /// Accelerations of the coordinates at the present state in the present mode; 0 where there are none.
+    /// Accelerations of the coordinates at the present state in the present mode; 0 where there are none, but for round-off.
     fn accelerations_unheld(&mut self) -> Vec<f64> {
         let mut accelerations = vec![0.0; self.placed.u.len()];
-        if self.solve().is_ok() {
-            self.accelerations(&mut accelerations);
+        if self.solve().is_err() {
+            return accelerations;
         }
-        accelerations.iter().map(|a| if a.is_finite() { *a } else { 0.0 }).collect()
+        self.accelerations(&mut accelerations);
+        let least = BALANCED * self.term_scales().acceleration / self.length;
+        let moves = |a: f64, unit: f64| a.is_finite() && a.abs() > least * unit;
+        accelerations.iter().zip(self.units()).map(|(&a, unit)| if moves(a, unit) { a } else { 0.0 }).collect()
     }
 }

@@ -98,9 +98,9 @@ impl Table {
         }
     }
 
-    /// The first and the last argument, beyond which the end value holds; a periodic table has none.
-    pub fn span(&self) -> Option<[f64; 2]> {
-        self.period.is_none().then_some([self.x[0], self.x[self.x.len() - 1]])
+    /// Whether an argument is before the first or after the last, where the end value holds; a periodic table has no end.
+    pub fn is_beyond(&self, x: f64) -> bool {
+        self.period.is_none() && (x < self.x[0] || x > self.x[self.x.len() - 1])
     }
 
     /// How far `x` is beyond a knot; of a periodic table a function of `x` that vanishes likewise at what repeats the knot.

@@ -6,7 +6,7 @@ use super::works::Works;
 use super::{HybridSystem, Settings};
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
-use crate::mechanism::{Discontinuity, Mechanism};
+use crate::mechanism::{Discontinuity, Event, EventAction, Mechanism};
 use crate::mode::Mode;
 use crate::motion::{EventRecord, Outcome, Run, Unresolved};
 
@@ -263,22 +263,29 @@ impl Trajectory {
         Ok(rows)
     }
 
-    /// Tables of laws, curves and what is `reported` that were left, each with when first, s.
+    /// Tables of laws, curves, events and what is `reported` that were left, each with when first, s.
     ///
     /// # Errors
     /// As [`Trajectory::sample`].
     pub fn tables_left(&self, m: &Mechanism, reported: &[ModelExpr]) -> Result<Vec<(usize, f64)>, DynamicsError> {
         let in_laws = m.discontinuities.iter().filter_map(|discontinuity| match discontinuity {
-            Discontinuity::Knot(table, argument, x)
-                if m.tables[*table].span().is_some_and(|[first, _]| *x == first) =>
-            {
+            Discontinuity::Knot(table, argument, x) if m.tables[*table].knots().next() == Some(*x) => {
                 Some((*table, argument.clone()))
             }
             _ => None,
         });
+        let read = m.events.iter().flat_map(Event::watched).chain(reported).flat_map(ModelExpr::lookups);
         // Steps end where a law comes to a knot, but not for what is only read.
         let mut left = self.first_beyond(m, in_laws.collect(), &[0.5])?;
-        left.extend(self.first_beyond(m, reported.iter().flat_map(ModelExpr::lookups).collect(), &LOOKS)?);
+        left.extend(self.first_beyond(m, read.collect(), &LOOKS)?);
+        for event in &self.events {
+            let just_before = (event.t - f64::EPSILON * event.t.abs()).max(self.steps[0]);
+            let acting = m.events[event.index].then.iter().filter_map(EventAction::law);
+            for (table, argument) in acting.flat_map(ModelExpr::lookups) {
+                let x = self.evaluate(m, &[&argument], &[just_before])?[0][0];
+                left.extend(m.tables[table].is_beyond(x).then_some((table, event.t)));
+            }
+        }
         left.sort_by(|a: &(usize, f64), b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         left.dedup_by_key(|(table, _)| *table);
         Ok(left)
@@ -299,8 +306,7 @@ impl Trajectory {
         let times: Vec<f64> = self.steps.first().copied().into_iter().chain(within).collect();
         let (rows, mut found) = (self.evaluate(m, &arguments, &times)?, vec![]);
         for (k, &table) in tables.iter().enumerate() {
-            let Some([first, last]) = m.tables[table].span() else { continue };
-            let is_beyond = |x: f64| x < first || x > last;
+            let is_beyond = |x: f64| m.tables[table].is_beyond(x);
             let Some(step) = rows.iter().position(|row| is_beyond(row[k])) else { continue };
             let (mut before, mut after) = (times[step.saturating_sub(1)], times[step]);
             for _ in 0..HALVINGS {

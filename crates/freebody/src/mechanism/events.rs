@@ -55,3 +55,20 @@ pub enum EventAction {
         rate: ModelExpr,
     },
 }
+
+impl Event {
+    /// What is read of the motion to see whether it happens.
+    pub fn watched(&self) -> impl Iterator<Item = &ModelExpr> {
+        [&self.when].into_iter().chain(self.condition.as_ref().map(Condition::as_expr))
+    }
+}
+
+impl EventAction {
+    /// What is read of the motion where it acts.
+    pub fn law(&self) -> Option<&ModelExpr> {
+        match self {
+            EventAction::Set(_, law) | EventAction::Reset { rate: law, .. } => Some(law),
+            EventAction::Stop | EventAction::Release(_) | EventAction::Engage(_) => None,
+        }
+    }
+}

@@ -53,6 +53,11 @@ class Diagram(Picture):
     name: str
     free: FreeBodies
     draw: Callable[[], Iterable[Cut]]
+    remark: str = ""
+
+    def with_remark(self, words: str) -> Diagram:
+        """The same with a sentence below all of them."""
+        return replace(self, remark=words)
 
     @cached_property
     def cuts(self) -> tuple[Cut, ...]:
@@ -72,7 +77,8 @@ class Diagram(Picture):
     @property
     def rows(self) -> tuple[Cut, ...]:
         """A row for every cut."""
-        return self.cuts
+        *others, last = self.cuts
+        return (*others, replace(last, notes=[*last.notes, *filter(None, [self.remark])]))
 
     @property
     def description(self) -> str:
@@ -81,7 +87,7 @@ class Diagram(Picture):
         for cut in self.cuts:
             stated = [f"{mark.action.sign.plain} {mark.action.way} on {mark.action.body}" for mark in cut.forces]
             made.append(f"On {' and '.join(cut.group)} {'act: ' if stated else 'nothing acts'}{'; '.join(stated)}.")
-        return " ".join(made)
+        return " ".join([*made, *filter(None, [self.remark])])
 
 
 def diagram(
