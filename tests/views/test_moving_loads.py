@@ -8,6 +8,7 @@ import pytest
 
 from freebody import Instant, Mechanism, Run
 from freebody.views.report.data import frames
+from freebody.views.report.instants import farthest
 from freebody.views.report.loads import loads
 from freebody.views.scene import of_run
 
@@ -120,3 +121,24 @@ def test_a_run_from_a_file_knows_no_loads(tmp_path):
     run = Mechanism.loads(MODELS["new_gun"]).simulate(until=0.2)
     back = Run.load(run.save(tmp_path / "run.csv"))
     assert loads(back, of_run(back, frames(back))) is None
+
+
+def test_the_largest_reactions_are_among_what_is_told():
+    run = Mechanism.loads(MODELS["four_bar"]).simulate(until=0.9)
+    sketch = of_run(run, frames(run)[:2])
+    data = loads(run, sketch)
+    for peak in run.peaks:
+        own = [x for x in data["tracks"] if x["name"] == peak.joint and sketch.names[x["figure"]] == peak.body]
+        k = data["t"].index(peak.t)
+        assert np.hypot(*(sum(column(x[part], k) for x in own) for part in ("fx", "fy"))) == pytest.approx(peak.size, rel=SHARE)
+
+
+def test_lines_follow_a_peak_between_two_even_instants():
+    t, kept = np.linspace(0.0, 1.0, 4001), np.linspace(0.0, 1.0, 20)
+    y = np.exp(-(((t - 0.61) / 0.004) ** 2))[:, None]
+
+    def miss(times):
+        return np.abs(np.interp(t, times, np.interp(times, t, y[:, 0])) - y[:, 0]).max()
+
+    found = farthest(t, y, kept, 30)
+    assert len(found) <= 30 and miss(np.union1d(kept, found)) < 0.02 < 0.5 < miss(np.linspace(0.0, 1.0, 50))

@@ -20,7 +20,8 @@ test("a range leaves room, and leaves out what is no number", () => {
   expect(rangeOf([new Float32Array([NaN])])).toEqual({ low: -1, high: 1 });
 });
 
-test("numbers have a true minus sign", () => {
+test("numbers have a true minus sign, and powers of ten", () => {
+  expect(tickLabel(-2e-9, 4e-9)).toBe("−2·10⁻⁹");
   expect(tickLabel(-0.5, 1)).toBe("−0.5");
   expect(figure(-12.3456)).toBe("−12.35");
   expect(figure(NaN)).toBe("–");

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import Array, quote
-from freebody.run.records import Signal, Window, refined
+from freebody.run.records import Signal, refined
 from freebody.solve.figures import Known
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Peak:
 
 def peak_reactions(run: Run) -> list[Peak]:
     """Peaks of all that can carry a load, refined between the steps where the motion is known there."""
-    sampled = run if run.recorded else run.at(Window(run.edges).samples(least=3))
+    sampled = run.closely
     noise = couple_noise(sampled)
     peaks = [
         _peak(run, sampled, i, name, noise) for i, (name, reaction) in enumerate(sampled.reactions.items()) if reaction.carries

@@ -192,6 +192,11 @@ class Run(PlainText):
         return Reactions(made)
 
     @cached_property
+    def closely(self) -> Run:
+        """The same run on output times of which every step has some, so that between two of them everything is simple."""
+        return self if self.recorded else self.at(Window(self.edges).samples(least=3))
+
+    @cached_property
     def peaks(self) -> list[Peak]:
         """The largest load of each joint, contact, string, stop, lock and prescribed motion, with the digits that hold."""
         return known_peaks(self)

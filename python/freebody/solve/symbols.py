@@ -120,10 +120,11 @@ def _name(load: Load, force: _Law) -> Name:
         return Name(load.card.stem, (owner, *below, load.axis)) if load.card.stem else Name(owner, (*below, load.axis))
     number = load.number
     if force and number:
-        # The first load of a force has its name; each further one what it is in addition.
-        first, number = cards.forces()[force["type"]].parts[0].name, None
-        if load.card.name != first:
-            owner = owner.replace(first, load.card.name) if first in owner else f"{owner} {load.card.name}"
+        # The load that a force is named for has its name, else the first; each other one what it is in addition.
+        parts, number = [part.name for part in cards.forces()[force["type"]].parts], None
+        main = next((part for part in parts if part in owner), parts[0])
+        if load.card.name != main:
+            owner = owner.replace(main, load.card.name) if main in owner else f"{owner} {load.card.name}"
     return Name(load.card.stem, (owner, *below, *([str(number)] if number else [])))
 
 

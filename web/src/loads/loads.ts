@@ -2,6 +2,7 @@ import { floats } from "../data/floats";
 import type { Balance, Column, Effective, Kind, Loads, Point, Track } from "../data/types";
 import { moved, type Pose } from "../scene/motion";
 import { placeIn, type Place } from "../time/between";
+import { readAt, type Reading } from "../time/curve";
 
 /** What acts on a body, or m a and I α of it, at one time: in N and N·m, in the fixed axes. */
 export interface Action {
@@ -16,14 +17,20 @@ export interface Action {
   at: Point;
   force: Point;
   couple: number;
+  /** About how far force and couple may be from what they are, since they are known at some times and read between them. */
+  miss: { force: number; couple: number };
 }
 
 type Decoded<T> = Omit<T, "x" | "y" | "fx" | "fy" | "m"> & { columns: (number | Float32Array)[] };
 
 const decode = (column: Column): number | Float32Array => (typeof column === "number" ? column : floats(column));
 
-function read(column: number | Float32Array, { low, high, part }: Place): number {
-  return typeof column === "number" ? column : part === 0 ? column[low] : column[low] + part * (column[high] - column[low]);
+const read = (times: number[], column: number | Float32Array, place: Place): Reading =>
+  typeof column === "number" ? { value: column, miss: 0 } : readAt(times, column, place);
+
+/** What the columns fx, fy, m say. */
+function wrenchOf([x, y, m]: Reading[]): Pick<Action, "force" | "couple" | "miss"> {
+  return { force: [x.value, y.value], couple: m.value, miss: { force: Math.max(x.miss, y.miss), couple: m.miss } };
 }
 
 /** By which m a and I α of a figure are lit. */
@@ -43,20 +50,20 @@ export class LoadHistory {
   terms(t: number, poses: Pose[]): Action[] {
     const place = placeIn(this.data.t, t);
     return this.#tracks.flatMap((track) => {
-      const [x, y, fx, fy, couple] = track.columns.map((column) => read(column, place));
-      const known = !Number.isNaN(fx + fy + couple);
-      const at = moved(poses[track.figure], [x, y]);
-      return known ? [{ ...track, key: track.arrow, symbols: [track.symbol], at, force: [fx, fy] as Point, couple }] : [];
+      const [x, y, ...wrench] = track.columns.map((column) => read(this.data.t, column, place));
+      const known = wrench.every(({ value }) => !Number.isNaN(value));
+      const at = moved(poses[track.figure], [x.value, y.value]);
+      return known ? [{ ...track, key: track.arrow, symbols: [track.symbol], at, ...wrenchOf(wrench) }] : [];
     });
   }
 
   effective(t: number, poses: Pose[]): Action[] {
     const place = placeIn(this.data.t, t);
     return this.#bodies.map(({ figure, G, ma, columns }) => {
-      const [fx, fy, couple] = columns.map((column) => read(column, place));
       const symbols = [effectiveSymbol(figure)];
       const at = moved(poses[figure], G);
-      return { key: symbols[0], label: ma, kind: "effective", name: ma, figure, others: [], symbols, at, force: [fx, fy], couple };
+      const wrench = wrenchOf(columns.map((column) => read(this.data.t, column, place)));
+      return { key: symbols[0], label: ma, kind: "effective", name: ma, figure, others: [], symbols, at, ...wrench };
     });
   }
 
@@ -77,24 +84,32 @@ export class LoadHistory {
     return (this.data.balances[mode] ?? []).filter((balance) => balance.figure === figure);
   }
 
-  /** The size that nine in ten of all forces do not exceed, and the same of couples. */
+  /** The size that forces do not exceed in nine tenths of the time, and the same of couples. */
   usual(): { force: number; couple: number } {
     const still: Pose[] = Array.from({ length: 1 + this.#bodies.length }, () => ({ x: 0, y: 0, angle: 0 }));
-    const forces: number[] = [];
-    const couples: number[] = [];
-    for (const t of this.data.t) {
+    const forces: Lasting[] = [];
+    const couples: Lasting[] = [];
+    const times = this.data.t;
+    times.forEach((t, k) => {
+      const lasts = (times[k + 1] ?? t) - (times[k - 1] ?? t) || 1;
       for (const { force, couple } of [...arrows(this.terms(t, still)), ...this.effective(t, still)]) {
-        forces.push(Math.hypot(...force));
-        couples.push(Math.abs(couple));
+        forces.push({ size: Math.hypot(...force), lasts });
+        couples.push({ size: Math.abs(couple), lasts });
       }
-    }
+    });
     return { force: ninth(forces), couple: ninth(couples) };
   }
 }
 
-function ninth(sizes: number[]): number {
-  const sorted = sizes.filter((size) => size > 0).sort((a, b) => a - b);
-  return sorted[Math.floor(0.9 * sorted.length)] ?? 0;
+interface Lasting {
+  size: number;
+  lasts: number;
+}
+
+function ninth(all: Lasting[]): number {
+  const sorted = all.filter(({ size }) => size > 0).sort((one, other) => one.size - other.size);
+  let left = 0.9 * sorted.reduce((sum, { lasts }) => sum + lasts, 0);
+  return sorted.find(({ lasts }) => (left -= lasts) < 0)?.size ?? 0;
 }
 
 /** Components of one force together, as one arrow. */
@@ -114,6 +129,11 @@ export function arrows(terms: Action[]): Action[] {
 /** Those on a group of figures that come from outside of it. */
 export function outside<T extends { figure: number; others: number[] }>(actions: T[], group: Set<number>): T[] {
   return actions.filter(({ figure, others }) => group.has(figure) && !(others.length && others.every((other) => group.has(other))));
+}
+
+/** How far the part of a load in a balance may be from what it is. */
+export function contributionMiss({ at, miss }: Action, about: "x" | "y" | "G", [x, y]: Point): number {
+  return about === "G" ? miss.couple + (Math.abs(at[0] - x) + Math.abs(at[1] - y)) * miss.force : miss.force;
 }
 
 /** The part of a load in a balance: a force along an axis, or a moment about a place. */

@@ -28,16 +28,22 @@ export function rangeOf(values: Iterable<number>[]): Range {
   return { low: low - room, high: high + room };
 }
 
+const RAISED = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
 const minus = (text: string): string => text.replaceAll("-", "−");
 
 /** A number at an axis whose largest is `largest`. */
 export function tickLabel(x: number, largest: number): string {
   const exact = Math.abs(x) < 1e-12 * largest ? 0 : x;
   const long = Math.abs(exact) >= 1e5 || (exact !== 0 && largest < 1e-3);
-  return minus(long ? exact.toExponential(1) : String(Number(exact.toPrecision(6))));
+  if (!long) return minus(String(Number(exact.toPrecision(6))));
+  const [mantissa, power] = exact.toExponential(1).split("e");
+  return minus(`${Number(mantissa)}·10${[...String(Number(power))].map((sign) => RAISED["-0123456789".indexOf(sign)]).join("")}`);
 }
 
-/** A value with as many digits as one reads. */
-export function figure(x: number | null): string {
-  return x === null || Number.isNaN(x) ? "–" : minus(String(Number(x.toPrecision(4))));
+/** A value with as many digits as one reads, none of them below the `error` that it may have. */
+export function figure(x: number | null, error = 0): string {
+  if (x === null || Number.isNaN(x)) return "–";
+  const read = Number(x.toPrecision(4));
+  const least = error > 0 ? 10 ** Math.ceil(Math.log10(error)) : 0;
+  return minus(String(least > 0 ? Number((Math.round(read / least) * least).toPrecision(4)) + 0 : read));
 }

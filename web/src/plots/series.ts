@@ -1,7 +1,8 @@
 import { floats } from "../data/floats";
 import type { Plot } from "../data/types";
 import { placeIn } from "../time/between";
-import type { Range } from "./scale";
+import { readAt } from "../time/curve";
+import { figure, type Range } from "./scale";
 
 /** A curve over time; NaN where it has a gap. */
 export interface Series {
@@ -20,8 +21,13 @@ export function seriesOf(plot: Plot): Series[] {
 
 /** Its value at a time; NaN within a gap. */
 export function valueAt({ t: times, y }: Series, t: number): number {
-  const { low, high, part } = placeIn(times, t);
-  return part === 0 ? y[low] : part === 1 ? y[high] : y[low] + part * (y[high] - y[low]);
+  return readAt(times, y, placeIn(times, t)).value;
+}
+
+/** The same as one reads it: no digit of it is what the line between two values makes up. */
+export function figureAt(series: Series, t: number): string {
+  const { value, miss } = readAt(series.t, series.y, placeIn(series.t, t));
+  return figure(value, miss);
 }
 
 /** Its values within a stretch of time. */

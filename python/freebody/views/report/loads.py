@@ -14,6 +14,7 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.views.diagram.names import Labels
 from freebody.views.report.balances import balances
 from freebody.views.report.floats import floats
+from freebody.views.report.instants import telling_instants
 from freebody.views.sketch import Sketch
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 _NUMBERS = 50_000
 """Of all columns together: a quarter of a megabyte."""
-_INSTANTS, _SWITCHES, _MODES, _IMPULSES = 300, 60, 6, 200
+_INSTANTS, _MODES, _IMPULSES = 300, 6, 200
 _ROUND_OFF = 1e-9
 """Of the largest of its kind, below which a load is what rounding left."""
 
@@ -75,13 +76,9 @@ def _mode(free: FreeBodies) -> tuple[str, ...]:
 
 
 def _instants(run: Run) -> tuple[Array, list[State], list[FreeBodies]]:
-    """Times, evenly spread, with those of switches twice: just before and just after; and what acts at them, where it is known."""
-    start, end = run.edges[0], run.edges[-1]
-    jumps = run.jumps[(run.jumps > start) & (run.jumps < end)]
-    jumps = jumps[:: len(jumps) // _SWITCHES + 1]
+    """Times that tell what acts, those of switches twice: just before and just after; and what acts at them, where it is known."""
     each = 5 * sum(len(load.on) for load in run.source.free_bodies(run.start).loads)
-    even = np.linspace(start, end, int(np.clip(_NUMBERS // max(each, 1) - 2 * len(jumps), 60, _INSTANTS)))
-    times = np.unique(np.concatenate([even, jumps, np.nextafter(jumps, -np.inf)]))
+    times = telling_instants(run, int(np.clip(_NUMBERS // max(each, 1), 60, _INSTANTS)))
     states = [run.motion.state(float(t)) for t in times]
     found = [(t, state, free) for t, state in zip(times, states, strict=True) if (free := _free(run, state)) is not None]
     return np.array([t for t, _, _ in found]), [state for _, state, _ in found], [free for _, _, free in found]

@@ -103,8 +103,7 @@ def below(run: Run) -> list[Table]:
     for name, y in ledger.entries.items():
         start, *later = y[0], y[-1], y.min(), y.max()
         stored.append((name, *map(_figure, (start, *(map(known[name].like, later) if known else later)))))
-    worst = f"{np.abs(ledger.balance).max():.1e}".replace("e-", "e−")
-    remark = f"Energy error below {worst} J at all output times."
+    remark = f"Energy error below {_figure(np.abs(ledger.balance).max(), 2)} J at all output times."
     masses = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in bodies]
     tables = (
         _mode_changes(run),
@@ -122,8 +121,8 @@ def sentence(text: str) -> str:
 
 
 def marked(text: str) -> Markup:
-    """A sentence with what stands between backticks as code."""
-    return Markup(re.sub("`([^`]*)`", r"<code>\1</code>", str(escape(text))))
+    """A sentence with what stands between backticks as code, and powers of ten raised."""
+    return Markup(re.sub("`([^`]*)`", r"<code>\1</code>", str(raised(text))))
 
 
 def is_figure(cell: str) -> bool:
@@ -132,7 +131,7 @@ def is_figure(cell: str) -> bool:
 
 
 def raised(cell: str) -> Markup:
-    """A cell with the powers of ten raised."""
+    """A text with the powers of ten raised."""
     return Markup(re.sub(r"× 10\^(−?\d+)", r"× 10<sup>\1</sup>", str(escape(cell))))
 
 
