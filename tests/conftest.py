@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+from zlib import crc32
 
 import pytest
 from store import sample
@@ -25,16 +26,17 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    families, seed = defaultdict(dict), config.getoption("sample")
+    families, variants, seed = defaultdict(dict), defaultdict(list), config.getoption("sample")
     for item in items:
         if found := item.get_closest_marker("family"):
             name, share = found.args
             families[item.path, item.originalname][name] = share
-    visited = {test: sample({*names}, seed, max(names.values())) for test, names in families.items()}
+            variants[item.path, item.originalname, name].append(item)
+    visited = {test: sample({*names}, seed, max(names.values()), test[0].stem) for test, names in families.items()}
+    drawn = {id(item) for (*test, name), some in variants.items() if name in visited[tuple(test)] for item in some_of(some, seed)}
 
     def is_taken(item: pytest.Item) -> bool:
-        found = item.get_closest_marker("family")
-        return not item.get_closest_marker("long") and (not found or found.args[0] in visited[item.path, item.originalname])
+        return not item.get_closest_marker("long") and (not item.get_closest_marker("family") or id(item) in drawn)
 
     members = [item for item in items if item.get_closest_marker("family")]
     if not config.getoption("all"):
@@ -42,6 +44,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         config.hook.pytest_deselected(items=left_out)
     taken = [item for item in items if item.get_closest_marker("family")]
     config.stash[SEEN] |= {"families": len(families), "members": len(members), "taken": len(taken)}
+
+
+def some_of(variants: list[pytest.Item], seed: int) -> list[pytest.Item]:
+    """Of the ways in which a law visits one member, by form, scale or route, a third, for all laws the same of one member."""
+    return sorted(variants, key=lambda item: crc32(f"{seed} {item.callspec.id}".encode()))[: -(-len(variants) // 3)]
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:

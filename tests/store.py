@@ -32,18 +32,23 @@ REPRESENTATIVE = (
     "19.3.27/model", "19.3.27/plate", "19.3.27/table", "19.3.29/model", "EX-ARM/held", "EX-BLOCK/model", "GEN-CAR/driveshaft", "GEN-SUSP/one_sided", "GEN-WALK/model", "S19.15/model",
     "S19.17/free_end", "examples/tossed_box",
 )  # fmt: skip
-"""Always visited: together they hold every kind of part that any model has (``test_sample.py``)."""
+"""Together they hold every kind of part that any model has (``test_sample.py``); each file of laws visits a part of them."""
 
-SHARE, LEAST = 28, 3
-"""Beside those that are always visited, one of so many members of a family is drawn, and no fewer than that."""
+REPRESENTED, SHARE, LEAST = 2, 28, 3
+"""One of so many representative members of a family is visited, beside them one of so many others, and no fewer than that; where a law
+has a share of its own, of both as many fewer or more."""
 LONG = {"GEN-ROBOT", "50", "58", "106", "116"}
 """Systems and seeds of random models that take long wherever they are visited: with ``--all`` only."""
 
 
-def sample(names: set[str], seed: int, share: int = SHARE) -> set[str]:
-    """The members of a family that are visited: the representative ones, and one of ``share`` that are drawn."""
-    drawn = sorted(names - LONG, key=lambda name: zlib.crc32(f"{seed} {name}".encode()))
-    return names & {*REPRESENTATIVE} | set(drawn[: max(LEAST, len(names) // share)])
+def sample(names: set[str], seed: int, share: int = SHARE, where: str = "") -> set[str]:
+    """The members of a family that are visited: of the representative ones others in each file of laws."""
+
+    def drawn(some: set[str], where: str = "") -> list[str]:
+        return sorted(some, key=lambda name: zlib.crc32(f"{seed} {where}{name}".encode()))
+
+    known = drawn(names & {*REPRESENTATIVE}, where)
+    return {*known[: -(-len(known) * SHARE // (REPRESENTED * share))], *drawn(names - LONG)[: max(LEAST, len(names) // share)]}
 
 
 def every(names: Iterable[str], argument: str = "model", share: int = SHARE) -> pytest.MarkDecorator:
@@ -55,6 +60,11 @@ def family(names: Iterable[str], share: int = SHARE, group: str = "") -> list:
     """The same for a fixture's ``params``; all in one process if there is a ``group``."""
     marks = pytest.mark
     return [pytest.param(name, id=name, marks=(marks.family(name, share), marks.xdist_group(group or name))) for name in names]
+
+
+def but_long(names: Iterable[object], *long: object) -> list:
+    """A test's parameters, of which some take long: those are visited with ``--all`` only."""
+    return [pytest.param(name, marks=pytest.mark.long) if name in long else name for name in names]
 
 
 @cache

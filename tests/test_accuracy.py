@@ -4,11 +4,12 @@ import runpy
 from pathlib import Path
 
 import pytest
+from store import but_long
 
 ACCURACY = runpy.run_path(str(Path(__file__).parents[1] / "benchmarks" / "accuracy" / "accuracy.py"))
 
 
-@pytest.mark.parametrize("check", ACCURACY["QUICK"])
+@pytest.mark.parametrize("check", but_long(ACCURACY["QUICK"], ACCURACY["billiard"]))
 def test_every_figure_is_reached(check):
     rows = list(check())
     assert rows

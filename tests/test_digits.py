@@ -103,7 +103,7 @@ def true_digits(values, exactly):
     return np.floor(np.clip(-np.log10(np.maximum(error, 1e-300) / size), 0, 15))
 
 
-@pytest.mark.parametrize("name", family(DRAWS, 4, "exact solutions"))
+@pytest.mark.parametrize("name", family(DRAWS, 10, "exact solutions"))
 def test_no_more_digits_are_claimed_than_are_right(name):
     model = rods(*DRAWS[name])
     for rtol in RTOLS:

@@ -1,4 +1,4 @@
-"""The models that are always visited are a sample of everything that a model can hold."""
+"""The representative models are a sample of everything that a model can hold."""
 
 from store import MODELS, REPRESENTATIVE, mechanism, sample
 
@@ -28,7 +28,7 @@ def parts(spec):
     yield from (word for word in ("gravity", "tables", "gauges", "curves", "lines") if spec[word])
 
 
-def test_what_is_always_visited_holds_every_kind_of_part():
+def test_what_is_representative_holds_every_kind_of_part():
     found = {name: set(parts(mechanism(name).source().spec)) for name in MODELS}
     missing = set.union(*found.values()) - set.union(*(found[name] for name in REPRESENTATIVE))
     assert not missing, {part: [name for name in MODELS if part in found[name]] for part in missing}
@@ -36,5 +36,5 @@ def test_what_is_always_visited_holds_every_kind_of_part():
 
 def test_another_seed_draws_other_members():
     assert len({frozenset(sample(set(MODELS), seed)) for seed in range(10)}) == 10
-    assert all(set(REPRESENTATIVE) < sample(set(MODELS), seed) for seed in range(10))
+    assert set(REPRESENTATIVE) < {name for law in range(20) for name in sample(set(MODELS), 1, where=str(law))}
     assert len(sample({"a", "b", "c", "d"}, 1)) == 3

@@ -195,6 +195,7 @@ def same(first, second):
         assert float(evaluate(first, at)) == pytest.approx(float(evaluate(second, at)), rel=1e-10)
 
 
+@pytest.mark.long
 def test_half_angles_of_double_pendulum_are_short():
     """The equations of two rods without mass and two particles: the denominator is the textbook's m₁ + m₂ sin²(θ₁ − θ₂)."""
     one, two = sym("theta1"), sym("theta2")

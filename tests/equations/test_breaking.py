@@ -6,6 +6,7 @@ import re
 import matplotlib
 import pytest
 from material import LETTERS, cos, half, product, sin, square, sym
+from store import but_long
 
 from freebody.check.language.glyphs import glyphs
 from freebody.document.blocks import Equation
@@ -63,7 +64,7 @@ def test_a_short_left_side_stands_beside_the_first_line():
     assert aligned(equation(typed("E"), right)).startswith("\\begin{aligned}\nE &= ")
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", but_long(range(3), 1, 2))
 def test_widths_are_those_of_computer_modern(seed):
     """Against the typesetting of another program, with the same symbols."""
     from matplotlib.mathtext import MathTextParser

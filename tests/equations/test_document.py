@@ -149,7 +149,8 @@ DERIVATIONS = {
 }
 
 
-@pytest.mark.parametrize("which", ["of every block", *(pytest.param(x, marks=pytest.mark.long) for x in [*DERIVATIONS][1:])])
+@pytest.mark.long
+@pytest.mark.parametrize("which", DERIVATIONS)
 def test_latex_compiles_with_its_figures(which, tmp_path):
     """Nothing is missing from the page, and nothing is wider."""
     head = r"\documentclass{article}\usepackage[utf8]{inputenc}\usepackage{amsmath,amssymb,graphicx}\begin{document}"

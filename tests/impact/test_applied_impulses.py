@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import sympy
 from colliding import SYSTEMS
+from store import but_long
 
 import freebody as fb
 from freebody.core import State
@@ -118,9 +119,7 @@ def test_theorems(name):
         assert there == pytest.approx(back, rel=1e-9, abs=1e-10)
 
 
-@pytest.mark.parametrize(
-    "name", ["19.3.17", "19.3.20", *(pytest.param(name, marks=pytest.mark.long) for name in ("S19.18", "EX-BLOCK"))]
-)
+@pytest.mark.parametrize("name", but_long(["19.3.17", "19.3.20", "S19.18", "EX-BLOCK"], "19.3.17", "S19.18", "EX-BLOCK"))
 def test_symbols_are_the_numbers(name):
     model, state, points, _ = at_rest(name)
     found = Impact.of(strike(model, state, points[-1], direction="40 deg", impulse="3 N*s"))

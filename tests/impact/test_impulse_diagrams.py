@@ -16,7 +16,7 @@ from freebody.views.diagram.arrows import Arrow
 from freebody.views.diagram.impulses import impulse_diagram
 from freebody.views.labels import extent
 
-every_model = every(ALL, "name", share=2)
+every_model = every(ALL, "name", share=4)
 
 
 @cache

@@ -74,13 +74,20 @@ def cases():
         if not any(field.role == "second" or field.role == "both" for field in card.fields):
             continue  # a coupling joins coordinates
         if card.coordinates:
-            yield pytest.param(card, True, id=f"{card.type}-tree")
+            yield card, True
         if card.rows and not any(field.kind == "curve" for field in card.fields):
-            yield pytest.param(card, False, id=f"{card.type}-loop")
+            yield card, False
+
+
+def each(*some):
+    """A member of a family for every joint: each is visited, in a part of its places."""
+    marks = pytest.mark
+    made = [(card, alone, marks.family(card.type, 1)) for card, alone in some]
+    return [pytest.param(card, alone, id=f"{card.type}-{'tree' if alone else 'loop'}", marks=mark) for card, alone, mark in made]
 
 
 @pytest.mark.parametrize("turned", [False, True])
-@pytest.mark.parametrize(("card", "alone"), list(cases()))
+@pytest.mark.parametrize(("card", "alone"), each(*cases()))
 def test_joint(card, alone, turned):
     mechanism = model(card, alone=alone, turned=turned)
     solved = {route: mechanism.solve(route=route) for route in ROUTES}
@@ -98,7 +105,7 @@ def test_joint(card, alone, turned):
     assert (card.glyph or card.outline or not card.rows) and mechanism.diagram().svg()
 
 
-@pytest.mark.parametrize(("card", "alone"), list(cases()))
+@pytest.mark.parametrize(("card", "alone"), each(*cases()))
 def test_its_equations_are_true(card, alone):
     mechanism = model(card, alone=alone)
     checker = Checker(mechanism)
@@ -111,7 +118,7 @@ def test_its_equations_are_true(card, alone):
             assert checker.check(line).kind is Kind.TRUE, line
 
 
-@pytest.mark.parametrize(("card", "alone"), [case for case in cases() if case.values[0].rows])
+@pytest.mark.parametrize(("card", "alone"), each(*(case for case in cases() if case[0].rows)))
 def test_joint_is_released_and_engaged(card, alone):
     run = model(card, alone=alone, events=EVENTS).simulate()
     assert run.outcome.name == "Completed", run.outcome

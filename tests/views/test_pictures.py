@@ -99,6 +99,7 @@ def test_a_scene_of_a_state_is_that_of_the_run(four_bar):
     assert one.poses[0] == pytest.approx(many.poses[0]) and len(one.figures) == len(many.figures)
 
 
+@pytest.mark.long
 def test_every_joint_symbol_can_be_drawn():
     source, state = zoo()
     scene = drawn(sketch_of_state(source, state))

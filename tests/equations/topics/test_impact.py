@@ -3,6 +3,7 @@
 import pytest
 from models import system
 from numpy.testing import assert_allclose
+from store import but_long
 
 import freebody as fb
 from freebody.equations import Sym, evaluate, from_sympy
@@ -47,7 +48,7 @@ MODELS = {
 }
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", but_long(MODELS, "19.3.30"))
 def test_rates_after_an_impact_are_those_of_the_run(name: str) -> None:
     found = Impact.of(MODELS[name]().blow())
     solved, values = jumps(found).spelt(), found.values
@@ -55,7 +56,7 @@ def test_rates_after_an_impact_are_those_of_the_run(name: str) -> None:
         assert float(evaluate(solved[Sym(after(coordinate), 1)], values)) == pytest.approx(true, abs=1e-7)
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", but_long(MODELS, "19.3.30"))
 def test_impulses_are_those_of_the_run(name: str) -> None:
     found = Impact.of(MODELS[name]().blow())
     solved, values = jumps(found).spelt(), found.values
@@ -72,7 +73,7 @@ def test_impulses_are_those_of_the_run(name: str) -> None:
         assert_allclose(made, true, atol=1e-6)
 
 
-@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("name", but_long(MODELS, "19.3.30"))
 def test_conserved_momenta_are_the_same_on_both_sides(name: str) -> None:
     found = Impact.of(MODELS[name]().blow())
     values = found.values | {Sym(after(c), 1): u for c, u in found.change.after.u.items()}

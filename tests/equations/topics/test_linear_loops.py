@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from models import system
 from numpy.testing import assert_allclose
+from store import but_long
 
 import freebody as fb
 from freebody.core import State
@@ -299,7 +300,7 @@ initial: {theta: 0, at_rest: true}
     assert "Small perturbations decay if" in said and "k − m g l > 0" in said and "m l² θ̈ + c θ̇" in said
 
 
-@pytest.mark.parametrize("which", ["stiffness", *(pytest.param(name, marks=pytest.mark.long) for name in ("mass", "damping"))])
+@pytest.mark.parametrize("which", but_long(["mass", "stiffness", "damping"], "stiffness", "damping"))
 def test_wrong_linear_equations_are_refused(which, monkeypatch):
     """What is printed is held against derivatives of the core: a derivation that errs by a part of a thousand in one matrix is found."""
     module = sys.modules["freebody.equations.topics.linear"]

@@ -67,7 +67,7 @@ def model(rng: np.random.Generator) -> tuple[str, dict[str, float]]:
     return text, gains | ({"c": 2.0} if "spring" in forces else {})
 
 
-@every(map(str, range(40)), "seed", share=8)
+@every(map(str, range(40)), "seed", share=20)
 def test_conditions_hold_exactly_where_eigenvalues_say_so(seed):
     """At random values of gains, masses and lengths, not close to the border; the gains of the file are among them."""
     rng = np.random.default_rng(int(seed))

@@ -151,6 +151,7 @@ def test_a_slider_crank_in_all_its_symbols() -> None:
     assert value(answers, "theta", at) == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.long
 def test_reactions_of_a_loop_by_its_accelerations() -> None:
     """The pin of a moving four-bar: its force is written by θ̈, β̈, φ̈, and these by ratios, at a state of the program's own."""
     mechanism = system("S19.21")

@@ -158,7 +158,9 @@ def test_a_hand_that_follows_a_law_is_part_of_what_is_left() -> None:
     assert "the law of hold last" in stated
 
 
-@pytest.mark.parametrize(("order", "even"), [(1, False), (2, False), (3, False), (4, False), (2, True), (4, True)])
+@pytest.mark.parametrize(
+    ("order", "even"), [(1, False), (2, False), (3, False), (2, True), (4, True), pytest.param(4, False, marks=pytest.mark.long)]
+)
 def test_conditions_hold_just_where_all_roots_do(order: int, even: bool) -> None:
     """Of polynomials with drawn roots: all to the left; of those with even powers alone all imaginary and apart."""
     names, rng, seen = [Sym(f"a{i}") for i in range(order, -1, -1)], np.random.default_rng(order), set()
