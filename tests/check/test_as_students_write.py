@@ -110,6 +110,7 @@ SAID = {
         ("ω_AB = θ'", T),
         (r"v_C = v_B + b (ω_AB + φ') (-sin(θ + φ) i + cos(θ + φ) j)", T),
         ("α = θ''", None),  # of which rod?
+        ("I_O θ'' k = 0", W),  # k is no vector whose size is meant
         ("I_O = 1/3 m L²", T),
     ],
 }  # fmt: skip

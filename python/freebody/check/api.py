@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
+from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, walk
 
@@ -163,10 +164,12 @@ class Checker:
             yield turned, False, tuple(f"Here {name} is read clockwise: {said}." for name, said in turned.items())
 
     def _sized(self, program: Program, known: Symbols) -> dict[str, str]:
-        """The sizes of the letters of vectors that a statement about nothing else compares, each side one term: a_B = 2 a_A."""
+        """The sizes of the letters of vectors that a statement about nothing else compares, each side one term: a_B = 2 a_A. One with a
+        unit direction marks its vectors."""
         used = [n.name for n in symbols_in(program)]
         vectors = {name: known.meanings[name] for name in used if name in known.meanings and known.meanings[name].is_vector}
         alone = not any(isinstance(n, Add | Cross | Dot) for n in walk(program)) and not known.own & {*vectors}
+        alone = alone and all(meaning.dimension != NUMBER_ONLY for meaning in vectors.values())
         return {name: "hypot({}, {})".format(*m.texts[:2]) for name, m in vectors.items()} if alone else {}
 
     def moment(self, name: str) -> tuple[Any, float]:
