@@ -14,6 +14,7 @@ from ruamel.yaml import YAML
 from freebody import Mechanism
 from freebody.codegen.languages import LANGUAGES
 from freebody.core import cards
+from freebody.document.blocks import Figure
 from freebody.document.rendering import FORMATS
 from freebody.equations.topics import TOPICS, described
 
@@ -105,8 +106,9 @@ def pages() -> str:
         own = [part.title for part in found.parts if part.title.startswith(("AMB", "LMB"))]
         takes = "the same" if set(own) == set(each["takes"]) else f"{'; '.join(own)}: {each['why']}"
         lines = sum(1 for line in found.text(width=100).splitlines() if line)
-        rows.append((mechanism.source().name, each["book"], "; ".join(each["takes"]) or "–", takes, str(lines)))
-    return _table(("problem", "book", "it takes", "freebody takes", "lines"), rows)
+        figures = sum(isinstance(block, Figure) for block in found.blocks)
+        rows.append((mechanism.source().name, each["book"], "; ".join(each["takes"]) or "–", takes, str(figures), str(lines)))
+    return _table(("problem", "book", "it takes", "freebody takes", "figures", "lines"), rows)
 
 
 def described_in(path: Path) -> Mechanism:

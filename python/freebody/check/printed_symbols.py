@@ -13,7 +13,7 @@ from freebody.equations.derivation.preamble import directions
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.solve.symbolic_state import SymbolicState
-from freebody.symbolic.symbols import Renamed, folded, unicode_name
+from freebody.symbolic.symbols import Name, Renamed, folded, unicode_name
 from freebody.symbolic.tree import Sym, Tree, substitute, symbols
 
 from .language.spelling import spell as written
@@ -71,7 +71,10 @@ def _named(derived: SymbolicState) -> Iterator[tuple[str, str]]:
 
 
 def _bodies(derived: SymbolicState) -> Iterator[tuple[str, str]]:
-    """Places, velocities and accelerations of mass centres, and angles."""
+    """Places, velocities and accelerations of mass centres, accelerations of pins, and angles."""
+    for pin in (joint for joint in derived.source.spec["joints"] if joint["type"] == "hinge"):
+        point = pin["with"]["of"][0]
+        yield Name.parse(f"a_{pin['name']}").unicode(), f"[ax({point}), ay({point})]"
     for body in derived.source.metadata["bodies"]:
         said, name = spell(body["name"]), body["name"]
         read = {symbol: f"[{part}x({said}.G), {part}y({said}.G)]" for symbol, part in (("r", ""), ("v", "v"), ("a", "a"))}
@@ -112,7 +115,7 @@ def _directions(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     """Unit directions that turn, λ along the x axis of a body or a link, and n across it."""
     turning = {f"{body['name']}.angle": f"angle({spell(body['name'])})" for body in derived.source.metadata["bodies"]}
     named = directions(derived)
-    yield from ((axis, f"[{1 - i}, {i}]") for i, axis in enumerate(named.axes[:2]))
+    yield from zip(named.axes, ("[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"), strict=True)
     for pair in named.pairs:
         angle = _expression(pair.angle, turning)
         c, s = f"cos({angle})", f"sin({angle})"

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 from freebody.document.drawings import Picture, drawn
 from freebody.symbolic.formula import Formula
+from freebody.symbolic.printers.printer import Components
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree
 
@@ -28,9 +29,9 @@ class Written:
 
 @dataclass(frozen=True)
 class Vector:
-    """A vector in named unit directions: pairs of a component and a direction, ``"i"``, ``"e_r"``."""
+    """A vector in named unit directions, ``"i"``, ``"e_r"``, or as a sum of others: pairs of a component and a direction."""
 
-    components: tuple[tuple[Tree, str], ...]
+    components: Components
 
 
 @dataclass(frozen=True)

@@ -49,6 +49,31 @@ def test_a_textbooks_mechanism_fits_a_textbooks_page(model):
 
 
 @every(ANSWERED)
+def test_a_page_has_forty_lines_at_most(model):
+    said = derived(model, "minimal").text(width=100)
+    assert sum(1 for line in said.splitlines() if line) < LINES.stop and "too long" not in said
+
+
+SPOOL = "tests/check/books/spool.yaml"
+
+
+def test_the_law_stands_in_vectors_before_its_scalar_equation():
+    """And how what rolls turns. With forces that are not in the scalar equation; once for the same bodies."""
+    said = page(SPOOL).text()
+    assert "α_spool = −x\u0308/R" in said and "R j × P i + P r e_z = R j × m x\u0308 i − (m k² x\u0308/R) e_z" in said
+    said = page("tests/check/books/braking_car.yaml").text()
+    assert "−P i + (N_wheels₁ − m g + N_wheels₂) j = m s̈ i" in said
+    said = page("python/freebody/systems/19.3.1/model.yaml").text()
+    assert said.count("−k x i − k y j = m a_particle") == 1
+
+
+def test_a_long_chain_goes_on_from_its_pins_and_says_once_what_is_alike():
+    said = page("python/freebody/systems/GEN-STEP/model.yaml").text()
+    assert "a_back_thigh = a_back_knee − " in said and said.count("`--long` has it") == 1
+    assert "AMB about shoulder[2] for arm[2]\nWhat acts at the point" in said
+
+
+@every(ANSWERED)
 def test_every_equation_of_a_page_holds_elsewhere_and_in_motion(model):
     """Closures on two sides, sums of parts, balances with what is closed put in, and the acceleration by itself; places and velocities
     that a motion prescribes are others there."""

@@ -13,7 +13,7 @@ from freebody.document.rendering.markup import side_formula
 from freebody.document.rendering.text import side_text
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.latex import latex
-from freebody.symbolic.tree import write
+from freebody.symbolic.tree import ONE, write
 
 
 def render(blocks: Sequence[Block], nomenclature: Nomenclature, beside: str = "") -> str:
@@ -35,7 +35,10 @@ def _value(value: Any, nomenclature: Nomenclature) -> Any:
     if is_tree(value) or isinstance(value, Vector | Written):
         printed = {"text": side_text(value, nomenclature), "latex": latex(side_formula(value, nomenclature))}
         if isinstance(value, Vector):
-            return {"vector": [[write(tree), direction] for tree, direction in value.components]} | printed
+            named = (
+                (tree, d if isinstance(d, str) else side_text(Vector(((ONE, d),)), nomenclature)) for tree, d in value.components
+            )
+            return {"vector": [[write(tree), direction] for tree, direction in named]} | printed
         return {"tree": write(value)} | printed if is_tree(value) else printed
     if isinstance(value, Matrices):
         return {"matrices": [_value(matrix.rows, nomenclature) for matrix in value.factors]}

@@ -14,7 +14,7 @@ from freebody.document.rendering.markup import Markup
 from freebody.document.rendering.matrices import has_matrices
 from freebody.symbolic.alphabet import columns
 from freebody.symbolic.nomenclature import Nomenclature
-from freebody.symbolic.printers.text import equation_text, folded, printer, text
+from freebody.symbolic.printers.text import equation_text, printer, sides_text, text
 
 _INDENT, _BETWEEN = "    ", "  "
 _BRIEF = 20
@@ -92,8 +92,7 @@ class Text(Markup):
         elif is_tree(left) and is_tree(right):
             shown = equation_text(left, right, self.nomenclature, ascii=self.ascii, width=room)
         else:
-            left, right = (side_text(side, self.nomenclature, ascii=self.ascii) for side in (left, right))
-            shown = folded(f"{left} = ", right, room)
+            shown = sides_text(*(side_text(side, self.nomenclature, ascii=self.ascii) for side in (left, right)), room)
         if not has_matrices(block):
             shown = "\n".join(part for line in shown.split("\n") for part in _broken(line, room))
         lines = textwrap.indent(shown, _INDENT).split("\n")
@@ -170,11 +169,13 @@ def _wrapped(words: str, width: int) -> list[str]:
 
 
 def _broken(line: str, width: int) -> list[str]:
-    """A line of an equation, where it has no sign to be broken at between factors."""
+    """A line of an equation, where it has no sign to be broken at between factors; one with products of vectors before their signs."""
     if columns(line) <= width:
         return [line]
     margin = " " * (len(line) - len(line.lstrip()))
-    first, *more = _wrapped(line.strip(), width - len(margin) - 2)
+    inner = line.strip()
+    inner = re.sub(" (?!×)", _TIE, inner) if " × " in inner else inner
+    first, *more = (part.replace(_TIE, " ") for part in _wrapped(inner, width - len(margin) - 2))
     return [margin + first, *(f"{margin}  {each}" for each in more)]
 
 

@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from freebody.document.blocks import Block, Heading, MatrixEquation, Paragraph, equations
+from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Vector, equations
 from freebody.document.document import Document
 from freebody.equations.derivation import conserved, page, preamble
+from freebody.equations.derivation.balance_page import OF_A_PAGE
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.brute import brute
 from freebody.equations.derivation.constrained import constrained
@@ -113,9 +114,11 @@ def derive(
     if long:
         blocks += [*(preamble.configuration(subject) if own else []), *preamble.nomenclature(nomenclature, used(body))]
     else:
-        blocks += page.beginning(subject, nomenclature, used(body), own)
+        scalar = used([block for block in body if not (isinstance(block, Equation) and isinstance(block.left, Vector))])
+        loads = {*nomenclature.of_kind("unknown")}  # those that are in laws in vectors alone are explained by the free body
+        blocks += page.beginning(subject, nomenclature, used(body) - (loads - scalar), own)
     blocks += [*body, *section(subject, content.equations, limits or {})]
-    shown = [readable(block, _ELSEWHERE) if long else readable(block, _LONGER, page.OF_A_PAGE) for block in blocks]
+    shown = [readable(block, _ELSEWHERE) if long else readable(block, _LONGER, OF_A_PAGE) for block in blocks]
     return Equations(tuple(lettered(block, nomenclature) for block in shown), nomenclature, form=form, content=content)
 
 

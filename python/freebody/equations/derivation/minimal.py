@@ -43,8 +43,7 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
     form = Form.of(subject.nomenclature, [*stated, *loop_closure.printed(rows)])
     if not long:
         closed = Closed(subject)
-        brief = [*page.closure(subject, closed), *page.kinematics(subject, closed), *_friction(subject)]
-        brief += page.balances(subject, stated, closed)
+        brief = page.fitted(subject, stated, closed, _friction(subject))
         return replace(form, blocks=(*brief, *([] if stated else [Paragraph(_NOTHING)])), symbols=closed.symbols)
     made: list[Block] = loop_closure.section(rows, subject.names) if rows else []
     made += [Heading("Balance equations"), Paragraph(_introduction(subject, form, len(chosen), search)), *_friction(subject)]

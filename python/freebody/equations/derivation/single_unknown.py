@@ -8,6 +8,7 @@ from dataclasses import replace
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, listed
 from freebody.equations.balances.smallest import COUNT, VirtualPower, smallest_set
 from freebody.equations.derivation import loop_closure, page
+from freebody.equations.derivation.balance_page import ROOM, fitted, lines, shown
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
 from freebody.equations.derivation.put_in import Closed
@@ -40,9 +41,8 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: b
         said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, " and no other unknown", *smaller, "."]
     made: list[Block] = [*[Heading("Balance equations")] * long, Paragraph(said)]
     closed = Closed(subject)
-    made += (
-        [b for s in stated for b in s.blocks(subject)] if long else [*page.roots(closed), *page.balances(subject, stated, closed)]
-    )
+    brief = [*page.roots(closed), *fitted(shown(subject, stated, closed), ROOM - lines(subject, made))]
+    made += [b for s in stated for b in s.blocks(subject)] if long else brief
     made += _following(subject, form, free, following) if following else []
     return replace(form, blocks=(*made, *numbers), symbols=[] if long else closed.symbols)
 

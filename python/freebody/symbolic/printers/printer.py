@@ -6,13 +6,26 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, TypeAlias, TypeVar
 
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
+from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Fn, Mul, Num, Pow, Sym, Tree, is_zero
 
 Made = TypeVar("Made", bound=Sequence)
+
+
+@dataclass(frozen=True)
+class Cross:
+    """The product arm × vector, each by its components."""
+
+    arm: Components
+    vector: Components
+
+
+Components: TypeAlias = "Sequence[tuple[Tree, str | Name | Cross]]"
+"""Components with their directions: a unit direction ``"e_r"``, a vector by its name, or a product of vectors."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +37,8 @@ class Printer(ABC, Generic[Made]):
     minus: ClassVar[Sequence]
     negative: ClassVar[Sequence]
     comma: ClassVar[Sequence]
-    """The signs between terms, in front of the first, and between arguments."""
+    cross: ClassVar[Sequence]
+    """The signs between terms, in front of the first, between arguments, and between vectors."""
     linear: ClassVar[bool] = True
     """Whether fractions stand on one line, where brackets tell what is above and below."""
 
@@ -32,14 +46,26 @@ class Printer(ABC, Generic[Made]):
         """The tree as one line."""
         return self._sum([self._term(term) for term in layout.terms(tree, self.nomenclature)])
 
-    def vector(self, components: Sequence[tuple[Tree, str]]) -> Made:
-        """A vector by its components along unit directions."""
+    def vector(self, components: Components) -> Made:
+        """A vector by its components along unit directions, or as a sum of other vectors."""
         terms = []
-        for tree, unit in ((tree, self.direction(name)) for tree, name in components if not is_zero(tree)):
+        for tree, unit in ((tree, self._along(name)) for tree, name in components if not is_zero(tree)):
             negative, shown = (False, self.expression(tree)) if isinstance(tree, Add) else self._term(tree)
             shown = self.bracket(shown) if isinstance(tree, Add) or self.ends_below(shown) else shown
             terms.append((negative, unit if shown == self.number(1) else self.juxtapose([shown, unit])))
         return self._sum(terms) if terms else self.number(0)
+
+    def _along(self, name: str | Name | Cross) -> Made:
+        if not isinstance(name, Cross):
+            return self.direction(name)
+        arm, vector = (self._operand(part) for part in (name.arm, name.vector))
+        return arm + self.cross + vector
+
+    def _operand(self, components: Components) -> Made:
+        """A vector beside ×: a sum, and what has a minus sign, in brackets."""
+        shown, first = self.vector(components), components[0][0]
+        single = len(components) == 1 and (isinstance(first, Add) or not self._term(first)[0])
+        return shown if single else self.bracket(shown)
 
     def _sum(self, terms: Sequence[tuple[bool, Made]]) -> Made:
         """Terms behind their signs, whether they are negative; a leading plus is left out."""
@@ -121,8 +147,8 @@ class Printer(ABC, Generic[Made]):
         """A symbol."""
 
     @abstractmethod
-    def direction(self, name: str) -> Made:
-        """A unit vector."""
+    def direction(self, name: str | Name) -> Made:
+        """A unit vector, or the name of another."""
 
     @abstractmethod
     def number(self, value: Fraction | float | int) -> Made:

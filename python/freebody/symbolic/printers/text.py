@@ -15,7 +15,7 @@ from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.line_breaking import broken
 from freebody.symbolic.printers.printer import Printer
-from freebody.symbolic.symbols import SUBSCRIPTS, SUPERSCRIPTS, ascii_name, unicode_name
+from freebody.symbolic.symbols import SUBSCRIPTS, SUPERSCRIPTS, Name, ascii_name, unicode_name
 from freebody.symbolic.tree import Fn, Num, Pow, Sym, Tree
 
 WIDTH = 100
@@ -33,7 +33,11 @@ def equation_text(
     left: Tree, right: Tree, nomenclature: Nomenclature | None = None, *, ascii: bool = False, width: int = WIDTH
 ) -> str:
     """``left = right``, broken at plus and minus signs to lines of at most ``width`` columns where that is possible."""
-    first, second = (text(side, nomenclature, ascii=ascii) for side in (left, right))
+    return sides_text(*(text(side, nomenclature, ascii=ascii) for side in (left, right)), width)
+
+
+def sides_text(first: str, second: str, width: int = WIDTH) -> str:
+    """Two printed sides as an equation, broken likewise."""
     if columns(whole := f"{first} = {second}") <= width:
         return whole
     if columns(first) <= width // 3:
@@ -67,7 +71,7 @@ def printer(nomenclature: Nomenclature | None, ascii: bool = False) -> TextPrint
 class TextPrinter(Printer[str]):
     """Unicode."""
 
-    plus, minus, negative, comma = " + ", " − ", "−", ", "
+    plus, minus, negative, comma, cross = " + ", " − ", "−", ", ", " × "
     times: ClassVar[str] = "·"
     """The sign of multiplication, where one is needed."""
 
@@ -75,8 +79,8 @@ class TextPrinter(Printer[str]):
         written = self.nomenclature.written(symbol.name)
         return written.unicode(symbol.dots) if written else unicode_name(symbol.name, symbol.dots)
 
-    def direction(self, name: str) -> str:
-        return name
+    def direction(self, name: str | Name) -> str:
+        return name if isinstance(name, str) else name.unicode()
 
     def ends_below(self, shown: str) -> bool:
         return re.search(r"/([^()]+|\([^()]+\))$", shown) is not None

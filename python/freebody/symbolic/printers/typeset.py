@@ -30,7 +30,7 @@ from freebody.symbolic.printers import latex as spelled
 from freebody.symbolic.printers import layout
 from freebody.symbolic.printers.line_breaking import ROOM, equation
 from freebody.symbolic.printers.printer import Printer
-from freebody.symbolic.symbols import direction, name_formula
+from freebody.symbolic.symbols import Name, direction, name_formula
 from freebody.symbolic.tree import Entries, Fn, Sym, Tree
 
 _FUNCTIONS = ("sin", "cos", "tan", "ln", "exp", "atan2", "sign")
@@ -62,6 +62,7 @@ class Typesetter(Printer[Formula]):
     """Fractions are stacked, brackets grow with what is between them."""
 
     plus, minus, negative, comma = (GAP, PLUS), (GAP, MINUS), (NEGATIVE,), (Atom(",", "sign"), GAP)
+    cross = (Atom("×", "sign"),)
     linear = False
 
     def name(self, symbol: Sym) -> Formula:
@@ -70,8 +71,8 @@ class Typesetter(Printer[Formula]):
             return written.formula(symbol.dots)
         return name_formula(symbol.name, symbol.dots, reaction=self.nomenclature.kind(symbol.name) == "unknown")
 
-    def direction(self, name: str) -> Formula:
-        return direction(name)
+    def direction(self, name: str | Name) -> Formula:
+        return direction(name) if isinstance(name, str) else name.formula(bold=True)
 
     def number(self, value: Fraction | float | int) -> Formula:
         if not isinstance(value, float):
