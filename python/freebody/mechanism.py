@@ -43,7 +43,7 @@ def _shape_method(shape: str, sizes: tuple[str, ...]) -> Callable[..., Body]:
     def method(self: Builder, name: str, **words: Any) -> Body:
         return self.body(name, shape=shape, **words)
 
-    common = ("mass", "inertia", "centre", "point_masses", "points", "lines", "curves", "outline")
+    common = ("mass", "inertia", "centre", "point_masses", "points", "lines", "curves", "outline", "look")
     taken = common if shape != "particle" else tuple(w for w in common if w not in ("inertia", "centre"))
     parameters = [_keyword(s, True) for s in sizes] + [_keyword(w, w == "mass") for w in taken]
     article = "A uniform" if sizes else "A"

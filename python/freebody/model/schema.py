@@ -146,8 +146,24 @@ class Ground(Marked):
     """The ground, which has the point ``ground.O``."""
 
 
+COLOURS = ("blue", "orange", "green", "pink", "yellow", "sky", "purple", "grey")
+"""Those that bodies are drawn in, in turn."""
+
+
+class Look(Section):
+    """How a body is drawn; nothing of it is mechanics."""
+
+    colour: Literal[COLOURS] = Field(None, description="Its colour.")
+    layer: Literal["behind", "front"] = Field(None, description="Whether it lies behind all other bodies, or in front of them.")
+    thickness: Length = Field(None, description="How wide a rod and arms are, or the rim of a disk or ring.")
+    spokes: int = Field(None, ge=2, le=60, description="How many spokes a disk or ring has.")
+    wheels: Length = Field(None, description="The radius of two wheels on which a rectangle stands, within its outline.")
+
+
 class Body(Marked, Shaped):
     """A rigid body or a particle."""
+
+    look: Look = Field(None, description="How it is drawn.")
 
     centre: Pair = Field(None, description="Mass centre; overrules the shape's.")
     point_masses: list[PointMass] = Field([], description="Masses added at points.")
@@ -160,6 +176,10 @@ class Body(Marked, Shaped):
             raise refuse(f"a body of pieces takes its mass from them; `{min(alien)}` has no place here", "give it to a piece")
         if not given & {"mass", "pieces", "point_masses"}:
             raise refuse("this body has no mass", "add `mass:`; a massless body says `mass: 0`")
+        if self.look and self.look.spokes and self.shape not in ("disk", "ring"):
+            raise refuse(f"a {self.shape} has no spokes", "leave them out; a disk or ring has some")
+        if self.look and self.look.wheels is not None and self.shape != "rectangle":
+            raise refuse(f"a {self.shape} stands on no wheels", "leave them out; a rectangle does")
         if self.shape == "particle" and given & {"inertia", "centre"}:
             raise refuse("a particle has neither `inertia` nor `centre`", "leave the shape out for a body that can turn")
         return self

@@ -100,7 +100,7 @@ def _frames(sketch: Sketch, ax: Axes, lasting: float) -> Iterator[None]:
     for name in sketch.traces:
         body, at = sketch.at[name]
         paths.append(np.array([sketch.moved(body, at[None], k)[0] for k in range(len(sketch.t))]))
-        lines += ax.plot([], [], color=colour(sketch.names.index(body) - 1), lw=1.2, alpha=0.7, zorder=1.5)
+        lines += ax.plot([], [], color=colour(sketch.tone(body)), lw=1.2, alpha=0.7, zorder=1.5)
     clock = ax.text(0.01, 0.99, "", transform=ax.transAxes, va="top", fontsize=10)
     shown: list[Artist] = []
     for k, t in enumerate(sketch.t):

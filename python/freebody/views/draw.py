@@ -109,11 +109,15 @@ def _write_labels(sheet: _Drawing) -> None:
 
 
 def _draw_bodies(sheet: _Drawing) -> None:
-    for i, body in enumerate(sheet.sketch.spec["bodies"], start=1):
+    for body in sheet.sketch.spec["bodies"]:
         strokes = [stroke.points for stroke in sheet.sketch.figures[body["name"]].strokes] or [np.zeros((1, 2))]
         largest = max(strokes, key=lambda points: float(np.prod(np.ptp(points, axis=0)) + np.ptp(points)))
         sheet.label(
-            body["name"], sheet.sketch.moved(body["name"], largest.mean(axis=0)[None])[0], colour(i - 1), size=10.5, bold=True
+            body["name"],
+            sheet.sketch.moved(body["name"], largest.mean(axis=0)[None])[0],
+            colour(sheet.sketch.tone(body["name"])),
+            size=10.5,
+            bold=True,
         )
 
 

@@ -140,10 +140,12 @@ def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
 
 
 def _rollers(sketch: Sketch, name: str, fields: Fields) -> None:
-    radius, (body, _) = _WHEEL * sketch.size, sketch.at[fields["points"][0]]
+    body, _ = sketch.at[fields["points"][0]]
+    own = sketch.looks.get(body, {}).get("wheels")
+    radius = _WHEEL * sketch.size if own is None else sketch.stated(own)
     wheels = [shapes.circle(sketch.at[point][1], radius) for point in fields["points"]]
     for wheel in wheels:
-        sketch.figures[body].add(wheel, "slot")
+        sketch.figures[body].add(wheel, "slot" if own is None else "block")
     sketch.faces[name] = body, np.vstack(wheels)
     _track(sketch, fields["along"], list(fields["points"]), radius)
 

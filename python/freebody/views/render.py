@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 # Later styles lie on top of earlier ones.
 ORDER = ("hatch", "dash", "band", "body", "rail", "block", "mark", "slot", "mass", "weld", "pin")
+_LAYER = 0.6  # more than all styles of one body need
 
 
 def render(sketch: Sketch, ax: Axes, frame: int = 0) -> list[Artist]:
@@ -44,7 +45,7 @@ def patch(stroke: Drawn, shift: ArrayLike = (0.0, 0.0)) -> Any:
     """A stroke on the axes, moved by a ``shift``."""
     from matplotlib.patches import Polygon
 
-    order, look = 2 + 0.05 * ORDER.index(stroke.style), _look(stroke.style, stroke.tint)
+    order, look = 2 + 0.05 * ORDER.index(stroke.style) + _LAYER * stroke.layer, _look(stroke.style, stroke.tint)
     return Polygon(stroke.points + shift, closed=stroke.closed, zorder=order, joinstyle="round", **look)
 
 

@@ -43,14 +43,15 @@ def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Sketch:
 
 def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     """The shapes of its pieces; for a body without shape, the hull of its points."""
-    figure, thickness = sketch.figures[body["name"]], 0.8 * sketch.size
+    figure, look = sketch.figures[body["name"]], sketch.looks.get(body["name"], {})
+    thickness = sketch.stated(look["thickness"]) / 2 if "thickness" in look else 0.8 * sketch.size
     outline = sketch.outlines.get(body["name"])
     if outline == "none":
         return
     if outline is not None:
         # A corner is two numbers or a point, with or without its body's name.
         named = np.array([
-            [sketch.number(x) for x in corner] if not isinstance(corner, str)
+            [sketch.stated(x) for x in corner] if not isinstance(corner, str)
             else sketch.at[corner if corner in sketch.at else f"{body['name']}.{corner}"][1]
             for corner in outline
         ])  # fmt: skip
@@ -60,7 +61,7 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         sizes = {name: sketch.number(size) for name, size in piece.get("sizes", {}).items()}
         corners = np.array([[sketch.number(x) for x in corner] for corner in piece.get("corners", [])])
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
-        for points, style in shapes.piece_outlines(piece["shape"], sizes, corners, thickness):
+        for points, style in _outlines(sketch, body["name"], piece["shape"], sizes, corners, thickness):
             placed, place = shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), np.array(at)
             figure.add(placed, style, len(points) > 2, about=place if style == "mass" else None)
     masses = [stroke.points.mean(axis=0) for stroke in figure.strokes if stroke.style == "mass"]
@@ -72,6 +73,22 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         _reach_out(figure, own, thickness)
     else:
         figure.add(shapes.rounded_hull(own, thickness), "body")
+
+
+def _outlines(
+    sketch: Sketch, body: str, shape: str, sizes: Mapping[str, float], corners: Array, thickness: float
+) -> list[tuple[Array, str]]:
+    """Outlines of a piece with their style, as the look of its body has them; what goes on rollers has these for wheels."""
+    look = sketch.looks.get(body, {})
+    rolls = any(
+        joint["type"] == "rollers" and sketch.at[joint["with"]["points"][0]][0] == body for joint in sketch.spec["joints"]
+    )
+    if shape in ("disk", "ring") and look.keys() & {"spokes", "thickness"}:
+        rim = 2 * thickness if "thickness" in look else 0.14 * sizes["radius"]
+        return shapes.wheel(sizes["radius"], rim, int(look.get("spokes", 0)))
+    if shape == "rectangle" and "wheels" in look and not rolls:
+        return shapes.cart(sizes["width"], sizes["height"], sketch.stated(look["wheels"]))
+    return shapes.piece_outlines(shape, sizes, corners, thickness)
 
 
 def _reach_out(figure: Figure, points: Array, thickness: float) -> None:

@@ -116,6 +116,25 @@ def piece_outlines(shape: str, sizes: Mapping[str, float], corners: Array, thick
     return []
 
 
+def wheel(radius: float, rim: float, spokes: int) -> list[tuple[Array, str]]:
+    """Outlines with their style of a wheel with a rim so wide; with spokes, a hub."""
+    inner, hub = max(radius - rim, 0.0), 0.12 * radius
+    made = [(np.vstack([arc((0, 0), radius, 0, 2 * np.pi), arc((0, 0), inner, 2 * np.pi, 0)]), "body")]
+    for angle in np.arange(spokes) * 2 * np.pi / (spokes or 1):
+        made.append((np.outer((hub, inner), (np.cos(angle), np.sin(angle))), "mark"))
+    return [*made, (circle((0, 0), hub), "body")] if spokes else made
+
+
+def cart(width: float, height: float, radius: float) -> list[tuple[Array, str]]:
+    """Outlines with their style of a rectangle about the origin that stands on two wheels, which reach down to its lower side."""
+    axle, aside = radius - height / 2, width / 2 - 1.4 * radius
+    box = np.array([[-1, 0], [1, 0], [1, 1], [-1, 1]]) * (width / 2, max(height - radius, radius)) + (0, axle)
+    wheels = [
+        ((sign * aside, axle), size, style) for sign in (-1, 1) for size, style in ((radius, "block"), (radius / 4, "slot"))
+    ]
+    return [(box, "body"), *((circle(at, size), style) for at, size, style in wheels)]
+
+
 def zigzag(width: float, teeth: int = 8) -> Array:
     """A spring from 0 to 1 along, ± width across."""
     along = np.linspace(0.16, 0.84, 2 * teeth + 1)

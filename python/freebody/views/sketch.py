@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, Array, Limit, MotionError, State, quote, there
+from freebody.model.schema import COLOURS
+from freebody.model.units import rewrite
 from freebody.views import shapes
 from freebody.views.impact_markers import ImpactMarker
 from freebody.views.style import GROUND as GREY
@@ -83,13 +85,14 @@ class Cord:
 
 @dataclass(frozen=True)
 class Drawn:
-    """A stroke where its body is, points (k, 2); ``tint`` and ``body``: colour and name of its body."""
+    """A stroke where its body is, points (k, 2); ``tint``, ``body`` and ``layer``: colour, name and layer of its body."""
 
     style: str
     points: Array
     tint: str
     closed: bool
     body: str
+    layer: int = 0
 
     @property
     def line(self) -> Array:
@@ -130,12 +133,26 @@ class Sketch:
             name: body for name, body in source.model.get("bodies", {}).items() if name in self.figures and isinstance(body, dict)
         }
         self.outlines = {name: body["outline"] for name, body in stated.items() if body.get("outline") is not None}
-        """What the model says of outlines: ``none``, or points by name or as numbers in m."""
+        """What the model says of outlines: ``none``, or points by name or as numbers."""
+        self.looks = {name: body["look"] for name, body in stated.items() if body.get("look")}
         self.size = self._size()
 
     def number(self, value: float | str) -> float:
         """A number of the model."""
         return float(value) if isinstance(value, (int, float)) else self.value(value)
+
+    def stated(self, value: float | str) -> float:
+        """A number as the model file says it, perhaps with a unit."""
+        return self.number(rewrite(value).text if isinstance(value, str) else value)
+
+    def tone(self, body: str) -> int:
+        """The place of a body's colour in the palette."""
+        own = self.looks.get(body, {}).get("colour")
+        return COLOURS.index(own) if own else self.names.index(body) - 1
+
+    def layer(self, body: str) -> int:
+        """1 for a body in front of all others, -1 for one behind them, else 0."""
+        return {"behind": -1, None: 0, "front": 1}[self.looks.get(body, {}).get("layer")]
 
     def value(self, text: str) -> float:
         """An expression at the drawn state."""
@@ -200,7 +217,7 @@ class Sketch:
         body, at = self.at[circle["centre"]]
         radius, figure = abs(self.number(circle["radius"])), self.figures[body]
         away = (np.hypot(*(stroke.points - at).T) for stroke in figure.strokes if len(stroke.points) > 12)
-        if radius and not any(np.allclose(each, radius, rtol=1e-5, atol=0) for each in away):
+        if radius and not any(np.isclose(each, radius, rtol=1e-5, atol=0).sum() > 12 for each in away):
             figure.add(shapes.circle(at, radius), style)
 
     def pin(self, point: str, radius: float) -> None:
@@ -272,8 +289,9 @@ class Sketch:
         for i, figure in enumerate(self.figures.values()):
             for each in figure.strokes:
                 if each.shown is None or each.shown[frame]:
-                    tint = colour(i - 1) if i else GREY
-                    yield Drawn(each.style, self.moved(figure.name, each.points, frame), tint, each.closed, figure.name)
+                    tint = colour(self.tone(figure.name)) if i else GREY
+                    points, layer = self.moved(figure.name, each.points, frame), self.layer(figure.name)
+                    yield Drawn(each.style, points, tint, each.closed, figure.name, layer)
 
     def bounds(self) -> tuple[float, float, float, float]:
         """x from, x to, y from, y to: a box about everything that is drawn at any time."""

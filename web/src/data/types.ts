@@ -40,6 +40,10 @@ export interface Passing {
 
 export interface Figure {
   name: string;
+  /** Of the palette. */
+  tone: number;
+  /** −1 behind the others, 1 in front of them. */
+  layer: number;
   strokes: Stroke[];
 }
 

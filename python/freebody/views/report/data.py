@@ -12,6 +12,7 @@ from freebody.views.report.loads import loads
 from freebody.views.report.series import plots
 from freebody.views.scene import of_run
 from freebody.views.sketch import Cord, Pair, Sketch, Stroke, named_points
+from freebody.views.style import PALETTE
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -69,6 +70,8 @@ def _scene(sketch: Sketch) -> dict[str, Any]:
         "figures": [
             {
                 "name": figure.name,
+                "tone": sketch.tone(figure.name) % len(PALETTE),
+                "layer": sketch.layer(figure.name),
                 "strokes": [
                     {"points": short(each.points), "style": each.style, "closed": each.closed, "about": each.about}
                     | _passing(each)
