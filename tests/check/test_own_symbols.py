@@ -148,7 +148,7 @@ def test_an_unknown_symbol_is_said_with_its_place_and_a_near_one(model):
         letters.require(parse("m s̈ = m thetta", letters.names))
     assert str(error.value) == (
         "the symbol `thetta` has no meaning in this model\n    m s̈ = m thetta\n            ^^^^^^\n"
-        "  did you mean `theta`? Otherwise declare it, like `thetta: …`"
+        "  did you mean `theta`? Otherwise declare it, like `thetta: …`, on the command line by `--where 'thetta=…'`"
     )
 
 

@@ -79,7 +79,7 @@ def test_an_undecided_impact_ends_the_run_by_name(run_command):
 
 def test_what_is_violated_at_the_start_is_a_mistake(run_command):
     done = run_command("run", BALL.replace("ball.y: 1 m", "ball.y: -0.1 m"))
-    assert done.exit_code == 2 and "`floor` is violated" in done.output + done.stderr
+    assert done.exit_code == 2 and "`floor` is violated by 0.1 m at the start" in done.output + done.stderr
 
 
 def test_solve_shows_both_sides_of_the_events_at_the_start(run_command):

@@ -20,7 +20,7 @@ def test_both_scripts_parse():
 
 
 def test_help_names_every_command_of_freebody():
-    own = ["test", "bench", "accuracy", "check"]
+    own = ["test", "bench", "accuracy", "check", "wheel"]
     names = [command.name or command.callback.__name__ for command in cli.app.registered_commands]
     assert all(name in usage() for name in own + names)
 

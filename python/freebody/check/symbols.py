@@ -170,7 +170,8 @@ class Symbols:
         bare = symbol.name.rstrip("'")
         near = next((name for name in self.meanings if name.endswith(f".{bare}")), nearest(symbol.name, self.meanings))
         hint = f"did you mean `{near}`? Otherwise d" if near else "d"
-        raise ModelProblem(f"the symbol `{symbol.name}` has no meaning in this model", f"{hint}eclare it, like `{bare}: …`")
+        hint += f"eclare it, like `{bare}: …`, on the command line by `--where '{bare}=…'`"
+        raise ModelProblem(f"the symbol `{symbol.name}` has no meaning in this model", hint)
 
     def expression(self, text: str) -> str:
         """An expression of a statement in the model language; what is asked of the start of a motion between ⟦ and ⟧. Raises

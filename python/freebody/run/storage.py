@@ -178,7 +178,7 @@ def need(module: str) -> Any:
     try:
         return import_module(module)
     except ImportError:
-        raise ImportError(f"this needs {module}, which is not installed: pip install freebody[table]") from None
+        raise ImportError(f"this needs {module}, which is not installed: pip install {module}") from None
 
 
 def to_pandas(run: Run) -> pandas.DataFrame:

@@ -74,12 +74,14 @@ impl Workspace<'_> {
             }
             if !is_off && gap * self.lever(l) < -SHALLOW * self.length {
                 let group = &self.m.groups[self.m.unilateral[l].group];
-                let what = match group.word {
-                    "string" => format!("the string `{}` is stretched by {:.6e} m", group.name, -gap),
-                    word => format!("the {word} `{}` is violated by {:.6e}", group.name, -gap),
+                let hint = match group.word {
+                    "contact" => {
+                        "hold a point at its place, as by `points: {box.A: [0, 0]}` under `initial`; \
+                         a line is free on its left, as one goes along it"
+                    }
+                    _ => "move the parts, or change its size",
                 };
-                let hint = "move the parts, or change its size";
-                return Err(DynamicsError::Penetration(what + " at the start", hint, group.path()));
+                return Err(DynamicsError::Penetration(self.violation(l, gap) + " at the start", hint, group.path()));
             }
         }
         Ok(mode)
@@ -102,16 +104,25 @@ impl Workspace<'_> {
             }
             let gap = self.open_gap(l);
             if gap * self.lever(l) < -GRAZE * self.length {
-                let group = &self.m.groups[constraint.group];
-                let what = format!("the {} `{}` is violated by {:.6e} at t = {t:.12} s", group.word, group.name, -gap);
                 return Err(DynamicsError::Penetration(
-                    what,
+                    format!("{} at t = {t:.12} s", self.violation(l, gap)),
                     "choose a shorter longest step, `max_step`",
-                    group.path(),
+                    self.m.groups[constraint.group].path(),
                 ));
             }
         }
         Ok(())
+    }
+
+    /// By how much a unilateral constraint is violated, to three digits.
+    fn violation(&self, l: usize, gap: f64) -> String {
+        let group = &self.m.groups[self.m.unilateral[l].group];
+        let (verb, unit) = match group.word {
+            "string" => ("stretched", "m"),
+            _ => ("violated", if self.m.unilateral[l].gap.turns(self.m) { "rad" } else { "m" }),
+        };
+        let size = format!("{:.2e}", -gap).parse().unwrap_or(-gap);
+        format!("the {} `{}` is {verb} by {size} {unit}", group.word, group.name)
     }
 
     /// The feature of a gap as the state alone gives it.
