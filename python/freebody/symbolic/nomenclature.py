@@ -25,11 +25,18 @@ class SymbolEntry:
 
 class Nomenclature(dict[str, SymbolEntry]):
     """The symbols of some equations by name, in the order of the model. A name that is not there reads as a parameter. Those
-    that are ``renamed`` are not written as usual, because that means something else."""
+    that are ``renamed`` are not written as usual, because that means something else. ``decimals``: there are decimal numbers, 0.3,
+    beside which tenths and fifths are decimal numbers, too."""
 
-    def __init__(self, table: Mapping[str, SymbolEntry] | None = None, renamed: Mapping[str, Renamed] | None = None) -> None:
+    def __init__(
+        self,
+        table: Mapping[str, SymbolEntry] | None = None,
+        renamed: Mapping[str, Renamed] | None = None,
+        decimals: bool = False,
+    ) -> None:
         super().__init__(table or {})
         self.renamed = dict(renamed or {})
+        self.decimals = decimals
 
     @classmethod
     def read(cls, data: Mapping[str, Mapping[str, Any]]) -> Nomenclature:

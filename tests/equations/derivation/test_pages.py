@@ -153,6 +153,32 @@ def test_equations_have_limits(limits, says):
         gun.equations(limits={"m1": "soon"})
 
 
+FOUR_BAR = ROOT / "examples/four_bar.yaml"
+
+
+def test_tenths_and_fifths_are_decimal_numbers_beside_others_and_as_lengths():
+    said = page("python/freebody/systems/GEN-STEP/model.yaml").text()
+    assert "0.6 (ankle′′" in said and "⅗" not in said
+    assert (
+        "1.2 + c cos φ" in fb.load(FOUR_BAR).equations().text()
+        and "⅖ m r²" in page("tests/check/books/skidding_ball.yaml").text()
+    )
+
+
+def test_a_rope_keeps_a_sum_and_no_length_that_nobody_wrote():
+    assert "x + R φ − y = const" in page("tests/check/books_unseen/disk_drawn_by_block.yaml").text()
+
+
+def test_balances_for_one_unknown_have_the_accelerations_of_their_bodies():
+    said = fb.load(FOUR_BAR).equations(want="theta", about=["B", "D", "A"]).text()
+    assert "λ_crank at θ, λ_coupler at β" in said and "a_coupler = −a θ̇² λ_crank" in said
+
+
+def test_a_point_may_be_a_hinge_and_in_a_loop_its_closure_is_there():
+    said = fb.load(FOUR_BAR).equations(of="C", frame="crank").text()
+    assert "coupler.end through the frame of crank" in said and "a sin θ + b sin β = c sin φ" in said
+
+
 LADDER = "tests/check/books/ladder.yaml"
 
 

@@ -2,10 +2,12 @@
 
 import numpy as np
 from evaluated import numbers, terms
-from store import elsewhere, every, subject
+from store import ROOT, elsewhere, every, subject
 from test_every_derivation import CLOSE
 
+import freebody as fb
 from freebody.equations.derivation.virtual import virtual_power
+from freebody.equations.topics import topic
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.tree import Sym
 
@@ -48,6 +50,11 @@ def test_the_equations_hold_no_reaction_and_are_as_many_as_the_degrees_of_freedo
     ]
     if np.linalg.matrix_rank(held) == len(names) - len(found):
         assert np.linalg.matrix_rank(rates) == len(found)
+
+
+def test_the_topic_says_how_coordinates_change_and_what_has_power():
+    said = topic(fb.load(ROOT / "examples/four_bar.yaml"), "virtual_power").text(ascii=True)
+    assert "Σ (F · δv + M δω) = Σ (m a · δv + I α δω)" in said and "δθ = -b c sin(beta - phi)" in said and "A.Fx" not in said
 
 
 def test_two_blocks_on_a_cable_have_the_sum_of_their_balances():

@@ -27,7 +27,7 @@ from freebody.symbolic.symbols import Name, unicode_name
 AGREE = 1e-8
 """Of the largest term of an equation."""
 ELSEWHERE = {"lagrange": "test_random_models.py", "linear": "test_random_linear.py", "impact": "test_random_impacts.py"}
-ELSEWHERE |= {"frame": "test_point_motion.py"}
+ELSEWHERE |= {"frame": "test_point_motion.py", "virtual_power": "../derivation/test_virtual.py"}
 """Topics with a law of their own."""
 GRAVITY = 3.7
 

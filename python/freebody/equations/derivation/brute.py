@@ -26,7 +26,7 @@ def brute(subject: SymbolicState, long: bool = False) -> Form:
     said = f"Each body is cut free: {len(stated)} balance equations, three a body and two a particle"
     said += f", and {rows} of closure for the accelerations" * bool(rows)
     made = [
-        *([] if long else page.kinematics(subject, closed, preamble.directions(subject))),
+        *([] if long else page.kinematics(subject, closed, preamble.directions(subject), subject.motions)),
         *made,
         *[Heading("Balance equations")] * long,
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any
 
 from freebody.document.blocks import Block, Equation, Heading, MatrixEquation, Paragraph, Vector, equations
@@ -23,7 +24,7 @@ from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.to_sympy import sympy, to_sympy
-from freebody.symbolic.tree import Sym, Tree, symbols
+from freebody.symbolic.tree import Add, Num, Sym, Tree, symbols, walk
 
 _TITLES = {
     "minimal": "minimal form", "brute": "brute force", "constraints": "with constraints", "first-order": "first-order form",
@@ -119,7 +120,9 @@ def derive(
         blocks += page.beginning(subject, nomenclature, used(body) - (loads - scalar), own)
     blocks += [*body, *section(subject, content.equations, limits or {})]
     shown = [readable(block, _ELSEWHERE) if long else readable(block, _LONGER, OF_A_PAGE) for block in blocks]
-    return Equations(tuple(lettered(block, nomenclature) for block in shown), nomenclature, form=form, content=content)
+    lettered_blocks = tuple(lettered(block, nomenclature) for block in shown)
+    nomenclature = Nomenclature(nomenclature, nomenclature.renamed, decimals=not long and any(map(has_decimals, lettered_blocks)))
+    return Equations(lettered_blocks, nomenclature, form=form, content=content)
 
 
 def _matrix_form(form: str, content: Form, subject: SymbolicState) -> list[Block]:
@@ -148,6 +151,19 @@ def _uneven(system: System, subject: SymbolicState) -> list[Block]:
     else:
         said = f"{these}: some follow from the others."
     return [Paragraph(said)]
+
+
+def has_decimals(block: Any) -> bool:
+    """Whether a decimal number is in a block, or in whatever it holds; also as a length, 6/5 − a cos θ."""
+    if isinstance(block, Tree):
+        return any(map(_is_decimal, walk(block)))
+    fields = (getattr(block, name) for name in getattr(block, "__dataclass_fields__", ()))
+    return any(map(has_decimals, block if isinstance(block, list | tuple) else fields))
+
+
+def _is_decimal(part: Tree) -> bool:
+    alone = [each.value for each in (part.terms if isinstance(part, Add) else (part,)) if isinstance(each, Num)]
+    return any(isinstance(x, float) or (isinstance(part, Add) and Fraction(x).denominator % 5 == 0) for x in alone)
 
 
 def used(blocks: Any) -> set[str]:

@@ -15,7 +15,7 @@ from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.pins import from_pins
 from freebody.equations.derivation.plain_rows import on_two_sides
 from freebody.equations.derivation.put_in import Closed
-from freebody.solve.symbolic_state import SymbolicState
+from freebody.solve.symbolic_state import Motion, SymbolicState
 from freebody.symbolic.algebra import signed
 from freebody.symbolic.formula import typed
 from freebody.symbolic.nomenclature import Nomenclature
@@ -71,22 +71,27 @@ def fitted(subject: SymbolicState, stated: Sequence[Stated], closed: Closed, bes
     above = lines(subject, [*_head(subject, closed, every), *besides])
     named = preamble.directions(subject)
     for brief in range(3) if fit(every, "whole", ROOM) else (2,):
-        opening = [*closure(subject, closed, brief), *kinematics(subject, closed, named, chained=brief > 0)]
+        opening = [*closure(subject, closed, brief), *kinematics(subject, closed, named, subject.motions, chained=brief > 0)]
         room = ROOM - above - lines(subject, opening)
         if fit(every, "whole", room):
             break
     made = balances(every, room)
-    if units := _units(made):
-        opening = [*closure(subject, closed, brief), *kinematics(subject, closed, named, units, brief > 0)]
+    if found := units(made):
+        opening = [*closure(subject, closed, brief), *kinematics(subject, closed, named, subject.motions, found, brief > 0)]
     return [*opening, *besides, *made]
 
 
 def kinematics(
-    subject: SymbolicState, closed: Closed, every: Directions, others: Collection[str] = (), chained: bool = False
+    subject: SymbolicState,
+    closed: Closed,
+    every: Directions,
+    motions: Sequence[Motion],
+    others: Collection[str] = (),
+    chained: bool = False,
 ) -> list[Block]:
     """The unit directions in a sentence, those that ``others`` are among them, the acceleration of every mass centre that has one, and of
     what rolls or is geared how it turns; ``chained``: from the pin of each body on."""
-    moving = [motion for motion in subject.motions if not (is_zero(motion.mass) or all(map(is_zero, motion.a.xy)))]
+    moving = [motion for motion in motions if not (is_zero(motion.mass) or all(map(is_zero, motion.a.xy)))]
     written = [(subject.symbols.of_body("a", motion.body), every.vector(motion.a).components) for motion in moving]
     written = from_pins(subject, every, [motion.body for motion in moving], written) if chained else written
     wanted = {*others, *(unit for _, parts in written for _, unit in parts)}
@@ -103,7 +108,7 @@ def kinematics(
     for left, parts in written:
         shortened = tuple((signed(closed.put(tree), subject.constants), unit) for tree, unit in parts)
         made.append(Equation(Written.of(left, bold=True), Vector(shortened), "" if made else name))
-    for motion in subject.motions:
+    for motion in motions:
         if not is_zero(motion.inertia) and any(symbols(motion.alpha) & subject.constants.keys()):
             made.append(
                 Equation(Written.of(subject.symbols.of_body("alpha", motion.body)), motion.alpha, "" if made else "Turning")
@@ -137,7 +142,7 @@ def roots(closed: Closed) -> list[Block]:
     return [Equation(Sym(entry.name), power(base, "1/2")) for entry, base in closed.named]
 
 
-def _units(made: Sequence[Block]) -> set[str]:
+def units(made: Sequence[Block]) -> set[str]:
     """The names of the unit directions in laws in vectors."""
 
     def inside(parts: Components) -> set[str]:

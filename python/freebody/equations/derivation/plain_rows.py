@@ -40,6 +40,8 @@ from freebody.symbolic.tree import (
 
 Sides = tuple[Tree, Tree | Written]
 _ROOT = Sym("the root")
+_WRITTEN = 6
+"""Decimal places of a number that a person has written, at most."""
 _NONE = 1e-9
 """A coordinate below which it is 0, rad or m."""
 
@@ -211,7 +213,7 @@ def on_two_sides(rows: Sequence[Row], coordinates: Sequence[str]) -> list[list[S
     for row in rows:
         own = _prescribed(row)
         if row.value is not None:
-            kept = _kept(rates.get(id(row)), coordinates) if _winds(row.value) else None
+            kept = _kept(rates.get(id(row)), coordinates) if _winds(row.value) or _of_the_start(row.value) else None
             levels[0].append(_alone(row.value, own, 0) or kept or on_sides(row.value))
         if row.rate is not None:
             levels[1].append(_alone(row.rate, own, 1) or on_sides(_spread(rates[id(row)])))
@@ -238,6 +240,12 @@ def _alone(tree: Tree, name: str, dots: int) -> Sides | None:
 def _winds(tree: Tree) -> bool:
     """Whether a function of something moving is in it, as of a rope the angle over which it lies."""
     return any(isinstance(part, Fn) and part.name.startswith("atan") for part in walk(tree))
+
+
+def _of_the_start(tree: Tree) -> bool:
+    """Whether a number is in it that nobody has written, as the length that a rope has by the start."""
+    numbers = (part.value for part in walk(tree) if isinstance(part, Num) and isinstance(part.value, float))
+    return any(abs(size - round(size, _WRITTEN)) > _NONE for size in numbers)
 
 
 def _kept(rate: Linear | None, coordinates: Sequence[str]) -> tuple[Tree, Written] | None:

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, listed
 from freebody.equations.balances.smallest import COUNT, VirtualPower, smallest_set
-from freebody.equations.derivation import loop_closure, page
+from freebody.equations.derivation import loop_closure, page, preamble
 from freebody.equations.derivation.balance_page import ROOM, fitted, lines, shown
+from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
 from freebody.equations.derivation.put_in import Closed
@@ -41,10 +42,18 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: b
         said = [f"{COUNT[number].capitalize()} balance equations contain ", *names, " and no other unknown", *smaller, "."]
     made: list[Block] = [*[Heading("Balance equations")] * long, Paragraph(said)]
     closed = Closed(subject)
-    brief = [*page.roots(closed), *fitted(shown(subject, stated, closed), ROOM - lines(subject, made))]
-    made += [b for s in stated for b in s.blocks(subject)] if long else brief
+    made += [b for s in stated for b in s.blocks(subject)] if long else _page(subject, stated, closed, lines(subject, made))
     made += _following(subject, form, free, following) if following else []
     return replace(form, blocks=(*made, *numbers), symbols=[] if long else closed.symbols)
+
+
+def _page(subject: SymbolicState, stated: Sequence[Stated], closed: Closed, above: int) -> list[Block]:
+    """The balances below so many lines, and before them the accelerations of their bodies."""
+    bodies = {body for each in stated for body in each.balance.bodies}
+    named, moving = preamble.directions(subject), [m for m in subject.motions if m.body in bodies]
+    opening = [*page.roots(closed), *page.kinematics(subject, closed, named, moving)]
+    made = fitted(shown(subject, stated, closed), ROOM - above - lines(subject, opening))
+    return [*page.roots(closed), *page.kinematics(subject, closed, named, moving, page.units(made)), *made]
 
 
 def _following(subject: SymbolicState, form: Form, free: Sequence[str], rows: Sequence[Row]) -> list[Block]:

@@ -18,6 +18,8 @@ from freebody.symbolic.linear import Linear
 from freebody.symbolic.symbols import name_formula, unicode_name
 from freebody.symbolic.tree import ONE, Tree, is_negative, is_zero, minus, negative, read
 
+_LAW = "Σ (F · δv + M δω) = Σ (m a · δv + I α δω)"
+
 
 @dataclass(frozen=True)
 class VirtualPower:
@@ -79,7 +81,8 @@ def section(subject: SymbolicState, wanted: int) -> list[Block]:
         power = f"{clause(working, 'has', 'have')} power, by friction or by a law of the force."
         return [head, Paragraph(f"The principle of virtual power needs reactions as well: {power}")]
     count = "is one such equation" if wanted == 1 else f"are {wanted} such equations, one for each degree of freedom"
-    made: list[Block] = [head, Paragraph(f"{said}. There {count}.")]
+    law = Written(_LAW, typed(_LAW))
+    made: list[Block] = [head, Paragraph([f"{said}: ", law, f". There {count}."])]
     for each in found:
         moved = {name: tree for name, tree in each.rates.items() if not is_zero(tree)}
         rates = [(Written(f"δ{unicode_name(name)}", typed("δ ", name_formula(name))), tree) for name, tree in moved.items()]

@@ -17,6 +17,7 @@ from freebody.equations.topics.mass_centre import mass_centre
 from freebody.equations.topics.moment import moment
 from freebody.equations.topics.out_of_plane import out_of_plane
 from freebody.equations.topics.particle import particle
+from freebody.equations.topics.virtual_power import virtual_power
 
 if TYPE_CHECKING:
     from freebody.core import State
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 __all__ = ["TOPICS", "NotHere", "described", "topic"]
 
 TOPICS: Mapping[str, Callable[..., Document]] = {
-    make.__name__: make for make in (lagrange, linear, frame, particle, moment, mass_centre, elimination, impact, out_of_plane)
+    make.__name__: make
+    for make in (lagrange, linear, frame, particle, moment, mass_centre, elimination, impact, out_of_plane, virtual_power)
 }
 """By name, as in ``freebody equations MODEL --form NAME``: what makes the document of a mechanism at a state. Its keywords are the
 options; its docstring says what it derives, then in a second paragraph the options."""

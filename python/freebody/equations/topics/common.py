@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from freebody.core import GROUND
 from freebody.document.blocks import Block, Heading
 from freebody.document.document import Document
 from freebody.equations.derivation import preamble
-from freebody.equations.derivation.derive import used
+from freebody.equations.derivation.derive import has_decimals, used
 from freebody.equations.derivation.sentences import lettered, readable
 from freebody.solve.symbolic_state import Arrow, SymbolicState
 from freebody.symbolic.differentiate import along_motion
@@ -48,9 +49,10 @@ def document(subject: SymbolicState, title: str, blocks: Sequence[Block], more: 
     """A document with a title and the meaning of its symbols; ``more`` are those that the model does not have."""
     usual, renamed = subject.nomenclature, subject.symbols.taken.renamed
     own = {symbol.name: renamed[symbol.doc] for symbol in more if symbol.doc in renamed}
-    nomenclature = Nomenclature({**usual, **{symbol.name: symbol for symbol in more}}, usual.renamed | own)
     first = Heading(subject.titled(title), 1)
     short = [readable(block, _ELSEWHERE) for block in blocks]
+    symbols = {**usual, **{symbol.name: symbol for symbol in more}}
+    nomenclature = Nomenclature(symbols, usual.renamed | own, decimals=any(map(has_decimals, short)))
     made = (first, *preamble.configuration(subject), *preamble.nomenclature(nomenclature, used(short)), *short)
     return Document(tuple(lettered(block, nomenclature) for block in made), nomenclature)
 
@@ -79,6 +81,16 @@ def brief(tree: Tree, nomenclature: Nomenclature) -> Tree:
 def spread(tree: Tree) -> Tree:
     """The sum of all products, sin² + cos² being 1, with what they have in common in front."""
     return presented(tree, multiplied_out=True)
+
+
+def point_of(subject: SymbolicState, name: str) -> str:
+    """A named point; that of a body at a hinge, where a hinge has the name. Raises ``ValueError``."""
+    if name not in subject.points:
+        hinge = next((j for j in subject.source.spec["joints"] if j["name"] == name and j["type"] == "hinge"), None)
+        there = [point for point in (hinge["with"]["of"] if hinge else ()) if subject.points.get(point, (GROUND,))[0] != GROUND]
+        name = there[0] if there else name
+    known(name, subject.points, "point")
+    return name
 
 
 def place_of(subject: SymbolicState, point: str) -> Arrow:

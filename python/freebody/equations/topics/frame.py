@@ -11,9 +11,11 @@ import numpy as np
 from freebody.core import Array
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Table, Vector, Words, equations, listed
 from freebody.document.document import Document
+from freebody.equations.derivation.page import closure
+from freebody.equations.derivation.put_in import Closed
 from freebody.equations.derivation.sentences import joined
 from freebody.equations.solve import Unconfirmed
-from freebody.equations.topics.common import Asked, NotHere, document, known, rates
+from freebody.equations.topics.common import Asked, NotHere, document, known, point_of, rates
 from freebody.equations.topics.point_motion import LEVELS, PointKinematics, Term, below
 from freebody.solve.figures import figure
 from freebody.solve.symbolic_state import Arrow, Direction, SymbolicState
@@ -38,7 +40,7 @@ class PointMotion(Document):
 def frame(asked: Asked, *, point: str | None = None, body: Sequence[str] | str | None = None) -> PointMotion:
     """A point through a body's frame, or by a chain of bodies: relative, transport, centripetal, Coriolis and other terms.
 
-    ``point`` and ``body``, by default the first mass centre that has a Coriolis acceleration through a body; of a ``point`` alone
+    ``point``, or a hinge, and ``body``, by default the first mass centre that has a Coriolis acceleration through a body; of a ``point`` alone
     the chain of bodies that leads to it. Several bodies, ``rod,wheel``, are a chain: each is seen from the one before."""
     subject = asked.subject
     chain = [name.strip() for name in body.split(",")] if isinstance(body, str) else list(body or ())
@@ -46,11 +48,12 @@ def frame(asked: Asked, *, point: str | None = None, body: Sequence[str] | str |
         known(name, [motion.body for motion in subject.motions], "body")
     if point is None:
         point, chain = _telling(subject, chain)
-    known(point, subject.points, "point")
+    point = point_of(subject, point)
     if subject.points[point][0] not in subject.free.bodies:
         raise NotHere(f"{point} is a point of the ground and stays where it is; take a point of a body")
     seen = PointKinematics(subject, point, tuple(chain))
-    made = document(subject, f"{point} {seen.way}", _blocks(seen), seen.turns)
+    closed = Closed(subject)
+    made = document(subject, f"{point} {seen.way}", _blocks(seen, closed), [*seen.turns, *closed.symbols])
     values = {level: np.array(seen.value(arrow)) for level, arrow in seen.whole.items()}
     return PointMotion(made.blocks, made.letters, terms=seen.terms, values=values)
 
@@ -72,7 +75,7 @@ def _telling(subject: SymbolicState, chain: list[str]) -> tuple[str, list[str]]:
     return pairs[every.index(min(every))]
 
 
-def _blocks(seen: PointKinematics) -> list[Block]:
+def _blocks(seen: PointKinematics, closed: Closed) -> list[Block]:
     made: list[Block] = [Heading("The frame" if seen.single else "The frames"), Paragraph(_introduction(seen))]
     turning = zip(seen.stretches, seen.turns[::2], seen.turns[1::2], strict=True)
     for each, omega, alpha in turning:
@@ -80,7 +83,8 @@ def _blocks(seen: PointKinematics) -> list[Block]:
     made += [Paragraph(pair.sentence(seen.directions.axes)) for pair in seen.directions.pairs]
     for level, (heading, _) in _HEADINGS.items():
         made += [Heading(heading), *_sum(seen, level)]
-    return [*made, *_prescribed(seen), *_along_frame(seen), *_fixed(seen), *_numbers(seen)]
+    tied = [] if all(row.kind == "motion" for row in closed.rows) else closure(seen.subject, closed)
+    return [*made, *_prescribed(seen), *_along_frame(seen), *_fixed(seen), *tied, *_numbers(seen)]
 
 
 def _introduction(seen: PointKinematics) -> str:

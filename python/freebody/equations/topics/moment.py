@@ -8,7 +8,7 @@ from freebody.core import GROUND
 from freebody.document.blocks import Block, Equation, Heading, Paragraph, Written
 from freebody.document.document import Document
 from freebody.equations.solve import Unconfirmed
-from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, known, place_of, rates, spread
+from freebody.equations.topics.common import Asked, NotHere, cross, document, group_of, place_of, point_of, rates, spread
 from freebody.solve.symbolic_state import Balance
 from freebody.symbolic.algebra import equal
 from freebody.symbolic.differentiate import along_motion
@@ -22,8 +22,7 @@ def moment(asked: Asked, *, about: str | None = None, bodies: Sequence[str] | st
 
     ``about`` a point, by default the first that moves, and ``bodies``, all by default."""
     subject = asked.subject
-    if about is not None:
-        known(about, subject.points, "point")
+    about = about and point_of(subject, about)
     group, names = group_of(subject, bodies), subject.names
     carried = (name for name, (body, _, _) in subject.points.items() if body != GROUND)
     moving = (name for name in carried if not all(map(is_zero, rates(place_of(subject, name).xy, names))))

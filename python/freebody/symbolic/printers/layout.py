@@ -54,8 +54,9 @@ def product(tree: Tree, nomenclature: Nomenclature) -> Product:
     below = [power(f.base, -f.exponent) for f in rest if isinstance(f, Pow) and f.exponent < 0]
     above = _sorted((f for f in rest if not (isinstance(f, Pow) and f.exponent < 0)), nomenclature)
     head = tuple(factor for factor in above if _class(factor, nomenclature) == _PARAMETERS)
-    # A fraction that nobody calculates with, 9/20000, stands as the decimal number that it is.
-    odd = isinstance(size, Fraction) and size.denominator > _TENTHS and size.denominator % 5 == 0
+    # A fraction that nobody calculates with, 9/20000, stands as the decimal number that it is, beside decimal numbers also 3/5.
+    least = 0 if nomenclature.decimals else _TENTHS
+    odd = isinstance(size, Fraction) and size.denominator > least and size.denominator % 5 == 0
     size = float(size) if odd and Fraction(f"{float(size):.10g}") == size else size
     return Product(whole < 0, size, head, tuple(above[len(head) :]), tuple(_sorted(below, nomenclature)))
 
