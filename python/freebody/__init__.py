@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .core import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite
     from .mechanism import Mechanism
     from .model.errors import ModelFileError
+    from .model.user_units import units
     from .run.simulation import Run
     from .solve.instant import Instant
     from .views.compare import compare
@@ -28,6 +29,7 @@ _HOMES = {
     "NotFinite": "core",
     "Run": "run.simulation",
     "compare": "views.compare",
+    "units": "model.user_units",
 }
 
 __all__ = [
@@ -42,6 +44,7 @@ __all__ = [
     "Run",
     "compare",
     "load",
+    "units",
 ]
 
 

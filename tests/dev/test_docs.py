@@ -32,7 +32,7 @@ LADDER = next(
 
 def test_the_ladder_leaves_the_wall_at_two_thirds_of_its_height():
     """From energy and N = m dv/dt: sin θ = ⅔ sin θ₀, where the push ends; until then m l²/3 θ̈ = −m g l/2 cos θ."""
-    ladder = fb.Mechanism.loads(LADDER)
+    ladder = fb.Mechanism.loads(f"freebody: 1\n{LADDER}")
     run = ladder.simulate()
     leaves, start = (run.evaluate("sin(theta)", t) for t in (next(c.t for c in run.changes if c.kind == "lift-off"), 0.0))
     assert leaves == pytest.approx(start * 2 / 3, rel=1e-8)  # the motion holds to nine digits

@@ -14,7 +14,7 @@ MAY_USE = {
     "symbolic": set(),
     "document": {"symbolic", "formats"},
     "model": CORE,
-    "solve": CORE,
+    "solve": CORE | {"model"},
     "impact": CORE | {"model", "solve"},
     "run": CORE | {"model", "solve", "impact"},
     "find": SOLVED | {"stability"},

@@ -13,7 +13,7 @@ from freebody.cli.equations import equations
 from freebody.cli.find import find
 from freebody.cli.inverse import inverse
 from freebody.cli.models import how_far, leading_to, moment, obtained, opened, simulated, time_of, written
-from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Until
+from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Units, Until
 from freebody.cli.periodic import periodic
 from freebody.cli.stability import stability
 from freebody.cli.systems import systems
@@ -40,12 +40,17 @@ Rtol = Annotated[float | None, typer.Option(help="Relative tolerance.")]
 def run(
     model: Model,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Save the run: {run.storage}.")] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option(metavar="EXPRESSION", help="Into -o NAME.csv only this: A.F, x(P), a point or a column; repeatable."),
+    ] = None,
     changes: Changes = None,
     until: Until = None,
     method: Method = None,
     rtol: Rtol = None,
     report: Annotated[Path | None, typer.Option(help="Where the HTML report goes; default MODEL.html here.")] = None,
     no_report: Annotated[bool, typer.Option("--no-report", help="Write no HTML report.")] = False,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Simulate; print what happened and write a report. A model that it continues with follows, with files of its own."""
@@ -54,6 +59,8 @@ def run(
     page = report or Path(f"{model.stem}.html")
     if page.suffix.lower() not in ("", ".html", ".htm"):
         raise UserError(f"a report is .html, not {page.suffix!r}", f"write e.g. `--report {page.with_suffix('.html')}`")
+    if column and not output:
+        raise UserError("--column says what a table holds, and there is none", "add e.g. `-o table.csv`")
     if not no_report:
         check_writable(page)
     runs = [simulated(model, changes, until=until, method=method, rtol=rtol)]
@@ -64,7 +71,7 @@ def run(
         if not as_json:
             show.run(each)
         ending = f"-{stage}" if stage > 1 else ""  # the files of a model that it continues with have their number in the name
-        files.append([each.save(output.with_stem(output.stem + ending))] if output else [])
+        files.append([each.save(output.with_stem(output.stem + ending), *(column or ()))] if output else [])
         if not no_report:
             from freebody.views.report import write_report
 
@@ -87,6 +94,7 @@ def solve(
     route: Annotated[Route, typer.Option(help="How to solve; all compares the three.")] = "minimal",
     axes: Annotated[Axes, typer.Option(help="Reactions along fixed axes or along and across each joint.")] = "fixed",
     balance: Annotated[bool, typer.Option("--balance", help="The residual of each body's momentum balance.")] = False,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Accelerations and all reactions at one instant, by default the start, before and after the events there."""
@@ -104,6 +112,7 @@ def solve(
 def validate(
     model: Model,
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Labelled drawing: {views.diagram.picture}.")] = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Say what is modelled, ignored and assumed; draw the labelled mechanism."""

@@ -20,8 +20,10 @@ _AT_START = "look for laws without a value at the start, like 1/x at x = 0"
 def opened(path: Path, changes: list[str] | None = None) -> Any:
     """The mechanism of a model file, with some parameters changed."""
     from freebody.mechanism import Mechanism
+    from freebody.model import user_units
 
     mechanism = Mechanism.load(path)
+    user_units.prefer(mechanism.model.units or "")
     mechanism.parameters.update(pairs(changes))
     return mechanism
 

@@ -27,6 +27,25 @@ After = Annotated[str | None, typer.Option(metavar="EVENT", help="Just after an 
 Until = Annotated[str | None, typer.Option(metavar="TIME", help="End of the run, like 5 or '200 ms'.")]
 
 
+def _in_units(context: typer.Context, text: str | None) -> str | None:
+    """The command shows its figures in these units."""
+    from freebody.model.user_units import units
+
+    context.with_resource(units(text or ""))
+    return text
+
+
+Units = Annotated[
+    str | None,
+    typer.Option(
+        "--units",
+        metavar="UNITS",
+        callback=_in_units,
+        help="Of tables and plots: lb-ft, lb-in, N-mm, SI, or a list like 'mm, deg, rpm'.",
+    ),
+]
+
+
 def offering(choices: Mapping[str, str]) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """A command that takes ``**asked``, with an option ``--word`` for every word, and what it says of itself."""
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Field, model_validator
+from pydantic import ConfigDict, Field, PlainValidator, WithJsonSchema, model_validator
 
 from freebody.core import EXTREMES, Settings, cards
 
+from . import user_units
 from .elements import Force, Joint
+from .errors import ModelProblem
 from .switches import Contact, Event, Stop, String
 from .values import (
     Angle,
@@ -312,6 +314,17 @@ Gravity = one_of(
 Report = one_of("this is no quantity to report", "write `expression @ moment`", text=Text, mapping=Question)
 
 
+def _user_units(value: Any) -> str:
+    try:
+        user_units.choice(str(value))
+    except ModelProblem as problem:
+        raise refuse(problem.what, problem.hint) from None
+    return str(value)
+
+
+UserUnits = Annotated[str, PlainValidator(_user_units), WithJsonSchema({"type": "string"})]
+
+
 class Model(Section):
     """A whole model, as it is written."""
 
@@ -335,6 +348,7 @@ class Model(Section):
     events: dict[str, Event] = Field({}, description="What to watch for.")
     run: Run = Field(None, description="How far and how the motion is computed.")
     report: dict[str, Report] = Field({}, description="Quantities to report.")
+    units: UserUnits = Field(None, description="Units in which figures are shown: `lb-ft`, or a list like `mm, deg, rpm`.")
 
 
 def schema() -> dict[str, Any]:

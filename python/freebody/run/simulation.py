@@ -362,13 +362,15 @@ class Run(PlainText):
         """An xarray Dataset with time, coordinate, joint, ledger and body as dimensions."""
         return storage.to_xarray(self)
 
-    def to_pandas(self) -> pandas.DataFrame:
-        """A pandas table, one row a time and one column each of ``columns``; indeterminate reactions are NaN."""
-        return storage.to_pandas(self)
+    def to_pandas(self, *names: str) -> pandas.DataFrame:
+        """A pandas table, one row a time and one column each of ``columns``; indeterminate reactions are NaN. ``names`` choose others:
+        columns, expressions, and points as their x and y, with units in their heads, those of ``fb.units``."""
+        return storage.to_pandas(self, *names)
 
-    def save(self, path: str | Path) -> Path:
-        """Write ``.nc`` (netCDF) or ``.csv``, with the model, the settings and the versions inside."""
-        return storage.save(self, Path(path))
+    def save(self, path: str | Path, *names: str) -> Path:
+        """Write ``.nc`` (netCDF) or ``.csv``, with the model, the settings and the versions inside; with ``names`` a plain table of
+        these in CSV, as ``to_pandas`` has them."""
+        return storage.save(self, Path(path), names)
 
     @staticmethod
     def load(path: str | Path) -> Run:

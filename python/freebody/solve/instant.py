@@ -274,6 +274,8 @@ class Instant(PlainText):
         named = [c for c in _named(self.core) if c["name"] not in self.absent]
         coordinates = [(c["name"], found[c["name"]], f"{c['dimension']}/s²") for c in named]
         locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
+        units = {m["name"]: m["readings"]["force"] for m in self.core.metadata["motions"]}
+        units |= {x["name"].removeprefix("lock "): "N*m" if x["turns"] else "N" for x in self.core.metadata["locks"]}
         drives = (
             ("prescribed motions", "motion", self.motions),
             ("couplings", "coupling", self.couplings),
@@ -285,7 +287,14 @@ class Instant(PlainText):
             rich_tables.of_reactions((r for name, r in self.reactions.items() if name not in self.absent), self.sizes[0]),
             rich_tables.of_limits(self.limits.values()),
             rich_tables.of_forces(self.limits.values()),
-            *(table(title, [kind, "force or torque"], forces.items()) for title, kind, forces in drives),
+            *(
+                table(
+                    title,
+                    [kind, "force or torque", "unit"],
+                    [(name, force, units.get(name, "")) for name, force in forces.items()],
+                )
+                for title, kind, forces in drives
+            ),
             table("what is left of the momentum balances", ["body", "x [N]", "y [N]", "about G [N·m]"], left),
         ]
 

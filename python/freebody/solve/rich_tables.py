@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import html
+import re
 from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from freebody.solve.figures import figure
+from freebody.model import user_units
+from freebody.solve.figures import Known, figure
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from freebody.core import Limit
     from freebody.solve.instant import Reaction
 
+_UNIT = re.compile(r"\[(.+)\]$")
 _NO_FORCE = 1e-15  # of the largest force, by the metre for couples: less is round-off
 _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what rounding left
 
@@ -61,7 +64,9 @@ def table(
 ) -> Table:
     """A table for rich: words to the left, figures to the right. Figures are floats, what stands below a unit in brackets, and the
     columns with the heads ``figures``; None is left blank, and a blank column is left out. Names come from the model, so nothing is
-    taken for markup."""
+    taken for markup.
+
+    Figures come in SI, that of their head or else of their row under ``unit``, and are shown in the units that are chosen."""
     from rich import box
     from rich.table import Table
     from rich.text import Text
@@ -70,6 +75,7 @@ def table(
     filled = [i for i in range(len(heads)) if not rows or any(row[i] not in ("", None) for row in rows)]
     heads, rows = [heads[i] for i in filled], [[row[i] for i in filled] for row in rows]
     made = Table(title=Text(title, "bold") if title else None, title_justify="left", box=box.SIMPLE_HEAD, show_edge=edge)
+    heads, rows = _in_user_units(heads, rows)
     stated = [[figure(cell) if isinstance(cell, float) else "" if cell is None else cell for cell in row] for row in rows]
     for i, head in enumerate(heads):
         right = "[" in head or head in figures or any(isinstance(row[i], float) for row in rows)
@@ -78,6 +84,32 @@ def table(
     for row in stated:
         made.add_row(*(text if isinstance(text, Text) else Text(str(text)) for text in row))
     return made
+
+
+def _in_user_units(heads: Sequence[str], rows: Sequence[Sequence[Any]]) -> tuple[list[str], list[list[Any]]]:
+    """Heads and rows with their figures as ``user_units`` shows them; a column in which figures are texts stays in SI."""
+    heads, rows, own = list(heads), [list(row) for row in rows], list(heads).index("unit") if "unit" in heads else None
+    for i, head in enumerate(heads):
+        if found := _UNIT.search(head):
+            if not any(isinstance(row[i], str) and re.search(r"\d", row[i]) for row in rows):
+                other = user_units.shown(found[1])
+                heads[i] = head if other.size == 1 else head.replace(found[0], f"[{other.unit.replace('*', '·')}]")
+                for row in rows:
+                    row[i] = _divided(row[i], other.size)
+        elif own is not None:
+            for row in rows:
+                row[i] = _divided(row[i], user_units.shown(row[own]).size)
+    if own is not None:
+        for row in rows:
+            row[own] = user_units.shown(row[own]).unit
+    return heads, rows
+
+
+def _divided(cell: Any, size: float) -> Any:
+    """A figure, with what is known of its error, by the size of its unit; what is none as it is."""
+    if size == 1 or not isinstance(cell, float):
+        return cell
+    return Known(cell / size, cell.error / size, cell.size / size) if isinstance(cell, Known) else cell / size
 
 
 def captured(shown: Any, width: int) -> str:

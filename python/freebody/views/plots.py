@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array, quote
+from freebody.model.user_units import shown
 from freebody.views.labels import mathtext
 from freebody.views.style import DASHES, GROUND, IMPACT, axes, colour, quiet
 
@@ -31,8 +32,8 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
     """
     ax, run = axes(ax), refined_at_jumps(run)
     breaks = gaps(run)
-    shown = list(names) or run.coordinates
-    units = list(dict.fromkeys(run.unit_of(name) for name in shown))
+    drawn = list(names) or run.coordinates
+    units = list(dict.fromkeys(run.unit_of(name) for name in drawn))
     if len(units) > 2:
         raise ValueError(f"{len(units)} units do not fit on one plot: {', '.join(unit or 'none' for unit in units)}")
     sides = [ax]
@@ -40,15 +41,17 @@ def series(run: Run, *names: str, ax: Axes | None = None) -> Axes:
         sides.append(ax.twinx())
         sides[1].grid(visible=False)
         sides[1].spines["right"].set_visible(True)
-    for i, name in enumerate(shown):
+    for i, name in enumerate(drawn):
         k = units.index(run.unit_of(name))
-        sides[k].plot(breaks(run.t), breaks(run[name], np.nan), color=colour(i), ls=DASHES[k], label=label(run, name))
+        sides[k].plot(
+            breaks(run.t), breaks(run[name] / shown(units[k]).size, np.nan), color=colour(i), ls=DASHES[k], label=label(run, name)
+        )
     for side, unit in zip(sides, units, strict=True):
-        own = [name for name in shown if run.unit_of(name) == unit]
-        side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else _MEASURED.get(unit, ""), unit))
+        own = [name for name in drawn if run.unit_of(name) == unit]
+        side.set_ylabel(with_unit(label(run, own[0]) if len(own) == 1 else _MEASURED.get(unit, ""), shown(unit).unit))
     _mark_events(run, ax)
     ax.set(xlabel="t  [s]", xlim=(run.t[0], run.t[-1]))
-    _legend(ax, *sides[1:], needed=len(shown) > 1)
+    _legend(ax, *sides[1:], needed=len(drawn) > 1)
     return ax
 
 
@@ -61,10 +64,11 @@ def phase(run: Run, name: str, rate: str | None = None, ax: Axes | None = None) 
 def against(run: Run, x: str, y: str, ax: Axes | None = None) -> Axes:
     """One quantity against another."""
     ax = axes(ax, (5.2, 4.4))
-    ax.plot(run[x], run[y], color=colour(0))
-    ax.plot(run[x][:1], run[y][:1], "o", color=colour(0), ms=6, label="start")
-    ax.plot(run[x][-1:], run[y][-1:], "s", color=colour(0), ms=6, mfc="white", label="end")
-    ax.set(xlabel=with_unit(label(run, x), run.unit_of(x)), ylabel=with_unit(label(run, y), run.unit_of(y)))
+    (right, across), (up, along) = (_in_user_units(run, name) for name in (x, y))
+    ax.plot(right, up, color=colour(0))
+    ax.plot(right[:1], up[:1], "o", color=colour(0), ms=6, label="start")
+    ax.plot(right[-1:], up[-1:], "s", color=colour(0), ms=6, mfc="white", label="end")
+    ax.set(xlabel=with_unit(label(run, x), across), ylabel=with_unit(label(run, y), along))
     _legend(ax)
     return ax
 
@@ -76,8 +80,9 @@ def polar(run: Run, angle: str, radius: str, ax: Axes | None = None) -> Axes:
         figure = axes(None, (5.2, 5.2)).figure
         figure.clear()
         ax = figure.add_subplot(projection="polar")
-    ax.plot(run[angle], run[radius], color=colour(0))
-    ax.set_title(f"{with_unit(label(run, radius), run.unit_of(radius))} over {label(run, angle)}", pad=18)
+    away, unit = _in_user_units(run, radius)
+    ax.plot(run[angle], away, color=colour(0))
+    ax.set_title(f"{with_unit(label(run, radius), unit)} over {label(run, angle)}", pad=18)
     return ax
 
 
@@ -87,11 +92,12 @@ def paths(run: Run, *points: str, ax: Axes | None = None) -> Axes:
     from freebody.views.scene import of_run
 
     ax = axes(ax, (5.6, 5.0))
+    length = shown("m")
     for i, name in enumerate(points or of_run(run, run.t[:1]).traces):
-        x, y = run[name].T
+        x, y = run[name].T / length.size
         ax.plot(x, y, color=colour(i), label=name)
         ax.plot(x[:1], y[:1], "o", color=colour(i), ms=5)
-    ax.set(xlabel="x  [m]", ylabel="y  [m]")
+    ax.set(xlabel=with_unit("x", length.unit), ylabel=with_unit("y", length.unit))
     ax.set_aspect("equal", adjustable="datalim")
     _legend(ax)
     return ax
@@ -104,7 +110,7 @@ def energy(run: Run, ax: Axes | None = None) -> Axes:
     ledger = run.energy
     curves = {**ledger.entries, "kinetic + potential": ledger.kinetic + ledger.potential}
     drawn = [(name, values, "--" if name.startswith("work of ") else "-") for name, values in curves.items()]
-    return _over_time(run, drawn, "energy  [J]", f"balance within {np.abs(ledger.balance).max():.1e} J", ax)
+    return _over_time(run, drawn, ("energy", "J"), f"balance within {np.abs(ledger.balance).max():.1e} J", ax)
 
 
 @quiet()
@@ -113,11 +119,11 @@ def reactions(run: Run, *names: str, part: str = "size", ax: Axes | None = None)
     locks and prescribed motions; indeterminate ones are named, not drawn. Without names, all that can carry a load."""
     run = refined_at_jumps(run)
     held = held_by(run, "N*m" if part == "M" else "N")
-    shown = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *held]
-    silent = [name for name in shown if name in run.reactions and not run.reactions[name].determinate]
+    asked = names or [*(name for name, reaction in run.reactions.items() if reaction.carries), *held]
+    silent = [name for name in asked if name in run.reactions and not run.reactions[name].determinate]
     placed = [limit["name"] for limit in run.metadata["limits"] if limit["type"] != "stop"]
     drawn: list[tuple[str, Array, str]] = []
-    for name in shown:
+    for name in asked:
         if name in run.reactions:
             drawn += [] if name in silent else [(name, getattr(run.reactions[name], part), "-")]
         elif part in ("size", "M"):
@@ -125,16 +131,17 @@ def reactions(run: Run, *names: str, part: str = "size", ax: Axes | None = None)
         elif name in placed:
             drawn.append((name, run[f"{quote(name)}.{part}"], "-"))
     title = f"indeterminate, not drawn: {', '.join(silent)}" if silent else ""
-    return _over_time(run, drawn, "couple  [N·m]" if part == "M" else "force  [N]", title, ax)
+    return _over_time(run, drawn, ("couple", "N*m") if part == "M" else ("force", "N"), title, ax)
 
 
-def _over_time(run: Run, curves: Sequence[tuple[str, Array, str]], what: str, title: str, ax: Axes | None) -> Axes:
-    """Curves with their names and dashes over the times of a run, with gaps where something switched."""
-    ax, breaks = axes(ax), gaps(run)
+def _over_time(run: Run, curves: Sequence[tuple[str, Array, str]], what: tuple[str, str], title: str, ax: Axes | None) -> Axes:
+    """Curves with their names and dashes over the times of a run, with gaps where something switched; ``what`` they are and its
+    unit."""
+    ax, breaks, unit = axes(ax), gaps(run), shown(what[1])
     for i, (name, values, dashes) in enumerate(curves):
-        ax.plot(breaks(run.t), breaks(values, np.nan), color=colour(i), ls=dashes, label=name)
+        ax.plot(breaks(run.t), breaks(values / unit.size, np.nan), color=colour(i), ls=dashes, label=name)
     _mark_events(run, ax)
-    ax.set(xlabel="t  [s]", ylabel=what, xlim=(run.t[0], run.t[-1]))
+    ax.set(xlabel="t  [s]", ylabel=with_unit(what[0], unit.unit), xlim=(run.t[0], run.t[-1]))
     if title:
         ax.set_title(title, fontsize=10, color=GROUND, pad=16)
     _legend(ax)
@@ -183,8 +190,8 @@ def overlay(a: Run, b: Run, names: Sequence[str], ax: Axes | None = None) -> Axe
     for i, name in enumerate(names):
         for run, dashes, text in ((a, "-", f"{label(a, name)}, first"), (b, "--", "second")):
             breaks = gaps(run)
-            ax.plot(breaks(run.t), breaks(run[name], np.nan), color=colour(i), ls=dashes, label=text)
-    units = list(dict.fromkeys(a.unit_of(name) for name in names))
+            ax.plot(breaks(run.t), breaks(_in_user_units(run, name)[0], np.nan), color=colour(i), ls=dashes, label=text)
+    units = dict.fromkeys(shown(a.unit_of(name)).unit for name in names)
     ax.set(xlabel="t  [s]", ylabel=with_unit(label(a, names[0]) if len(names) == 1 else "", ", ".join(units)))
     _legend(ax)
     return ax
@@ -194,6 +201,12 @@ def label(run: Run, name: str) -> str:
     """A column's symbol; other expressions as they are written."""
     symbols = {column.name: f"${mathtext(column.symbol)}$" for column in run.columns}
     return symbols.get(name, name.replace("$", r"\$"))
+
+
+def _in_user_units(run: Run, name: str) -> tuple[Array, str]:
+    """A column or expression as it is shown, and the unit."""
+    unit, size = shown(run.unit_of(name))
+    return run[name] / size, unit
 
 
 def with_unit(text: str, unit: str) -> str:

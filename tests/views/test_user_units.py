@@ -1,0 +1,108 @@
+"""Figures in the user's units: what is shown is the SI figure over the size of its unit, head and rows alike; data stays in SI."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import freebody as fb
+from freebody.cli import app
+from freebody.model.errors import ModelProblem
+from freebody.model.user_units import choice, shown
+from freebody.solve.figures import Known
+from freebody.solve.rich_tables import captured, table
+from freebody.views import plots
+
+FOOT, POUND_FORCE = 0.3048, 0.45359237 * 9.80665
+"""Their definitions: m, and N."""
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "expected", "size"),
+    [
+        ("lb-ft", "m", "ft", FOOT),
+        ("lb-ft", "N*m", "lbf*ft", POUND_FORCE * FOOT),
+        ("lb-ft", "J", "lbf*ft", POUND_FORCE * FOOT),
+        ("lb-ft", "W", "lbf*ft/s", POUND_FORCE * FOOT),
+        ("lb-ft", "kg·m²", "slug·ft²", POUND_FORCE * FOOT),  # a slug is lbf s²/ft
+        ("lb-ft", "rad/s", "rad/s", 1.0),
+        ("lb-ft, deg", "rad/s²", "deg/s²", 3.141592653589793 / 180),
+        ("N-mm", "N*m", "N*mm", 1e-3),
+        ("N-mm", "m/s^2", "mm/s^2", 1e-3),
+        ("rpm", "rad/s", "rpm", 3.141592653589793 / 30),
+        ("rpm", "rad", "rad", 1.0),
+        ("kJ", "J", "kJ", 1e3),
+        ("kJ", "N*m", "N*m", 1.0),  # a couple is no energy
+        ("SI", "N", "N", 1.0),
+    ],
+)
+def test_a_unit_is_shown_in_another_of_its_kind(text, unit, expected, size):
+    with fb.units(text):
+        assert shown(unit) == (expected, pytest.approx(size, rel=1e-15))
+    assert shown(unit) == (unit, 1.0)
+
+
+@pytest.mark.parametrize("text", ["lb-foot", "mm, in", "lb-ft, m"])
+def test_a_choice_that_is_none_is_refused(text):
+    with pytest.raises(ModelProblem):
+        choice(text)
+
+
+def test_a_table_turns_heads_and_rows_and_leaves_what_is_text():
+    rows = [("a", 0.3048, 1.0, "N", "1e-3"), ("b", None, 2.0, "rad", "2e-3")]
+    with fb.units("lb-ft"):
+        made = captured(table("", ["", "x [m]", "value", "unit", "rest [N]"], rows), 90).split()
+    assert made[:8] == ["x", "[ft]", "value", "unit", "rest", "[N]", made[6], "a"]
+    assert made[8:] == ["1", "0.224809", "lbf", "1e-3", "b", "2", "rad", "2e-3"]
+
+
+def test_digits_that_hold_are_no_others_in_another_unit():
+    with fb.units("N-mm"):
+        assert "2.00e+03" in captured(table("", ["x [m]"], [(Known(2.0001, 1e-3, 2.0),)]), 90)
+
+
+MODEL = """
+freebody: 1
+units: lb-ft
+bodies: {block: {shape: particle, mass: 2 kg}}
+joints: {track: {type: slot, point: block.centre, along: {through: ground.O, angle: 0}, coordinate: s}}
+initial: {s: 3.048 m}
+run: {until: 0.1 s}
+"""
+
+
+def test_a_file_wishes_an_option_decides_and_json_is_si(tmp_path):
+    path = tmp_path / "block.yaml"
+    path.write_text(MODEL)
+
+    def solved(*options: str) -> str:
+        done = CliRunner().invoke(app, ["solve", str(path), *options])
+        assert done.exit_code == 0, done.output
+        return done.stdout
+
+    assert "19.62" in solved("--units", "SI") and "[lbf]" not in solved("--units", "SI")
+    assert "[lbf]" in solved() and f"{19.62 / POUND_FORCE:.6g}" in solved() and "[N]" not in solved()
+    data = json.loads(solved("--json"))
+    assert data["reactions"]["track"]["Fy"] == pytest.approx(19.62)
+
+
+def test_plots_are_in_the_units_of_their_axes():
+    run = fb.Mechanism.loads(MODEL).simulate()
+    with fb.units("lb-ft"):
+        ax = plots.series(run, "s")
+    assert ax.get_ylabel().endswith("[ft]") and ax.lines[0].get_ydata()[0] == pytest.approx(10.0)
+
+
+def test_columns_of_choice_have_their_units_in_their_heads(tmp_path):
+    run = fb.Mechanism.loads(MODEL).simulate()
+    with fb.units("lb-ft"):
+        table = run.to_pandas("block.centre", "track.F")
+        lines = run.save(tmp_path / "table.csv", "block.centre", "track.F").read_text().splitlines()
+    assert list(table) == ["x(block.centre) [ft]", "y(block.centre) [ft]", "track.F [lbf]"]
+    assert lines[0] == ",".join(["t [s]", *table]) and len(lines) == len(run.t) + 1
+    last = [float(figure) for figure in lines[-1].split(",")]
+    assert last == [0.1, *table.iloc[-1]] == pytest.approx([0.1, 10.0, 0.0, 19.62 / POUND_FORCE])
+    with pytest.raises(ValueError, match=r"written as \.csv, not '\.nc'"):
+        run.save(tmp_path / "table.nc", "track.F")
