@@ -6,7 +6,7 @@ from __future__ import annotations
 import random
 import re
 import unicodedata
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -124,7 +124,8 @@ class Style:
             case Dot(left=left, right=right):
                 return f"{self.write(left, _DOT)} {self.pick(CDOT, '·')} {self.write(right, _CROSS)}"
             case Cross(left=left, right=right):
-                return f"{self.write(left, _CROSS)} {self.pick(TIMES, '×')} {self.write(right, _PRODUCT)}"
+                tight = replace(self, times=r"\,", plain_times=" ")  # a dot binds looser than a cross
+                return f"{tight.write(left, _CROSS)} {self.pick(TIMES, '×')} {tight.write(right, _PRODUCT)}"
             case Mul(factors=factors):
                 return self.product(factors)
             case Quotient(top=top, bottom=bottom):

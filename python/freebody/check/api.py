@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import replace
 from time import process_time
@@ -58,7 +59,7 @@ class Checker:
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
-        self._runs: list[Any] = []  # the model's own, once it is asked for
+        self._runs: dict[float | None, Any] = {}  # the model's own, by when they end, once they are asked for
         self._beside: dict[tuple[Any, ...], Checker] = {}  # the same of other moments
 
     def symbols(self, declared: Declared | None = None) -> Symbols:
@@ -174,9 +175,10 @@ class Checker:
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
-        if not self._runs:
-            self._runs += [self.mechanism.simulate(None if self.mechanism.run_numbers().until is not None else 1.0)]
-        run = self._runs[0]
+        until = None if self.mechanism.run_numbers().until is not None else 1.0
+        with suppress(ModelProblem):
+            until = until and max(until, quantity("at", name, "s"))
+        run = self._runs.get(until) or self._runs.setdefault(until, self.mechanism.simulate(until))
         times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
         times |= {event.name: event.t for event in reversed(run.events)}
         try:

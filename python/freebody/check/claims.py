@@ -103,7 +103,7 @@ def _labelled(checker: Checker, declared: Declared, words: str, statement: str, 
     that is the ``problem``. Raises it."""
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     names = bool(parts & {*re.findall(r"\w+", words)})
-    said = re.search(r"[=<>≤≥→]|->", words) is None
+    said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
     verdict = checker.check(statement, declared, correcting=checker.correcting and names) if said else None
     if verdict is None or not (names or verdict.ok):
         raise problem

@@ -39,6 +39,7 @@ _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
 _NOTHING = 1e-11  # of what an expression changes by within the model's sizes: what vanishes by a hypothesis is below it
+_MANY_TIMES = 1e3  # a parameter that is to make an expression vanish is at most so much larger than it was drawn
 _DONE = 1e-14  # of the same: where Newton's method has nothing left to do
 _NEWTON = 30  # steps of it
 _STEP = 1e-6  # of central differences, relative to the size of a coordinate
@@ -169,7 +170,8 @@ class MotionSampler(AskedModel):
         place = self.first.q + move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
-        return self._judging(self._arranged(self._conditions(rng, family), state, list(rates)))
+        given = {} if family.held or family.numbers or self.loops else values
+        return self._judging(self._arranged(self._conditions(rng, family), state, list(rates), given))
 
     def _rolled_on(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
         """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
@@ -208,12 +210,43 @@ class MotionSampler(AskedModel):
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
         return [*family.vanishing, *small, *slow]
 
-    def _arranged(self, conditions: Sequence[str], state: State, free: Sequence[str]) -> State:
-        """The nearest state at which ``conditions`` are 0. Raises ``NoMotion``."""
+    def _arranged(self, conditions: Sequence[str], state: State, free: Sequence[str], values: Mapping[str, float] = {}) -> State:
+        """The nearest state at which ``conditions`` are 0; where it cannot be so, with another of the ``values`` of parameters. Raises
+        ``NoMotion``."""
         for text in conditions:
             if not self._vanishes(text, state):
-                state = self._vanished(text, state, free)
+                try:
+                    state = self._vanished(text, state, free)
+                except NoMotion:
+                    if (found := self._fitted(text, state, values)) is None:
+                        raise
+                    state = found
         return state
+
+    def _fitted(self, text: str, state: State, values: Mapping[str, float]) -> State | None:
+        """The same state with another value of one parameter, of its sign, at which an expression is 0; first that which matters most."""
+        size = self._size(text, state)
+
+        def at(name: str, x: float) -> tuple[State, float]:
+            other = replace(state, p=self.core.bind({**values, name: x}))
+            return other, float(self.core.evaluate([text], other)[0])
+
+        def slope(name: str, x: float) -> float:
+            return (at(name, x * (1 + _STEP))[1] - at(name, x * (1 - _STEP))[1]) / (2 * _STEP * x)
+
+        for name in sorted(
+            (name for name in values if values[name]), key=lambda name: -abs(slope(name, values[name]) * values[name])
+        ):
+            x = values[name]
+            for _ in range(_NEWTON):
+                found, left = at(name, x)
+                if abs(left) <= _DONE * size:
+                    return found
+                rises = slope(name, x)
+                x -= left / rises if abs(rises * x) > _NOTHING * size else x
+                if not 0 < x / values[name] < _MANY_TIMES:
+                    break
+        return None
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""

@@ -17,7 +17,7 @@ from .language.tokens import CALLS
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
 _FROM_REST = re.compile(
     rf"(?:\b(?:if|when|after)\s+)?(?:\b(?:it|they|(?:the )?\w+)\s+(?:is|was|are|were)\s+|\b(?:it|they)\s+|\bbeing\s+)?"
-    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b",
+    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\bfrom rest(?=\s*\Z)",
     re.IGNORECASE,
 )
 _THESE_NUMBERS = re.compile(
@@ -80,10 +80,12 @@ _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
 """A condition that begins a sentence."""
 _FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
 """``=>`` where no sign of relation can stand."""
+_SAYING = re.compile(r"\A\s*([A-Za-z]{2,}(?:[ ,-]+[A-Za-z]{2,})+)\s*(?:⇒|∴|\\(?:Rightarrow|implies|therefore)\b)")
 _CLOSES = r"(?=\s*(?:\$+|\\[\])]|\\end\s*\{[^{}]*\})?\s*(?:\Z|[;\n]|\\\\|⇒))"
 """The end of a line, behind which only its display is closed."""
 _STOP = re.compile(
-    rf"\s*(?:(?<![.;,])[.;,!]|[□■∎✓✔]|\\(?:square|blacksquare|checkmark)|\bq\.?e\.?d\b\.?){_CLOSES}", re.IGNORECASE
+    rf"\s*(?:\\q?quad\s*)?(?:(?<![.;,])[.;,!]|[□■∎✓✔]|\\(?:square|blacksquare|checkmark)|\bq\.?e\.?d\b\.?){_CLOSES}",
+    re.IGNORECASE,
 )
 _EVER = (
     r"(?:\b(?:for|at)\s+(?:all|any|every|each)\s+(?:(?:time|instant|moment|angle|position|motion)s?\b|\\?\w+)(?:\s+(?:t\b|\\?theta\b|θ))?"
@@ -125,6 +127,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _ALWAYS.sub(" ", _STOP.sub("", _FOLLOWS.sub(r"\1 ⇒", said)))
     said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
     said = _STOP.sub("", _COMMENT.sub(comment, said))
+    said = _SAYING.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _LETTER.sub(lambda found: told(found, "the letter of a question"), said)
     said = _THUS.sub(lambda found: found[0] if {*re.findall(r"\w+", found[0])} & {*known} else " ", said)
     said = _CALLED.sub(lambda found: found[0] if {*found[2].split()} & {*known} else "initially: " * bool(found[1]), said)

@@ -180,14 +180,15 @@ class Reading:
         self.known.assumed[name] = f"the {meaning.texts[0]} of small vibrations about {self.known.vibration.place}"  # type: ignore[union-attr]
 
     def _initial(self, program: Program) -> dict[str, str]:
-        """Of symbols with the index 0 what is asked: θ₀, v₀, of anything that has a meaning without it."""
+        """Of symbols with the index 0 what is asked: θ₀, v₀, θ(0), of anything that has a meaning without it."""
         known = {
             **{folded(name): name for name in self.known.meanings},
             **{folded(name): said for name, said in ENERGIES.items()},
         }
         found = {}
-        for name in (n.name for n in self._unknown(program) if not n.dots and n.name.endswith("0")):
-            base = known.get(folded(name[:-1].rstrip("_")))
+        unknown = [n.name for n in self._unknown(program) if (not n.dots and n.name.endswith("0")) or n.name.endswith("(0)")]
+        for name in dict.fromkeys(unknown):
+            base = known.get(folded(name.removesuffix("(0)") if name.endswith(")") else name[:-1].rstrip("_")))
             if base in self.known.meanings and self.known.meanings[base].is_vector:
                 base = "hypot({}, {})".format(*self.known.meanings[base].texts[:2])
             if base:

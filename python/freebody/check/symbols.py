@@ -301,8 +301,8 @@ class Symbols:
 
     @cached_property
     def senses(self) -> dict[str, str]:
-        """ω and α of the only body in the other sense, where no coordinate says which is meant."""
-        return senses(self.spec, self.metadata)
+        """Letters that may be meant clockwise, so."""
+        return senses(self.spec, self.metadata, self.usual)
 
     @cached_property
     def _spellings(self) -> Names:

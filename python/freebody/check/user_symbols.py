@@ -90,7 +90,7 @@ _POINT = r"(\S+)"
 _PLACE = re.compile(rf"(position|velocity|acceleration) of {_POINT}(?: (?:from|relative to) {_POINT})?")
 _DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
 _JOINT = re.compile(r"(force|couple) (?:of|at) (.+) on (.+)")
-_GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\[.+\]|\S+?)(, along k)?")
+_GROUP = re.compile(r"(angular momentum|moment) (?:of|on) (.+) about (\[.+\]|\S+?)(, along -?k)?")
 _MOMENTUM = re.compile(r"momentum of (.+) along \[(.+)\]")
 _FORCE = re.compile(r"force on (.+?)(?: along ([xy]))?")
 _INERTIA = re.compile(rf"(inertia|radius of gyration) of (.+) about {_POINT}")
@@ -183,21 +183,22 @@ class Reader:
         return OfBodies("declared", along, FORCE.times(TIME), group, (rate,), 0)
 
     def moment(self, what: str, bodies: str, point: str, number: str | None) -> Meaning:
-        """Angular momentum of bodies about a point, or the moment on them; as a ``number``, or along k."""
+        """Angular momentum of bodies about a point, or the moment on them; as a vector, or as a ``number`` along k or against it."""
         group, axis = self.group(bodies), 2 if number else None
-        first, second = self.orbits(group, point, "v", "omega"), self.orbits(group, point, "a", "alpha")
+        sign = "-" if number == ", along -k" else ""
+        first, second = (self.orbits(group, point, v, spin, sign) for v, spin in (("v", "omega"), ("a", "alpha")))
         if what == "moment":
             return OfBodies("declared", second, ENERGY, group, axis=axis)
         return OfBodies("declared", first, ENERGY.times(TIME), group, (second,), axis)
 
-    def orbits(self, group: Sequence[str], point: str, symbol: str, spin: str) -> tuple[str, ...]:
+    def orbits(self, group: Sequence[str], point: str, symbol: str, spin: str, sign: str) -> tuple[str, ...]:
         """For each body r × v by its mass, and its spin by its inertia."""
         out: list[str] = []
         x, y = [self.measured(part)[0] for part in _parts(point[1:-1])] if point[0] == "[" else (f"x({point})", f"y({point})")
         for body in group:
             g = f"{spell(body)}.G"
-            turn = f"(x({g}) - ({x}))*{symbol}y({g}) - (y({g}) - ({y}))*{symbol}x({g})"
-            turns = "0" if body in self.particles else self.measured(f"{spin}({spell(body)})")[0]
+            turn = f"{sign}((x({g}) - ({x}))*{symbol}y({g}) - (y({g}) - ({y}))*{symbol}x({g}))"
+            turns = "0" if body in self.particles else self.measured(f"{sign}{spin}({spell(body)})")[0]
             out += ["0", "0", self.measured(turn)[0], turns]
         return tuple(out)
 

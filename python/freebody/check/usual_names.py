@@ -11,6 +11,7 @@ from typing import Any
 from freebody.model.names import spell
 
 _LETTER = re.compile(r"[^\W\d_]\w?")
+_COUNTER = ", along k"
 ENERGIES = {**dict.fromkeys(("T", "K", "KE"), "kinetic()"), **dict.fromkeys(("V", "U", "PE"), "potential()"), "E": "energy()"}
 """What they mean where no line of the statement makes them something else."""
 _RATES = {"rate": "accel", "omega": "alpha"}
@@ -35,10 +36,15 @@ def usual(spec: Mapping[str, Any], metadata: Mapping[str, Any], declared: Mappin
     return dict(reversed(found))  # what comes first stays
 
 
-def senses(spec: Mapping[str, Any], metadata: Mapping[str, Any]) -> dict[str, str]:
-    """ω and α of the only body clockwise, where no coordinate says which sense is meant."""
+def senses(spec: Mapping[str, Any], metadata: Mapping[str, Any], usual: Mapping[str, str]) -> dict[str, str]:
+    """Letters clockwise: the ``usual`` moments and angular momenta where angles are measured so; ω and α of the only body where no
+    coordinate says which sense is meant."""
+    signs = {c["name"]: c.get("sense", 1) for joint in spec["joints"] for c in joint.get("coordinates", ()) if "name" in c}
+    angles = [c["name"] for c in metadata["coordinates"] if c["dimension"] == "rad"]
+    if angles and all(signs.get(name) == -1 for name in angles):
+        return {name: said.replace(_COUNTER, ", along -k") for name, said in usual.items() if said.endswith(_COUNTER)}
     rigid = [body["name"] for body in spec["bodies"] if not body["particle"]]
-    if len(rigid) != 1 or any(c["dimension"] == "rad" for c in metadata["coordinates"]):
+    if len(rigid) != 1 or angles:
         return {}
     return {symbol: f"-{read}({spell(rigid[0])})" for symbol, read in (("ω", "omega"), ("α", "alpha"))}
 

@@ -64,9 +64,10 @@ _SAME_WORDS = {"Sigma": "sum"}
 _FONTS = {
     *_WORDS,
     *("vec", "hat", "mathbf", "boldsymbol", "bm", "bar", "underline", "overrightarrow"),
-    *("boxed", "mathit", "widehat", "overline", "tilde", "pmb"),
+    *("boxed", "mathit", "widehat", "overline", "tilde", "pmb", "mathbb"),
 }
 """Commands that change how a letter looks, and not what it is."""
+_SCRIPT = {"L": "ℒ", "H": "ℋ", "E": "ℰ", "F": "ℱ", "M": "ℳ", "T": "T", "V": "V"}
 _NOTHING = {
     *",!;:()[]>",
     *("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr"),
@@ -221,6 +222,8 @@ class _Reader:
             inside = self.group()
             first = next((g for g in inside if g.kind is Kind.WORD), None)  # dots stand on the first letter
             return [replace(g, dots=g.dots + _DOTS[word]) if g is first else g for g in inside]
+        if word in ("mathcal", "mathscr"):  # a Lagrangian is no length
+            return [replace(g, text=_SCRIPT.get(g.text, g.text)) for g in self.group()]
         if word in _FONTS:
             return [g for g in self.group() if word not in _WORDS or g.kind is not Kind.SPACE]
         if word in LATEX_WORDS:
@@ -235,6 +238,8 @@ class _Reader:
             return self.integral(span[0])
         if word == "\\":
             return [Glyph(Kind.SIGN, ";", span) if self.matrices else Glyph(Kind.LINE, "\n", span)]
+        if word in ("max", "min"):
+            return [Glyph(Kind.WORD, word, span)]
         if word in _FUNCTIONS:
             return [Glyph(Kind.SIGN, "function:" + word, span)]
         if word in _NOTHING or word.isspace():

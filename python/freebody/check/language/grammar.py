@@ -25,6 +25,7 @@ _ADDS = ("+", "-")
 SIGNED = (*_ADDS, "*", "/", "·", "×", *RELATIONS)
 _BEGINS = ("number", "symbol", "function", "rate", "∂", "(", "[", "{", "frac", "matrix[", "|", "∫")
 CLOSES = {"(": ")", "[": "]", "{": "}", "matrix[": "]"}
+_AT_START = re.compile(r"\((t=)?0\)")
 _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([^}]*)\}")
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
 
@@ -200,9 +201,13 @@ class Line:
         return Integral(of, Sym(by.text, span=by.span), lower, upper, span=self.span(token))
 
     def symbol(self, token: Token) -> Node:
-        """A symbol; written as a function of time, θ(t), it is the same."""
-        if [t.text for t in self.row[self.at : self.at + 3]] == ["(", "t", ")"] and self.now.attached:
+        """A symbol; written as a function of time, θ(t), it is the same, and θ(0) is what it is at the start."""
+        behind = "".join(t.text for t in self.row[self.at : self.at + 5])
+        if behind.startswith("(t)") and self.now.attached:
             self.at += 3
+        elif (found := _AT_START.match(behind)) and token.text not in self.names.constants:
+            self.at += 5 if found[1] else 3
+            return Sym(f"{token.text}(0)", token.dots, span=self.span(token))
         if token.text == "pi" and not self.names.find("pi"):
             return Num(math.pi, "pi", span=token.span)
         return Sym(token.text, token.dots, span=self.span(token))

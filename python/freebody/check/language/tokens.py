@@ -26,7 +26,9 @@ _IN_NAMES = (Kind.WORD, Kind.DIGIT, Kind.LOW, Kind.PRIME)
 # r_G1/O, ΣM/O, H_123/A: a label after a stroke that is part of a name, where no declared name decides
 _RELATIVE = re.compile(r"(?:sum)?(?:[rvaLHM][A-Z]?\w*|[a-z]+[A-Z]\w*)/[A-Z]\d*'?")
 # {d^2 θ}{dt^2}, {d}{dt}
-_FRACTION = re.compile(r"\{d(?:\^?\{?(\d|²)\}?)?([A-Za-z][\w']*)?\}\{dt(?:\^?\{?\1\}?)?\}")
+_FRACTION = re.compile(
+    r"\{d(?:\^?(\{)?(?P<order>\d|²)(?(1)\}))?(?P<of>[A-Za-z][\w']*)?\}\{dt(?:\^?(?:(?P=order)|\{(?P=order)\}))?\}"
+)
 
 
 @dataclass(frozen=True)
@@ -330,10 +332,10 @@ class _Reader:
         if not found:
             return None
         last = next(i for i, length in enumerate(accumulate(map(len, texts))) if length >= found.end())
-        end, order = inside[last] + 1, int((found[1] or "1").replace("²", "2"))
-        if not found[2]:
+        end, order = inside[last] + 1, int((found["order"] or "1").replace("²", "2"))
+        if not found["of"]:
             return _Piece("rate", "d/dt", order, end)
-        name, dots = self.names.find(folded(found[2])) or (found[2], 0)
+        name, dots = self.names.find(folded(found["of"])) or (found["of"], 0)
         return _Piece("symbol", name, dots + order + self.marks(self.at, end), end)
 
     def slope(self) -> list[_Piece] | None:
