@@ -1,6 +1,6 @@
 """How far ``freebody check`` gets with what students write about mechanisms of textbooks.
 
-    python benchmarks/books.py [mended | unseen | NAME …]
+    python benchmarks/books.py [mended | unseen | NAME …] [--slips 200 --seed 1]
 
 The statements are in tests/check/books/, with which the check was mended, and in tests/check/books_unseen/, with the verdict that a person came to and the correction that a tutor would give; those that
 are judged or corrected otherwise are printed.
@@ -8,20 +8,29 @@ are judged or corrected otherwise are printed.
 
 from __future__ import annotations
 
+import argparse
 import sys
 import time
 from collections import Counter
+from itertools import groupby
 from pathlib import Path
+
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "check"))
 
-from books import FILES, UNSEEN, Book, Said
+from books import FILES, UNSEEN, Book
 
 
 def main() -> None:
-    names = sys.argv[1:] or ["mended", "unseen"]
-    halves = {"mended": list(FILES), "unseen": list(UNSEEN)}
-    for name in names:
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("names", nargs="*", default=["mended", "unseen"], help="halves or mechanisms")
+    arguments.add_argument("--slips", type=int, default=0, help="so many slips instead, made by chance in right statements")
+    arguments.add_argument("--seed", type=int, default=1)
+    given, halves = arguments.parse_args(), {"mended": list(FILES), "unseen": list(UNSEEN)}
+    if given.slips:
+        return slips(given.slips, given.seed, [name for half in given.names for name in halves.get(half, [half])])
+    for name in given.names:
         print(f"{name}:")
         score(halves.get(name, [name]))
 
@@ -38,7 +47,7 @@ def score(names: list[str]) -> None:
             if wanted is not found:
                 print(f"{heading}\n    {wanted.value} is called {found.value} {said.verdict.assumption}")
             if "correction" in said.statement:
-                places[place := _place(book, said)] += 1
+                places[place := book.place(said.verdict, said.statement["correction"])] += 1
                 if place != "first":
                     print(f"{heading}\n    {said.statement['correction']} is {place}")
                     print(*(f"      {each}" for each in said.verdict.mends), sep="\n")
@@ -48,11 +57,29 @@ def score(names: list[str]) -> None:
     print("the correction of a tutor is " + ", ".join(f"{place} {count} times" for place, count in places.most_common()))
 
 
-def _place(book: Book, said: Said) -> str:
-    """At which place the correction of a tutor stands."""
-    text = said.statement["correction"]
-    found = [i for i, each in enumerate(said.verdict.mends) if book.says_the_same(each.equation, text)]
-    return "missing" if not found else "first" if found[0] == 0 else "among three" if found[0] < 3 else "behind the third"
+def slips(count: int, seed: int, names: list[str]) -> None:
+    """Prints which slips, made by chance in right statements, are not corrected first, and counts."""
+    rng, taken, places = np.random.default_rng(seed), [], Counter()
+    said = [(name, i) for name in names for i, each in enumerate(Book(name).data["statements"]) if each["verdict"] == "right"]
+    chosen = sorted(said[int(i)] for i in rng.permutation(len(said))[:count])
+    for name, which in groupby(chosen, key=lambda each: each[0]):
+        book = Book(name)
+        for _, i in which:
+            if (slip := book.slip(rng, book.data["statements"][i])) is None:
+                continue
+            taken.append(slip.seconds)
+            places[slip.kind, place := book.place(slip.verdict, slip.right)] += 1
+            if place != "first":
+                print(
+                    f"{name}, {slip.kind}, {place}, {slip.seconds:.1f} s: {slip.says}\n    was {slip.right}",
+                    slip.verdict.assumption,
+                )
+                print(*(f"      {each}" for each in slip.verdict.mends), slip.verdict.true, sep="\n", flush=True)
+    for kind in dict.fromkeys(kind for kind, _ in places):
+        print(f"  {kind}: " + ", ".join(f"{place} {n}" for (k, place), n in places.most_common() if k == kind))
+    every = [sum(n for (_, place), n in places.items() if place in those) for those in (("first",), ("first", "among three"))]
+    shares = [100 * each / len(taken) for each in every]
+    print(f"{len(taken)} slips: first {shares[0]:.1f} %, among three {shares[1]:.1f} %; {max(taken):.1f} s at most")
 
 
 if __name__ == "__main__":

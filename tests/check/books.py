@@ -13,23 +13,30 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import independent
 import numpy as np
 from ruamel.yaml import YAML
+from slipped import slipped
 
-from freebody.check import Checker
+from freebody.check import Checker, Kind
 from freebody.check.file import WORDS, judged_alone
 from freebody.check.language.statements import Equation, symbols_in
+from freebody.check.prose import plainly
 from freebody.check.residual import residual
 from freebody.check.verdict import Verdict
+from freebody.check.wording import with_condition_first
 from freebody.mechanism import Mechanism
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 
-_CONSTANT = re.compile(r"\s*constant:(.+)|(.+)=\s*(?:\\text\{)?const\}?\s*")
-_CONDITION = re.compile(r"^(?!\s*constant:).*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
+_CONSTANT = re.compile(r"(?:.*:)?\s*constant:(.+)", re.S)
+_CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
+_BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
 
 
 def _files(half: str) -> dict[str, Path]:
@@ -52,6 +59,18 @@ class Said:
         return WORDS[self.statement["verdict"]]
 
 
+@dataclass(frozen=True)
+class Slip:
+    """A right statement with a slip of a ``kind``, and what becomes of it."""
+
+    book: str
+    kind: str
+    right: str
+    says: str
+    verdict: Verdict
+    seconds: float
+
+
 class Book:
     """One mechanism and what is said of it."""
 
@@ -66,9 +85,11 @@ class Book:
     def says_the_same(self, one: str, other: str) -> bool:
         """Whether two equations, or what two claims call constant, hold at the same places, whatever the values of their symbols, or are
         one but for a number where these are as joints and laws of forces allow: m R² α is m R a of what rolls."""
-        cases = [self.checker.case(_CONSTANT.sub(r"\1\2 = 0", _CONDITION.sub("", text))) for text in (one, other)]
+        cases = [self.checker.case(self._equation(text)) for text in (one, other)]
         values = {**cases[0].values(), **cases[1].values()}
         one, other = (case.equations[0] for case in cases)
+        if one == other:
+            return True
         places = cases[0].elsewhere(values)
         at = {n: places[n.key] for n in (*symbols_in(one), *symbols_in(other))}
         scalar = all(np.ndim(value) < 2 for value in at.values())
@@ -76,6 +97,38 @@ class Book:
             return True
         kinematic = any(case.is_kinematic(case.equations[0]) for case in cases)
         return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})
+
+    def _equation(self, text: str) -> str:
+        """What is said without the words that say of which motions; of a constant, that it is 0."""
+        return _CONDITION.sub("", _CONSTANT.sub(r"\1 = 0", self._plain(text)))
+
+    def _plain(self, text: str) -> str:
+        """What is said, with its condition first and without remarks."""
+        names = {*self.checker.mechanism.parameters, *self.checker.sampler.names, *self.checker.declared}
+        return with_condition_first(plainly(text, names)[0])
+
+    def slip(self, rng: np.random.Generator, statement: Mapping[str, Any]) -> Slip | None:
+        """A right statement with a slip of a student, and the verdict; None where none is found to be wrong."""
+        before, body, after = _BODY.fullmatch(self._plain(statement["says"])).groups(default="")  # type: ignore[union-attr]
+        try:
+            program = self.checker.symbols().read(body + " = 0" * ("constant:" in before))
+            vocabulary = self.checker.case(program.text).meaning.vocabulary
+        except (StatementError, ModelProblem):
+            return None
+        if len(program.lines) != 1 or not program.equations or program.equations[0].relation != "=":
+            return None
+        for kind, text in slipped(rng, program.text, program.equations[0], vocabulary):
+            new = before + (text.removesuffix("= 0") if "constant:" in before else text) + after
+            began = process_time()
+            verdict = judged_alone(self.checker, new)
+            if verdict.kind in (Kind.WRONG, Kind.DIMENSIONS):
+                return Slip(self.name, kind, statement["says"], new, verdict, process_time() - began)
+        return None
+
+    def place(self, verdict: Verdict, correction: str) -> str:
+        """At which place the correction of a tutor stands."""
+        found = [i for i, each in enumerate(verdict.mends) if self.says_the_same(each.equation, correction)]
+        return "missing" if not found else "first" if found[0] == 0 else "among three" if found[0] < 3 else "behind the third"
 
     def verdicts(self, correcting: bool = True) -> Iterator[Said]:
         self.checker.correcting = correcting

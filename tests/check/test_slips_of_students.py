@@ -33,6 +33,20 @@ SLIPS = {
         "constant: ½ I ω² + ½ mA vA² + ½ mB vB² + mA g yA − mB g yB + C θ",
         "is left out",
     ),
+    "speed beside what moves": (
+        "disk_along_a_turning_wall",
+        "T = ½ m ((x' − Ω r)² + Ω² x²) + ¼ m x'² + ½ J Ω²",
+        "T = ½ m ((x' − Ω r)² + Ω² x²) + ¼ m (x' − r Ω)² + ½ J Ω²",
+        "another quantity",
+    ),
+    "weight for what presses": ("sliding_door", "P − μ m g = m a", "P − μ N_A = m a", "another quantity"),
+    "a number in a limit": ("disk_drawn_by_block", "as mB -> inf: α = g/(3 R)", "as mB -> inf: α = 2 g/(3 R)", "a number"),
+    "one instant": (
+        "ball_strikes_a_free_bar",
+        "just after: V = m (1 + e) v0/(M + m)",
+        "just after: V = m (1 + e) v0/(M + m + 12 m d²/L²)",
+        "is left out",
+    ),
 }
 
 

@@ -78,8 +78,8 @@ class Checker:
         Raises ``StatementError`` and ``ModelProblem``."""
         known = self.symbols(letters)
         program = known.read(text, units, tight)
-        meaning = StatementSymbols(known, program, self.sampler)
         given = hypothesis or self.hypothesis
+        meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
 

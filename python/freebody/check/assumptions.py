@@ -18,7 +18,7 @@ from freebody.model.names import spell
 from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, is_zero, sampled
-from freebody.symbolic.tree import Fn, Sym, walk
+from freebody.symbolic.tree import Fn, Pow, Sym, walk
 
 from .case import Case
 from .families import Family, NoMotion
@@ -51,6 +51,7 @@ _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
 _STATES = 16
 _PART = 0.85  # of the budget, so that there is time for the balance that comes nearest
+_AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
 _TINY = 5e-6  # rad, at which what is left of a true linear equation is below HOLDS, and round-off, too
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
@@ -80,6 +81,15 @@ def linearised(case: Case, equation: Equation) -> str:
     return _to_first_order(case, equation) if _has_bare_angles(case, equation) else ""
 
 
+def _is_of_higher_order(case: Case, equation: Equation) -> bool:
+    """Whether it has sines of the angles that move, or a product of two rates: who neglects what is small keeps neither."""
+    angles = case.meaning.vocabulary.angular & {*case.meaning.vocabulary.coordinates}
+    calls = (n for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
+    return any(angles & {*symbols_in(n)} for n in calls) or any(
+        isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1 for n in walk(equation)
+    )
+
+
 def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
     """The statement of motions so small that sines are angles, in words; None where no angle stands outside of sines and cosines."""
     if not _has_bare_angles(case, equation):
@@ -107,7 +117,8 @@ def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
 def _to_first_order(case: Case, equation: Equation) -> str:
     """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
     words, family = _small(case, equation, SMALL)
-    if not case.budget.lasts(_PART):
+    exact = not _has_bare_angles(case, equation) and _is_of_higher_order(case, equation)
+    if exact or not case.budget.lasts(_PART):
         return ""
     with suppress(NoMotion, StatementError, ModelError, MotionError):
         if family.small and not case.hypothesis.small and first_order(case, equation, family):
@@ -218,7 +229,8 @@ def _limits(case: Case) -> Iterator[tuple[str, int]]:
 def _limit(case: Case, equation: Equation) -> str:
     """A limit in which the residual vanishes though every term still takes part, in words; nothing where there is none."""
     given = case.hypothesis
-    for name, power in case.budget.within(_limits(case), _PART):
+    part = _AT_MOMENT if case.sampler.own.moment else _PART
+    for name, power in case.budget.within(_limits(case), part):
         families = (replace(given, scaled=(*given.scaled, (name, far**power))) for far in _FAR)
         with suppress(NoMotion, StatementError, ModelError, MotionError):
             near, far = (case.values(family, count=_STATES) for family in families)

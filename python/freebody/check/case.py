@@ -52,8 +52,9 @@ _MANY = 12  # reactions, beyond which only those of the statement are thought of
 class StatementSymbols:
     """What the symbols of a program mean in a model. Raises ``StatementError`` at a symbol without a meaning."""
 
-    def __init__(self, symbols: Symbols, program: Program, sampler: MotionSampler) -> None:
+    def __init__(self, symbols: Symbols, program: Program, sampler: MotionSampler, of_instant: bool = False) -> None:
         self.symbols, self.program, self.sampler, self.figures = symbols, program, sampler, False
+        self._of_instant = of_instant
         self.required = symbols.require(program)
         self.used = list(dict.fromkeys(Sym(n.name) for n in self.required))
 
@@ -133,8 +134,10 @@ class StatementSymbols:
         others += self._reactions({_meant(self._one(n).texts) for n in others})
         groups = (parameters, coordinates, others, vectors)
         plain = [{n: self._dimension(n) for n in group} for group in groups]
-        angles = {n for n in (*parameters, *coordinates, *others) if self._one(n).dimension == ANGLE}
-        return Vocabulary(*plain, angular=frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY}))
+        named = [n for n in others if n in self.used or n.name in self.symbols.own]
+        angles = {n for n in (*parameters, *coordinates, *named) if self._one(n).dimension == ANGLE}
+        angular = frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY})
+        return Vocabulary(*plain, angular=angular, letters=frozenset(map(Sym, self.symbols.own)))
 
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""
@@ -163,11 +166,15 @@ class StatementSymbols:
     def _parameters(self) -> list[Sym]:
         there = self.symbols.of_kind("parameter", "gravity")  # of them those that are said, or more than numbers of the start
         used = (name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in there)
-        own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters or Sym(name) in self.used]
+        start = self._of_instant or bool(self.sampler.own.moment)  # then its numbers count, too
+        derived = {parameter["name"] for parameter in self.sampler.spec["parameters"] if isinstance(parameter["value"], str)}
+        named = {n.name for n in self.used} | derived
+        own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters or start or name in named]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
         declared = map(Sym, self.symbols.of_kind("declared"))  # some only name a parameter anew
         renamed = [n for n in declared if _meant(self._one(n).texts)[0] in self.sampler.free_parameters]
-        made = [n for n in self.used if self._one(n).kind == "declared" and self._is_fixed(n)] + renamed
+        letters = [*self.used, *map(Sym, sorted(self.symbols.own))]
+        made = [n for n in letters if self._one(n).kind == "declared" and self._is_fixed(n)] + renamed
         return self._once([*made, *(n for n in own if n in self.used), *own])
 
     def _once(self, found: list[Sym]) -> list[Sym]:

@@ -126,8 +126,8 @@ def _beside_event(checker: Checker, declared: Declared, just: str, side: str, ev
     verdict = there.check(statement, declared, given)
     if verdict.ok or just or side == "after":
         return verdict
-    until = checker.check(statement, declared, SINCE_START, correcting=False)  # what is before it may be the motion up to it
-    return until if until.ok else verdict
+    until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it
+    return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
@@ -174,7 +174,8 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
             continue
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
         if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
-            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", evidence=evidence(found, values))
+            mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
+            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
 
 

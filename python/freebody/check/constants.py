@@ -14,13 +14,14 @@ from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, is_zero, walk
 
 from .coefficients import multiplied, tidied
 from .correction import EQUAL, MOST, Correction, stated
-from .edits import Edit, conventions, depth, edits
+from .edits import Edit, conventions, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits, proportional
 from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in
+from .likelihood import Likelihood
 from .residual import magnitude
-from .slips import unlikely, why
+from .slips import why
 
 if TYPE_CHECKING:
     from .case import Case
@@ -50,7 +51,8 @@ class _Search:
     def __init__(self, case: Case, node: Node, values: Mapping[str, Array], moments: int) -> None:
         self.node, self.values, self.moments = node, values, moments
         self.equation, self.vocabulary, self.within = Equation(node, _ZERO), case.meaning.vocabulary, case.budget.within
-        self.fits, self.elsewhere, self.admissible = case.meaning.fits, case.elsewhere(values), case.admissible
+        self.fits, self.admissible = case.meaning.fits, case.admissible
+        self._likelihood = Likelihood(self.equation, self.vocabulary, values, case.elsewhere(values))
 
     def found(self) -> Iterator[tuple[Edit, ...]]:
         """The edits after which it is constant."""
@@ -70,7 +72,7 @@ class _Search:
                         yield first, second
 
     def _plain(self) -> Iterator[Edit]:
-        return chain(edits(self.equation, self.vocabulary), conventions(self.equation, self.vocabulary))
+        return chain(*(of(self.equation, self.vocabulary) for of in (edits, conventions, forgotten_factors)))
 
     def _fitted(self, node: Node) -> Iterator[Edit]:
         return chain(self._factors(node), self._missing(node))
@@ -85,7 +87,7 @@ class _Search:
 
     def size(self, edits: tuple[Edit, ...]) -> float:
         """How large edits are, larger where they are none that people make."""
-        return sum(edit.size + unlikely(edit, self.equation, self.vocabulary, self.values, self.elsewhere) for edit in edits)
+        return sum(edit.size + self._likelihood.lack(edit) for edit in edits)
 
     def mark(self, node: Node) -> object:
         """What an expression is but for its size, whatever letters it is written in."""

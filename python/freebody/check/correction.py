@@ -7,8 +7,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from heapq import heappop, heappush
 from itertools import chain, combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,13 +19,14 @@ from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, walk
 
 from .coefficients import tidied
 from .derivative_edits import DerivativeEdits
-from .edits import Edit, conventions, depth, edits, other_figures, with_unit_vectors
+from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
 from .families import NoMotion
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in
-from .residual import HOLDS, Residual, magnitude, residual, unreached
-from .slips import unlikely, why
+from .likelihood import PARTNER, Likelihood
+from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
+from .slips import is_constraint, why
 
 if TYPE_CHECKING:
     from .case import Case
@@ -44,10 +46,12 @@ MOST = 3  # corrections that are given
 FIRST, SECOND = 0.5, 0.8
 """Parts of the budget after which a first search ends, and one that comes after it."""
 _CONFIRMING = 0.1  # of it, for what was found by then
+_OF_BALANCE = 0.5  # more, where motions alone were spoken of, for what only a balance makes true
 _FRESH = 1
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
+_LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
@@ -157,29 +161,33 @@ class _Search:
 
     def __init__(self, case: Case, equation: Equation, family: Family, part: float) -> None:
         self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
-        self.values, self.fresh = case.values(family), case.values(family, _FRESH)
+        self.values = _where_known(equation, case.values(family))
         self.few = {key: value[:_FEW] for key, value in self.values.items()}
+        self._edited = Edited(equation, self.few)
         self.fit = case.meaning.fits
         self.said = {n.key for n in symbols_in(equation)}
         self.given, self.case = case.meaning.given(), case
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self.within = partial(case.budget.within, part=part)
-        self.confirming = partial(case.budget.within, part=part + _CONFIRMING)
-        self.fits = FittedEdits(self.values, self.vocabulary, self.within, _BLUR if family.small else 1.0)
+        self.lasts = partial(case.budget.lasts, part=part + _CONFIRMING)
+        self.fits = FittedEdits(
+            self.values, self.vocabulary, self.within, _BLUR if family.small or family.scaled else 1.0, bool(family.small)
+        )
         self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
-        self.holds = _LINEAR if family.small else HOLDS
+        self.holds, self._near = (_LIMIT, _LIMIT) if family.scaled else (_LINEAR if family.small else HOLDS, _PROMISING)
         self.right = self._worst(equation, self.values) < self.holds
 
     def singles(self) -> Iterator[_Found]:
         """Every single edit that may make it true."""
         readable = self._residual(self.equation, self.few)
         units = tuple(n for n in self.vocabulary.vectors if n in map(Sym, "ijk"))
-        found = chain(
+        found = chain(  # the likely ones first: there may be no time for all
             () if readable else with_unit_vectors(self.equation, units),
             edits(self.equation, self.vocabulary),
-            conventions(self.equation, self.vocabulary),
             self._fitted(self.equation) if readable else (),
+            conventions(self.equation, self.vocabulary),
             self.differentiated,
+            forgotten_factors(self.equation, self.vocabulary),
         )
         return (_Found((edit,)) for edit in self._promising(found))
 
@@ -191,7 +199,7 @@ class _Search:
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
         yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
-        every = list(self.within(edits(self.equation, self.vocabulary)))
+        every = list(self.within(chain(*(of(self.equation, self.vocabulary) for of in (edits, forgotten_factors)))))
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
         for first, second in chain(combinations(near, 2), combinations(plain, 2)):
@@ -215,11 +223,12 @@ class _Search:
 
     def best(self, found: Iterable[_Found]) -> list[_Found]:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
-        ranked = sorted(((self._size(each), depth(each.after), each) for each in found), key=lambda ranks: ranks[:2])
         kept: dict[tuple[float, ...], list[_Found]] = {}
-        alike: dict[tuple[float, ...], tuple[float, ...]] = {}
+        alike: dict[tuple[Any, ...], tuple[float, ...]] = {}
         least = 0.0
-        for size, _, each in self.confirming(ranked):
+        for tried, (size, each) in enumerate(self._ranked(found)):
+            if tried >= MOST and not self.lasts():
+                break
             if (kept and size > least + EQUAL) or np.isinf(size):
                 break
             mark = self._mark(each.after)
@@ -229,18 +238,35 @@ class _Search:
             vacuous = own and self._worst(each.after, self.few | {key: self.free[key] for key in own}) < HOLDS
             if mark is None or idle or vacuous or self._changes_the_subject(each) or not self.fit(each.after):
                 continue
-            mark = alike.setdefault(self._beside_balances(each.after) or mark, mark)
+            place = self._place(each)
+            mark = alike.setdefault(self._beside_balances(each.after) or place or mark, mark)
+            if place and mark in kept:
+                continue  # in other letters
             if mark in kept or self._confirmed(each.after):
                 least = size if not kept else least
                 kept.setdefault(mark, []).append(each)
-        return [min(same, key=self._oddness) for same in kept.values()][:MOST]
+        chosen = [min(same, key=self._oddness) for same in kept.values()]
+        if chosen and self.case.is_kinematic(chosen[0].after):  # then no balance is asked for
+            chosen = [each for each in chosen if self.case.is_kinematic(each.after)]
+        return chosen[:MOST]
+
+    def _ranked(self, found: Iterable[_Found]) -> Iterator[tuple[float, _Found]]:
+        """By size, those of one size by how much there is of them, as long as there is time; the first few at any rate. How unlikely they are is
+        only asked where it matters."""
+        waiting: list[tuple[float, int, int, _Found]] = []
+        for i, each in enumerate(sorted(found, key=lambda each: each.size)):
+            while waiting and waiting[0][0] < each.size - PARTNER:
+                size, _, _, first = heappop(waiting)
+                yield size, first
+            heappush(waiting, (self._size(each), depth(each.after), i, each))
+        yield from ((size, each) for size, _, _, each in sorted(waiting))
 
     def _changes_the_subject(self, found: _Found) -> bool:
         """Whether two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
         after two edits, or with all gone from it that was said of forces, masses or weights."""
         own = {n.key for n in symbols_in(found.after)}
         solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
-        lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own]
+        lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
         mechanics = any(its is not None and (its.mass or its.time == -2) for its in lost)
         two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
         return (two and bool(solved) and not solved & own) or ((two or mechanics) and self.case.is_kinematic(found.after))
@@ -252,6 +278,13 @@ class _Search:
             return ()
         left = found.sides.residual.ravel()
         return tuple(np.round(left / left[np.argmax(np.abs(left))], 7).tolist())
+
+    def _place(self, found: _Found) -> tuple[Any, ...]:
+        """Which part of an equation of motions alone is another: what stands there is the same in all letters."""
+        (first, *others) = found.edits
+        if others or first.kind not in ("missing term", "symbol", "rates") or not self.case.is_kinematic(found.after):
+            return ()
+        return (first.kind, id(first.old))
 
     def _oddness(self, found: _Found) -> tuple[bool, int, float]:
         """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
@@ -282,7 +315,8 @@ class _Search:
 
     def _size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
-        odd = sum(unlikely(edit, self.equation, self.vocabulary, self.few, self.other) for edit in found.edits)
+        odd = sum(map(self._likelihood.lack, found.edits))
+        odd += _OF_BALANCE * (self._is_constraint and not self.case.is_kinematic(found.after))
         odd += _WITHIN * any(map(self.differentiated.is_within, found.edits))
         return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
@@ -297,12 +331,25 @@ class _Search:
         except (KeyError, ValueError):
             return True
 
+    @cached_property
+    def _is_constraint(self) -> bool:
+        return is_constraint(self.equation, self.vocabulary)
+
+    @cached_property
+    def _likelihood(self) -> Likelihood:
+        return Likelihood(self.equation, self.vocabulary, self.few, self.other)
+
+    @cached_property
+    def fresh(self) -> Mapping[str, Array]:
+        """The symbols on other true states."""
+        return _where_known(self.equation, self.case.values(self.family, _FRESH))
+
     def _confirmed(self, equation: Equation) -> bool:
         holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
         return holds and not (self.family.held and unreached(equation, self.values))  # what is held at 0 may hide what is wrong
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
-        return (edit for edit in self.within(found) if self._worst(edit.after, self.few) < _PROMISING)
+        return (edit for edit in self.within(found) if self._worst(edit.after, self.few) < self._near)
 
     def _worst(self, equation: Equation, values: Mapping[str, Array]) -> float:
         found = self._residual(equation, values)
@@ -310,7 +357,7 @@ class _Search:
 
     def _residual(self, equation: Equation, values: Mapping[str, Array]) -> Residual | None:
         try:
-            return residual(equation, values)
+            return self._edited.residual(equation) if values is self.few else residual(equation, values)
         except ValueError:
             return None
 
@@ -318,6 +365,8 @@ class _Search:
         """What an equation says, however it is arranged; None where it says nothing (a = a)."""
         places = self.other if {n.key for n in symbols_in(equation)} - self.given else self.free
         found = self._residual(equation, places)
+        if found and found.worst < HOLDS:  # what defines a parameter may be what was asked
+            places, found = self.free, self._residual(equation, self.free)
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
         left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
@@ -346,6 +395,13 @@ class _Search:
             return None
         slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
         return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
+
+
+def _where_known(equation: Equation, values: Mapping[str, Array]) -> Mapping[str, Array]:
+    """The values where all symbols of an equation have one: not every position has a natural frequency."""
+    found = [np.isfinite(values[n.key]) for n in symbols_in(equation) if n.key in values]
+    known = np.all([each.reshape(len(each), -1).all(axis=1) for each in found], axis=0)
+    return values if np.all(known) or np.sum(known) < OFTEN else {key: value[known] for key, value in values.items()}
 
 
 _SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)

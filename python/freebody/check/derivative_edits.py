@@ -17,7 +17,7 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, walk
 
 from .coefficients import multiplied
-from .edits import Edit, conventions, depth, edits
+from .edits import Edit, conventions, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits, proportional
 from .language.spelling import spell
 from .language.statements import Equation
@@ -45,7 +45,7 @@ class DerivativeEdits:
     def __iter__(self) -> Iterator[Edit]:
         for node, inside in self._differentiated:
             given = Equation(inside, _ZERO)
-            plain = chain(edits(given, self.fits.vocabulary), conventions(given, self.fits.vocabulary))
+            plain = chain(*(of(given, self.fits.vocabulary) for of in (edits, conventions, forgotten_factors)))
             for edit in chain(plain, self._fitted(node, given)):
                 with suppress(StatementError):
                     yield self._outside(node, edit)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeVar
 
@@ -32,11 +32,13 @@ from freebody.symbolic.tree import (
 
 from .language.dimensions import dimension
 from .language.spelling import spell
-from .language.statements import Equation
+from .language.statements import Equation, symbols_in
 from .vocabulary import Vocabulary
 
 N = TypeVar("N", bound=Node)
 _LARGER = {
+    "symbol": 0.05,
+    "rates": 0.05,
     "extra factor": 0.1,
     "missing factor": 0.1,
     "extra term": 0.1,
@@ -45,6 +47,8 @@ _LARGER = {
     "other term": 1.0,
 }
 """By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
+_ELSEWHERE = 0.4
+"""By how much an angle is less likely to be measured from a body of which nothing was said."""
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 """Whole numbers that are mistaken for each other."""
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
@@ -80,14 +84,19 @@ class Edit:
 
 
 def edits(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """All single edits that need no number to be found."""
+    """Single edits that need no number to be found."""
     for node, addend in _parts(equation):
         yield from (Edit.at(equation, kind, node, new) for kind, new in _changes(node, vocabulary))
         if addend:
             yield Edit.at(equation, "sign", node, node.of if isinstance(node, Negative) else Negative(node, span=node.span))
             yield Edit("extra term", node, None, exchange(equation, node, Num(0.0, "0")))
-            for factors, size in ((vocabulary.single_factors, 0.0), (vocabulary.double_factors, 0.2)):
-                yield from (Edit.at(equation, "missing factor", node, Mul((node, f), span=node.span), size) for f in factors)
+
+
+def forgotten_factors(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """Single edits by which a term gets a factor."""
+    for factors, size in ((vocabulary.single_factors, 0.0), (vocabulary.double_factors, 0.2)):
+        for node in (node for node, addend in _parts(equation) if addend):
+            yield from (Edit.at(equation, "missing factor", node, Mul((node, f), span=node.span), size) for f in factors)
 
 
 def other_figures(equation: Equation) -> Iterator[Edit]:
@@ -173,6 +182,9 @@ def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, 
         same = vocabulary.dimension(base)
         speeds = [n for n in vocabulary.others if same is not None and vocabulary.dimension(n) == same]
         yield from (("rates", Mul((base, other), span=base.span)) for other in (*vocabulary.alike(base), *speeds))
+        two = Num(2.0, "2")
+        for other in (*vocabulary.alike(base), *speeds):
+            yield from (("symbol", Pow(Add((base, o)), two, span=base.span)) for o in (other, Negative(other)))
         yield "derivative", Sym(base.name, 2, span=base.span)
 
 
@@ -333,4 +345,6 @@ def _other_angles(equation: Equation, plain: Sym, vocabulary: Vocabulary) -> Ite
         yield _convention(equation, {plain: Add((plain, signed(_QUARTER)))}, f"`{name}` {words} a quarter turn")
         for other in vocabulary.alike(plain):
             shifted = {n: Add((n, signed(o))) for n, o in zip(_with_rates(name), _with_rates(other.name), strict=True)}
-            yield _convention(equation, shifted, f"`{name}` {words} `{other.name}`: {say}, or the other way round")
+            said = any(n.name == other.name for n in symbols_in(equation))
+            told = f"`{name}` {words} `{other.name}`: {say}, or the other way round"
+            yield replace(_convention(equation, shifted, told), extra=0.0 if said else _ELSEWHERE)

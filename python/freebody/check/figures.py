@@ -9,7 +9,7 @@ from itertools import combinations
 import numpy as np
 
 from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Node, Num, Pow, Sym, exchange, walk
+from freebody.symbolic.tree import Mul, Negative, Node, Num, Pow, Sym, exchange, walk
 
 from .correction import Correction
 from .language.spelling import spell
@@ -75,6 +75,13 @@ def corrected_figures(equation: Equation, values: Mapping[str, Array]) -> tuple[
     return (), False
 
 
+def _of_other_sign(equation: Equation, figure: Num) -> Equation:
+    """The equation with the sign of what a figure stands in changed."""
+    whole = next((n for n in walk(equation) if isinstance(n, Mul) and any(part is figure for part in n.factors)), figure)
+    signed = next((n for n in walk(equation) if isinstance(n, Negative) and n.of is whole), None)
+    return exchange(equation, signed, whole) if signed else exchange(equation, whole, Negative(whole))
+
+
 def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[str, Array]) -> Iterator[tuple[Correction, bool]]:
     """The equation with other numbers for some figures, if these make it hold to its digits."""
     slopes = np.stack([slope(equation, figure, values)[0] for figure in chosen], axis=-1)
@@ -85,7 +92,10 @@ def _printed_again(equation: Equation, chosen: tuple[Num, ...], values: Mapping[
         power = figure.text[len(digits) :]
         rounded = round((figure.value + step) / unit) * unit / float(f"1{power}")
         text = f"{rounded:.{len(digits.partition('.')[2])}f}{power}"
-        after = exchange(after, figure, Num(float(text), text))
+        number = Num(abs(float(text)), text.removeprefix("-"))
+        after = exchange(after, figure, number)
+        if float(text) * figure.value < 0:
+            after = _of_other_sign(after, number)
         edits.append(("figure", figure.text, text))
         last &= abs(float(text) - figure.value) < 1.5 * unit
     left = np.abs(equation_sides(after, values).residual)

@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import INERTIA, LENGTH, NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, walk
 
-from .coefficients import multiplied, powered, recognised, snapped
+from .coefficients import multiplied, powered, product, recognised, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
-from .language.statements import Equation, symbols_in, terms
+from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
 from .solve_for_term import RequiredTerm, required_terms
@@ -28,6 +28,7 @@ _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _NEARLY = 1e-5  # relative spread below which one is meant
 _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
+_SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _MOST_LENGTHS = 5  # of which sums and differences are thought of
@@ -42,9 +43,12 @@ class FittedEdits:
     vocabulary: Vocabulary
     within: Callable[[Iterable[Any]], Iterator[Any]] = iter
     blur: float = 1.0
+    small: bool = False
+    """Whether angles stand for their sines."""
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
     _terms: dict[Equation, Monomials] = field(default_factory=dict)
     _numbers: dict[Node, bool] = field(default_factory=dict)
+    _made_speeds: dict[Dimension, tuple[list[Node], Array]] = field(default_factory=dict)
     _made_pairs: dict[object, tuple[list[tuple[Node, Node]], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
@@ -61,6 +65,8 @@ class FittedEdits:
                     yield Edit.at(equation, "factor", required.node, number)
                 if required.addend:
                     yield from self._factors(equation, required)
+                yield from self._squares(equation, required)
+                yield from self._weights(equation, required)
                 if isinstance(node, Add):
                     yield from self._parts(equation, required)
                 if isinstance(node, Add) or id(node) in whole:
@@ -100,7 +106,7 @@ class FittedEdits:
         match node:
             case Sym() as own:
                 pass
-            case Pow(base=Sym() as own, exponent=Num(value=2.0)):
+            case Pow(base=Sym() as own, exponent=Num(value=2.0)) if needed.ndim == 1:
                 needed = np.sqrt(needed) if np.all(needed >= 0) else np.full(1, np.nan)
             case Mul(factors=(Num(value=2.0), Sym() as own)):
                 pass
@@ -109,16 +115,14 @@ class FittedEdits:
         if needed.ndim != 1 or not np.isfinite(needed).all() or not needed.any():
             return
         pairs, rows = self._pairs(self.vocabulary.dimension(own))
-        size = np.abs(needed).max()
-        for sign in (1.0, -1.0) if isinstance(node, Pow) else (1.0,):
-            for place in np.flatnonzero(np.abs(rows - sign * needed).max(axis=1, initial=0.0) <= _SAME * size).tolist():
-                a, b = pairs[place]
-                if own in (a, _bare(b)):
-                    found = Add((a, b), span=node.span)
-                    yield (
-                        Pow(found, node.exponent) if isinstance(node, Pow) else found,
-                        0.2 if own in self.vocabulary.parameters else 0.1,
-                    )
+        off = (np.abs(rows) if isinstance(node, Pow) else rows) - needed
+        for place in np.flatnonzero(np.abs(off).max(axis=1, initial=0.0) <= _SAME * np.abs(needed).max()).tolist():
+            a, b = pairs[place]
+            its, fixed = self.vocabulary.dimension(own), [n in self.vocabulary.parameters for n in (a, _bare(b))]
+            if own in (a, _bare(b)) and (its == LENGTH or all(fixed) or not any(fixed)):  # no g + ÿ
+                found = Add((a, b), span=node.span)
+                size = 0.2 if own in self.vocabulary.parameters else 0.0 if isinstance(node, Mul) else 0.1
+                yield Pow(found, node.exponent) if isinstance(node, Pow) else found, size
 
     def _pairs(self, its: Dimension | None) -> tuple[list[tuple[Node, Node]], Array]:
         """Sums and differences of two symbols of a dimension, and their values."""
@@ -137,6 +141,59 @@ class FittedEdits:
         known = self.vocabulary
         moving = [Sym(q.name, dots) for q in known.coordinates for dots in range(3)]
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
+
+    def _squares(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """The square of a speed that lacks a part of it: that of the ground, or of a rotation."""
+        node, base = required.node, required.node.base if isinstance(required.node, Pow) else None
+        its = None if base is None else dimension(base, self.vocabulary.dimensions)
+        if base is None or its not in _SPEEDS or node.exponent != Num(2.0) or required.needed.ndim != 1:
+            return
+        value, lost = sampled(base, self.values), required.missing
+        if not np.isfinite(lost).all() or not lost.any():
+            return
+        nodes, rows = self._parts_of_speeds(its)
+        # (base + k part)² is what is needed: lost = 2 k base part + k² part²
+        linear, square = 2 * value * rows, rows**2
+        ll, ls, ss = (np.sum(a * b, axis=1) for a, b in ((linear, linear), (linear, square), (square, square)))
+        lw, sw = linear @ lost, square @ lost
+        det = ll * ss - ls**2
+        k, k2 = (ss * lw - ls * sw) / det, (ll * sw - ls * lw) / det
+        off = np.abs(linear * k[:, None] + square * k2[:, None] - lost).max(axis=1)
+        same = (off <= _NEARLY * np.abs(lost).max()) & (np.abs(k**2 - k2) <= _NEARLY * np.abs(k2))
+        for place in np.flatnonzero(same).tolist():
+            if (part := multiplied(nodes[place], snapped(float(k[place]), _NEARLY))) is not None:
+                new = Pow(_more(base, part), node.exponent, span=node.span)
+                yield Edit.at(equation, "symbol", node, new, 0.1 + 0.02 * depth(part))
+
+    def _parts_of_speeds(self, its: Dimension) -> tuple[list[Node], Array]:
+        """Rates, and rates times a length, of a dimension, and their values."""
+        if its not in self._made_speeds:
+            known = self.vocabulary
+            rates = [Sym(q.name, 1) for q in known.coordinates]
+            rates += [n for n in (*known.parameters, *known.others) if known.is_rate(n)]
+            lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
+            turns = [n for n in rates if known.dimension(n) != its]
+            found: list[Node] = [n for n in rates if known.dimension(n) == its]
+            if its.length:
+                found += [Mul((length, turn)) for turn in turns for length in lengths]
+            else:
+                found += [Quotient(rate, length) for rate in turns for length in lengths]
+            rows = self._rows(found) if found else np.zeros((0, 1))
+            self._made_speeds[its] = found, rows
+        return self._made_speeds[its]
+
+    def _weights(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """A force for a weight: the normal force where something else presses, too."""
+        node = required.node
+        factors = node.factors if isinstance(node, Mul) else ()
+        mass = next((n for n in factors if isinstance(n, Sym) and self.vocabulary.parameters.get(n) == MASS), None)
+        if mass is None or Sym("g") not in factors or required.needed.ndim != 1:
+            return
+        rest = [n for n in factors if n not in (mass, Sym("g"))]
+        needed = required.needed / sampled(product(rest), self.values)
+        for force in self.vocabulary.others:
+            if self.vocabulary.dimension(force) == FORCE and np.allclose(self.values[force.key], needed, rtol=_SAME, atol=0):
+                yield Edit.at(equation, "symbol", node, product([*rest, force]))
 
     def _factors(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A term that lacks a number, or a product of powers of symbols."""
@@ -203,19 +260,23 @@ class FittedEdits:
         ratio = required.missing / required.value if scalar and not isinstance(required.node, Add) else np.full(1, np.nan)
         is_number = np.ptp(ratio) < _NEARLY * np.abs(ratio).max()
         found = self._monomials(equation).equal_to(required.missing) if scalar else self._matching(equation, required.missing)
-        for term in found:
+        for term in map(_linear, found) if self.small else found:
             if is_number and {*symbols_in(term)} <= {*symbols_in(equation)}:
                 continue  # another number is a factor
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, _more(required.node, term)), size)
 
     def _denominator(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten."""
-        if required.factor is not None and np.isfinite(required.factor).all() and required.factor.all():
-            for term in self._monomials(equation).equal_to(1 / required.factor - 1):
-                if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
-                    new = Quotient(required.node, Add((Num(1.0, "1"), term)))
-                    yield Edit("missing term", None, term, exchange(equation, required.node, new), 0.02 * depth(term))
+        """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten; where it is one symbol,
+        the other side is multiplied by that."""
+        if required.factor is None or not np.isfinite(required.factor).all() or not required.factor.all():
+            return
+        node, other = required.node, equation.right if required.node is equation.left else equation.left
+        for term in self._monomials(equation).equal_to(1 / required.factor - 1):
+            if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
+                more = Add((Num(1.0, "1"), term))
+                old, new = (other, Mul((more, other))) if isinstance(node, Sym) else (node, Quotient(node, more))
+                yield Edit("missing term", None, term, exchange(equation, old, new), 0.02 * depth(term))
 
     def _monomials(self, equation: Equation) -> Monomials:
         """The terms that an equation may lack."""
@@ -236,16 +297,18 @@ class FittedEdits:
         return self._terms[equation]
 
     def _angles(self, equation: Equation) -> tuple[Node, ...]:
-        """Sums in sines and cosines."""
+        """Sums and parts of angles in sines and cosines."""
         angles = (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
-        return tuple(dict.fromkeys(n for n in angles if isinstance(n, Add) and len(n.terms) > 2))
+        plain = lambda n: isinstance(n, Sym) or (isinstance(n, Add) and len(n.terms) < 3)
+        return tuple(dict.fromkeys(n for n in angles if not plain(n)))
 
     def _far_fetched(self, term: Node, equation: Equation) -> bool:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
         said = set(symbols_in(equation))
         new = [n for n in symbols_in(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
-        first = term.of if isinstance(term, Negative) else term
-        return bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
+        first = _bare(term.top if isinstance(term, Quotient) else term)
+        its = self._of(equation)
+        return (its is None or its.mass != 0) and bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
 
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""
@@ -321,6 +384,13 @@ class FittedEdits:
         for i in range(max(map(len, parts), default=0)):
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
         return rows
+
+
+def _linear(term: Node) -> Node:
+    """A term with angles for their sines, and 1 for their cosines."""
+    for call in [n for n in walk(term) if isinstance(n, Fn) and n.name in ("sin", "tan", "cos") and isinstance(n.args[0], Sym)]:
+        term = exchange(term, call, Num(1.0, "1") if call.name == "cos" else call.args[0])
+    return without_ones(term)
 
 
 def _bare(node: Node) -> Node:

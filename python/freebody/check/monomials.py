@@ -18,6 +18,8 @@ _SAME = 1e-7  # of a logarithm: below it two values are one
 _WHOLE = 1e-4  # off a whole number, below which a power is one
 _HIGHEST = 3
 _MOST_POWERS = 6
+_EXCHANGED = (1, 2, -1, -2)
+"""Powers of a base that may stand for those of another of which it is a multiple."""
 _DEPENDENT = 1e-9  # of a column: what is left of it beside others, below which it says nothing new
 
 
@@ -30,6 +32,7 @@ class Monomials:
     ) -> None:
         self.values, self.same, count = values, _SAME * blur, len(next(iter(values.values())))
         self.bases: list[Node] = []
+        self._multiples: list[tuple[Node, Node, float]] = []  # bases left out, and of which other one they are how many times
         columns, basis = [np.ones(count)], np.ones((count, 1)) / np.sqrt(count)
         for node in bases:
             with np.errstate(all="ignore"):
@@ -41,6 +44,13 @@ class Monomials:
                 self.bases.append(node)
                 columns.append(column)
                 basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
+                continue
+            ratios = (
+                (base, float(column[0] - own[0]))
+                for base, own in zip(self.bases, columns[1:], strict=True)
+                if _is_one(column - own)
+            )
+            self._multiples += [(node, base, np.exp(ratio)) for base, ratio in ratios]
         self._columns = np.column_stack(columns)
         self._shapes = [shape for _, shape in zip(range(_MOST_SHAPES), shapes, strict=False)]
 
@@ -96,14 +106,34 @@ class Monomials:
 
     def _term(self, powers: list[int], place: int, wanted: Array) -> Node | None:
         """The term of such powers; None where its number is none that a person writes."""
-        above = [power_of(node, n) for node, n in zip(self.bases, powers, strict=True) if n > 0]
-        below = [power_of(node, -n) for node, n in zip(self.bases, powers, strict=True) if n < 0]
-        top = product([*above, *self._shapes[place]])
-        found = Quotient(top, product(below)) if below else top
-        ratio = wanted / sampled(found, self.values)
+        own = {node: n for node, n in zip(self.bases, powers, strict=True) if n}
+        ratio = wanted / sampled(_product(own, self._shapes[place]), self.values)
         if np.ptp(ratio) > self.same * np.abs(ratio).max():
             return None  # of changing sign
-        return multiplied(found, snapped(float(np.median(ratio)), self.same))
+        number = float(np.median(ratio))
+        if (found := multiplied(_product(own, self._shapes[place]), snapped(number, self.same))) is not None:
+            return found
+        for multiple, base, times in self._multiples:
+            for n in _EXCHANGED:
+                exchanged = {**own, base: own.get(base, 0) - n, multiple: n}
+                few = sum(map(abs, exchanged.values())) <= _MOST_POWERS
+                figure = snapped(number / times**n, self.same)
+                if few and (found := multiplied(_product(exchanged, self._shapes[place]), figure)) is not None:
+                    return found
+        return None
+
+
+def _product(powers: Mapping[Node, int], shape: tuple[Node, ...]) -> Node:
+    """A shape times powers."""
+    above = [power_of(node, n) for node, n in powers.items() if n > 0]
+    below = [power_of(node, -n) for node, n in powers.items() if n < 0]
+    top = product([*above, *shape])
+    return Quotient(top, product(below)) if below else top
+
+
+def _is_one(column: Array) -> bool:
+    """Whether it has one value at all places."""
+    return bool(np.ptp(column) <= _DEPENDENT * np.abs(column).max() + _DEPENDENT)
 
 
 def _whole(powers: Array) -> list[int] | None:

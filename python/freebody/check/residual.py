@@ -21,6 +21,7 @@ from freebody.symbolic.tree import (
     Negative,
     Node,
     Quotient,
+    walk,
 )
 
 from .language.statements import Equation, terms
@@ -91,6 +92,61 @@ def residual(equation: Equation, values: Mapping[str, Array]) -> Residual:
         nothing = _ROUND_OFF * np.max(size, axis=0, where=np.isfinite(size), initial=0.0)
         ratio = np.divide(found.residual, size, out=np.zeros_like(size), where=~(size <= nothing))
     return Residual(found, ratio)
+
+
+class Edited:
+    """Residuals of one equation after edits, at ``values``: the parts that they leave as they are have their values found once."""
+
+    def __init__(self, equation: Equation, values: Mapping[str, Array]) -> None:
+        self._values, self._count = values, len(next(iter(values.values()), [0.0]))
+        self._own = {id(node): node for node in walk(equation)}
+        self._known: dict[int, tuple[Array, Array]] = {}
+
+    def residual(self, equation: Equation) -> Residual:
+        """As the function ``residual`` has it. Raises ``StatementError``."""
+        try:
+            with np.errstate(all="ignore"):
+                (left, a), (right, b) = self._both(equation.left), self._both(equation.right)
+                size = (a + b)[:, None]
+                nothing = _ROUND_OFF * np.max(size, axis=0, where=np.isfinite(size), initial=0.0)
+                rest = (left - right)[:, None]
+                return Residual(
+                    Sides(equation, left, right), np.divide(rest, size, out=np.zeros_like(size), where=~(size <= nothing))
+                )
+        except _NoNumber:
+            return residual(equation, self._values)
+
+    def _both(self, node: Node) -> tuple[Array, Array]:
+        """The value of a number and the sum of the sizes of its terms."""
+        if (found := self._known.get(id(node))) is None:
+            found = self._found(node)
+            if found[0].ndim != 1:
+                raise _NoNumber
+            if id(node) in self._own:
+                self._known[id(node)] = found
+        return found
+
+    def _found(self, node: Node) -> tuple[Array, Array]:
+        match node:
+            case Negative(of=of):
+                value, size = self._both(of)
+                return -value, size
+            case Add(terms=terms):
+                parts = [self._both(term) for term in terms if not is_zero(term)]
+                zero = np.zeros(self._count)
+                return sum((v for v, _ in parts), start=zero), sum((s for _, s in parts), start=zero)
+            case Mul(factors=factors):
+                parts = [self._both(factor) for factor in factors]
+                return reduce(np.multiply, [v for v, _ in parts]), reduce(np.multiply, [s for _, s in parts])
+            case Quotient(top=top, bottom=bottom):
+                (above, size), (below, _) = self._both(top), self._both(bottom)
+                return above / below, size / np.abs(below)
+        value = sampled(node, self._values)
+        return value, magnitude(node, self._values) if isinstance(node, Fn) else np.abs(value)
+
+
+class _NoNumber(Exception):
+    """What is a vector or a matrix."""
 
 
 def sizes(equation: Equation, values: Mapping[str, Array]) -> Array:

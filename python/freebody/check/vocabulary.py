@@ -26,11 +26,13 @@ class Vocabulary:
     others: Mapping[Sym, Known] = field(default_factory=dict)
     vectors: Mapping[Sym, Known] = field(default_factory=dict)
     angular: frozenset[Sym] = frozenset()
+    letters: frozenset[Sym] = frozenset()
+    """What was declared for the statements."""
 
     @cached_property
     def angles(self) -> list[Sym]:
         """Symbols that are angles, coordinates first."""
-        return [n for n in (*self.coordinates, *self.parameters) if n in self.angular]
+        return [n for n in (*self.coordinates, *self.parameters, *self.others) if n in self.angular]
 
     @cached_property
     def dimensions(self) -> dict[str, Dimension]:
@@ -141,7 +143,8 @@ class Vocabulary:
     def _monomials(self, wanted: Known, dynamic: list[tuple[tuple[Node, ...], Known]]) -> Iterator[tuple[Node, ...]]:
         sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
         sizes = sizes if wanted is None else [n for n in sizes if n.name in self.dimensions]
-        for degree in range((_BLIND_DEGREE if wanted is None else _DEGREE) + 1):
+        turning = any(self.is_rate(n) for n in self.parameters)  # m Ω² R² has five
+        for degree in range((_BLIND_DEGREE if wanted is None else _DEGREE + turning) + 1):
             for chosen in combinations_with_replacement(sizes, degree):
                 if max([chosen.count(n) for n in chosen], default=0) > 2:
                     continue

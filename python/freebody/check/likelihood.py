@@ -1,0 +1,252 @@
+"""How unlikely an edit is as the mend of a slip that people make."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import cached_property
+
+import numpy as np
+
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, TIME
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, is_zero, walk
+
+from .edits import FIGURES, Edit
+from .language.dimensions import dimension
+from .language.statements import Equation, terms
+from .powers import powers_of
+from .slips import is_constraint
+from .vocabulary import Vocabulary
+
+_NATURAL = (
+    1 / 24,
+    1 / 12,
+    1 / 8,
+    1 / 6,
+    1 / 5,
+    1 / 4,
+    1 / 3,
+    3 / 8,
+    2 / 5,
+    1 / 2,
+    2 / 3,
+    7 / 10,
+    3 / 4,
+    1.0,
+    3 / 2,
+    2.0,
+    3.0,
+    4.0,
+)
+"""Numbers before the terms of balances and energies."""
+_RATIOS = (2.0, 4.0)
+"""By which numbers are mistaken for each other: ½ forgotten or twice, an inertia of 1/12 for 1/3."""
+_OF_BODIES = (1 / 12, 1 / 4, 1 / 3, 2 / 5, 2 / 3)
+"""Factors of moments of inertia, any of which is taken for another."""
+_OF_RODS = (1 / 12, 1 / 6, 1 / 3, 2 / 3)
+_ODD = 0.5
+_USUAL = 0.1  # for one usual number for another
+_MIXED = 1.0  # for an acceleration or a force in an energy or a momentum
+_FORGOTTEN = 0.3  # for a number before a weight or a mass times its acceleration
+_ONCE = 0.15  # for a term that has no place, and is not counted twice
+_SOLVED = 0.2  # for another quantity in the place of that which is alone on a side
+_UNDECLARED = 0.6  # for a reaction without a letter in the place of a weight
+_NEW_RATE = 0.05  # for a rate of which the equation did not speak, which is easily taken for another
+_NEW = 0.15  # for any other quantity of which it did not speak, more for a force
+PARTNER = 0.15
+"""By how much a centripetal term is likelier beside its own second derivative."""
+_ACCELERATION = LENGTH.times(TIME, -2)
+_SAME = 1e-9
+
+
+class Likelihood:
+    """That of the edits of one equation; ``values`` are those of true states, ``elsewhere`` of others."""
+
+    def __init__(
+        self, equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Array], elsewhere: Mapping[str, Array]
+    ) -> None:
+        self.equation, self.vocabulary, self.values, self.elsewhere = equation, vocabulary, values, elsewhere
+        self._said = equation.symbols
+        self._sides = [_bare(side) for side in (equation.left, equation.right)]
+
+    def lack(self, edit: Edit) -> float:
+        """By how much an edit is larger than its kind says; without bound where it would be no correction: a mass or an inertia below
+        0, another name of the same or of its opposite."""
+        if edit.new is None:
+            return self._of_extra_term(edit.old) if edit.kind == "extra term" and edit.old is not None else 0.0
+        if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
+            return math.inf
+        match edit.kind, edit.old, edit.new:
+            case "factor", Node() as old, new:
+                usual = _ODD if is_constraint(self.equation, self.vocabulary) else _USUAL
+                odd = _of_number(old, new, self.values, usual)
+                return odd + _FORGOTTEN * (odd > 0 and self._is_force(old))
+            case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
+                return self._of_symbol(old, new)
+            case "symbol", _, new:
+                return self._of_symbols(new)
+            case "missing term" | "other term", _, new:
+                return self._of_term(edit.kind, new)
+        return 0.0
+
+    def _of_extra_term(self, term: Node) -> float:
+        """What an equation is solved for does not go, nor all but that; what is counted twice does."""
+        other = next((side for side in self._sides if side is not _bare(term)), None)
+        alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
+        solved = alone or (isinstance(term, Sym) and term in self._sides)
+        return _ODD * solved + _ONCE * (not self._is_there(term, but=term))
+
+    def _of_symbol(self, old: Sym, new: Sym) -> float:
+        known = self.vocabulary
+        one, other = np.abs(self.values[old.key]), np.abs(self.values[new.key])
+        if one.shape == other.shape and np.allclose(one, other, rtol=_SAME, atol=0):
+            return math.inf
+        turns = known.dimension(old) == INERTIA  # its moment about another point may have a letter of its own
+        moves = known.dimension(old) == _ACCELERATION  # as it is prescribed
+        mixed = old in known.parameters and new not in known.parameters and not (turns or moves)
+        unsaid = new in known.others and new not in self._said
+        solved = any(side is old for side in self._sides)
+        return _ODD * mixed + (_NEW_RATE if known.is_rate(new) else _NEW) * unsaid + _SOLVED * solved
+
+    def _of_symbols(self, new: Node) -> float:
+        """Of a sum or a square for a symbol, or of a force for a weight."""
+        known, unsaid = self.vocabulary, new.symbols - self._said
+        if isinstance(new, Pow):
+            return _NEW * len(unsaid)
+        if isinstance(new, Add):
+            return _NEW * sum(3 if known.is_rate(n) else 1 + (n in known.others and n not in known.letters) for n in unsaid)
+        return _UNDECLARED * sum(n in known.others and n not in known.letters for n in unsaid)
+
+    def _of_term(self, kind: str, term: Node) -> float:
+        strange = len([*self._strange(term, kind == "missing term")])
+        again = kind == "missing term" and self._is_there(term)
+        size = _NEW * strange + _ODD * again + self._mixture(term)
+        return size - PARTNER * self._is_centripetal(term)
+
+    def _strange(self, term: Node, missing: bool) -> Iterator[Node]:
+        """What speaks against a term, each as often as it counts."""
+        known, names = self.vocabulary, {n.name for n in term.symbols} - {n.name for n in self._said}
+        new = [n for n in (*known.coordinates, *known.others, *self._loads) if n.name in names]
+        new = [n for n in new if n not in known.letters or n not in known.angular]
+        for symbol in new:
+            load = known.dimension(symbol) in (FORCE, ENERGY) and symbol not in known.letters
+            arm = known.coordinates.get(symbol) == LENGTH and symbol in term.symbols
+            yield from [symbol] * (1 + load + arm)
+        quotients = [n for n in walk(term) if isinstance(n, Quotient)]
+        below = {n for each in quotients for n in each.bottom.symbols}
+        if missing and below and (new or not self._has_quotient):
+            yield from [term] * (2 if new else 1)
+        for symbol in below - self._below:
+            yield from [symbol] * 2 * (symbol in known.coordinates and not symbol.dots)
+        angles = {part for n in walk(term) if isinstance(n, Fn) for part in n.args}
+        for part in walk(term):
+            yield from [part] * 2 * (isinstance(part, Add) and part not in angles and part not in self._parts)
+        for symbol in term.symbols:
+            yield from [symbol] * 2 * (symbol.dots == 2 and self._is_solved_for_another(symbol))
+        if self._is_part_of_mass(term):
+            yield term
+
+    @cached_property
+    def _loads(self) -> list[Sym]:
+        return [n for n in self.vocabulary.parameters if self.vocabulary.dimension(n) in (FORCE, ENERGY)]
+
+    @cached_property
+    def _parts(self) -> set[Node]:
+        return {*walk(self.equation)}
+
+    @cached_property
+    def _has_quotient(self) -> bool:
+        return any(isinstance(n, Quotient) for n in self._parts)
+
+    @cached_property
+    def _below(self) -> set[Sym]:
+        return {n for each in self._parts if isinstance(each, Quotient) for n in each.bottom.symbols}
+
+    @cached_property
+    def _terms(self) -> list[tuple[Node, Array]]:
+        return [(term, _numbers(term, self.elsewhere)) for term in terms(self.equation)]
+
+    def _is_there(self, term: Node, but: Node | None = None) -> bool:
+        """Whether it is another term of the equation times a number."""
+        own = _numbers(term, self.elsewhere)
+        with np.errstate(all="ignore"):
+            ratios = [own / value for other, value in self._terms if but is None or other is not _bare(but)]
+            return any(np.isfinite(r).all() and np.ptp(r) <= _SAME * np.abs(r).max() for r in ratios)
+
+    def _mixture(self, term: Node) -> float:
+        """Of an acceleration, or a force that does no work along a coordinate, beside energies or momenta alone."""
+        known = self.vocabulary
+        loads = [n for n in term.symbols if n not in known.parameters and known.is_load(n)]
+        if not loads or any(known.is_load(n) for n in self._said if n not in known.parameters):
+            return 0.0
+        if not any(map(known.is_rate, self._said)) or any(n in known.coordinates and not n.dots for n in term.symbols):
+            return math.inf if any(n.dots == 2 for n in loads) and any(map(known.is_rate, self._said)) else 0.0
+        return _MIXED if all(n in known.letters for n in loads) else math.inf
+
+    def _is_part_of_mass(self, term: Node) -> bool:
+        """Whether it is a third or so of a mass times its acceleration: such numbers belong to rods that turn."""
+        number, powers = powers_of(term)
+        if not np.isclose(abs(number), _OF_RODS).any():
+            return False
+        factors = [n for n in powers if isinstance(n, Sym)]
+        moves = any(n.dots == 2 or self.vocabulary.dimension(n) == _ACCELERATION for n in factors)
+        lengths = any(self.vocabulary.dimension(n) == LENGTH for n in factors)
+        return moves and not lengths and not any(n in self.vocabulary.angular for base in powers for n in base.symbols)
+
+    def _is_force(self, term: Node) -> bool:
+        """Whether it is a force, a weight, or a mass times its acceleration, with no number: another one is forgotten rather than that."""
+        number, powers = powers_of(term)
+        known, factors = self.vocabulary, [n for n in powers if isinstance(n, Sym)]
+        masses = [n for n in factors if known.dimension(n) == MASS]
+        moves = [n for n in factors if known.dimension(n) == _ACCELERATION]
+        alone = len(factors) == 1 and known.dimension(factors[0]) == FORCE
+        return abs(number) == 1 and len(factors) == len(powers) and (alone or len(masses) == len(moves) == len(factors) / 2 == 1)
+
+    def _is_centripetal(self, term: Node) -> bool:
+        """Whether the square of a rate stands in it beside the same as the second derivative in the equation."""
+        squared = [n.base for n in walk(term) if isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1]
+        if len(squared) != 1:
+            return False
+        sizes = {n for n in term.symbols if not n.dots}
+        return any(sizes <= part.symbols for part in self._expanded if Sym(squared[0].name, 2) in part.symbols)
+
+    @cached_property
+    def _expanded(self) -> list[Node]:
+        return terms(self.equation, expand=True)
+
+    def _is_solved_for_another(self, symbol: Sym) -> bool:
+        """Whether the equation says what one acceleration is, and nothing of this one."""
+        alone = any(isinstance(side, Sym) and side.dots == 2 for side in (self.equation.left, self.equation.right))
+        return alone and symbol not in self._said
+
+
+def _bare(node: Node) -> Node:
+    return node.of if isinstance(node, Negative) else node
+
+
+def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) -> float:
+    """How unlikely a number is to be taken for another; ``usual``: one that is usual before terms, for another."""
+    before, after = (float(_numbers(node, values)[0]) for node in (old, new))
+    if before * after < 0:
+        return _ODD
+    before, after = abs(before), abs(after)
+    if isinstance(old, Num) and isinstance(new, Num) and before.is_integer() and after not in FIGURES:
+        return _ODD
+    is_number = isinstance(old, Num | Quotient) and not old.symbols
+    ratio = max(after / before, before / after) if before and after else 0.0
+    if np.isclose(ratio, _RATIOS).any() or (is_number and np.isclose(before, _OF_BODIES).any()):
+        return 0.0
+    figures = [abs(powers_of(node)[0]) for node in (old, new)]
+    return usual if all(np.isclose(figure, _NATURAL).any() for figure in figures) else _ODD
+
+
+def _numbers(node: Node, values: Mapping[str, Array]) -> Array:
+    """The values of a number; NaN of a vector, and where there is none."""
+    if not is_zero(node) and {n.key for n in node.symbols} <= values.keys():
+        with suppress(StatementError):
+            found = sampled(node, values)
+            return found if found.ndim == 1 else np.full(1, np.nan)
+    return np.full(1, np.nan)
