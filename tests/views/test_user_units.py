@@ -88,6 +88,17 @@ def test_a_file_wishes_an_option_decides_and_json_is_si(tmp_path):
     assert data["reactions"]["track"]["Fy"] == pytest.approx(19.62)
 
 
+def test_what_a_motion_takes_is_told_in_units_of_choice():
+    """A drive that is held at a constant speed against a weight, at 0: m g l of torque, and a pin that carries m g."""
+    model = fb.Mechanism("arm")
+    arm = model.body("arm", shape="general", mass="2 kg", inertia="1 kg*m^2", centre=["0.5 m", 0], points={"A": [0, 0]})
+    model.hinge(model.ground.O, arm.A, name="pin", coordinate="theta")
+    model.motion("drive", "theta", "0*t")
+    with fb.units("lb-ft"):
+        told = captured(model.solve().tables()[4], 90)
+    assert f"{9.81 / POUND_FORCE / FOOT:.6g}" in told and "lbf*ft" in told
+
+
 def test_plots_are_in_the_units_of_their_axes():
     run = fb.Mechanism.loads(MODEL).simulate()
     with fb.units("lb-ft"):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from freebody.cli.models import opened, pairs, written
-from freebody.cli.options import AsJson, Changes, Model, Until
+from freebody.cli.options import AsJson, Changes, Model, Units, Until
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import UserError
 
@@ -46,6 +46,7 @@ def inverse(
         Path | None, typer.Option(help="A picture: forces over angle and time, polar load diagrams; .png, .svg, .pdf.")
     ] = None,
     axes: Annotated[str, typer.Option(metavar="BODY", help="Along whose axes the polar load diagrams are.")] = "ground",
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Inverse dynamics: torques and forces that a motion takes, and every reaction; by default of the motions of the model."""

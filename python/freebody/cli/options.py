@@ -41,7 +41,7 @@ Units = Annotated[
         "--units",
         metavar="UNITS",
         callback=_in_units,
-        help="Of tables and plots: lb-ft, lb-in, N-mm, SI, or a list like 'mm, deg, rpm'.",
+        help="Of tables: lb-ft, lb-in, N-mm, SI, or a list like 'mm, deg, rpm'.",
     ),
 ]
 

@@ -58,7 +58,7 @@ def problems(error: Exception) -> list[Problem] | None:
         return None if error.errno == errno.EPIPE else [Problem(Where(str(error.filename or "")), error.strerror or str(error))]
     if isinstance(error, ModuleNotFoundError) and error.name and not error.name.startswith("freebody"):
         what = f"this needs {error.name}, which is not installed"
-        return [Problem(Where(), what, "pip install 'freebody[catalogue,table]' brings all that freebody can use")]
+        return [Problem(Where(), what, f"pip install {error.name.partition('.')[0]}")]
     if hasattr(error, "format_message"):  # of typer, about the words of the command
         return [Problem(Where(), error.format_message())]
 
