@@ -67,6 +67,12 @@ def test_the_law_stands_in_vectors_before_its_scalar_equation():
     assert said.count("−k x i − k y j = m a_particle") == 1
 
 
+def test_a_law_in_vectors_has_only_directions_that_the_page_introduces():
+    """Not that of a crank whose mass centre rests."""
+    said = page("tests/check/books/scotch_yoke.yaml").text()
+    assert "λ_" not in said and "N_pin" in said
+
+
 def test_a_long_chain_goes_on_from_its_pins_and_says_once_what_is_alike():
     said = page("python/freebody/systems/GEN-STEP/model.yaml").text()
     assert "a_back_thigh = a_back_knee − " in said and said.count("`--long` has it") == 1

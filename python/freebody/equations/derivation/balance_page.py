@@ -4,7 +4,7 @@ it as the page has room for."""
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import groupby, takewhile
@@ -14,6 +14,7 @@ from freebody.document.drawings import FreeBodyDrawing
 from freebody.document.rendering.text import Text
 from freebody.equations.balances.reasons import agree
 from freebody.equations.derivation.balance_text import Stated, cancelling, dropped, numbers
+from freebody.equations.derivation.directions import Directions
 from freebody.equations.derivation.put_in import Closed
 from freebody.equations.derivation.sentences import joined, signs
 from freebody.equations.derivation.vector_law import VectorLaw
@@ -22,7 +23,7 @@ from freebody.symbolic.algebra import less, opposite, quotient, signed
 from freebody.symbolic.evaluate import evaluate
 from freebody.symbolic.formula import EQUALS, PLUS, Atom
 from freebody.symbolic.presentation import presented
-from freebody.symbolic.printers.printer import Cross
+from freebody.symbolic.printers.printer import Components, Cross
 from freebody.symbolic.tree import ONE, ZERO, Add, Pow, Sym, Tree, add, is_zero, mul, walk
 
 ROOM = 40
@@ -62,12 +63,14 @@ _BRIEFLY = tuple(
 
 @dataclass(frozen=True)
 class Shown:
-    """A balance of which a page shows more or less. ``number`` is that of its free body, 0 where that stands above already."""
+    """A balance of which a page shows more or less. ``number`` is that of its free body, 0 where that stands above already; ``named`` are
+    the directions that the page introduces."""
 
     subject: SymbolicState
     stated: Stated
     closed: Closed
     number: int
+    named: Directions
 
     @property
     def title(self) -> list[Block]:
@@ -114,6 +117,11 @@ class Shown:
         sides = VectorLaw(self.subject, self.stated).sides if self.number or self.stated.balance.turns else None
         units = {unit for side in sides or () for _, unit in side.components}
         if sides is None or not (len(units) > 1 or any(isinstance(unit, Cross) for unit in units)):
+            return None
+        if not directions_in(sides) <= {
+            *self.named.axes,
+            *(unit for pair in self.named.pairs for unit in (pair.along, pair.across)),
+        }:
             return None
         text = Text(self.subject.nomenclature).block(Equation(*sides))
         return sides if text.count("\n") < _OF_A_LAW and "√" not in text else None
@@ -263,11 +271,22 @@ def _alike(shown: Sequence[Shown]) -> list[Block]:
     return [*(block for each in shown for block in each.title), Paragraph([*said, _LONGER])]
 
 
-def shown(subject: SymbolicState, stated: Sequence[Stated], closed: Closed) -> list[Shown]:
+def directions_in(sides: Iterable[Vector]) -> set[str]:
+    """The names of the unit directions in vectors."""
+
+    def inside(parts: Components) -> set[str]:
+        units = {unit for _, unit in parts if isinstance(unit, str)}
+        crossed = (side for _, unit in parts if isinstance(unit, Cross) for side in (unit.arm, unit.vector))
+        return units.union(*map(inside, crossed))
+
+    return set().union(*(inside(side.components) for side in sides))
+
+
+def shown(subject: SymbolicState, stated: Sequence[Stated], closed: Closed, named: Directions) -> list[Shown]:
     """The balances of a page, the free bodies numbered."""
     groups = list(dict.fromkeys(each.balance.bodies for each in stated))
     firsts = {next(i for i, each in enumerate(stated) if each.balance.bodies == group): n for n, group in enumerate(groups, 1)}
-    return [Shown(subject, each, closed, firsts.get(i, 0)) for i, each in enumerate(stated)]
+    return [Shown(subject, each, closed, firsts.get(i, 0), named) for i, each in enumerate(stated)]
 
 
 def lines(subject: SymbolicState, blocks: Sequence[Block]) -> int:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 from freebody.document.blocks import Block, Equation, Figure, Heading, Paragraph, Vector, Words, Written, is_tree, listed, pieces
 from freebody.document.drawings import ConfigurationDrawing
 from freebody.equations.derivation import loop_closure, preamble
-from freebody.equations.derivation.balance_page import ROOM, Shown, fit, lines, shown
+from freebody.equations.derivation.balance_page import ROOM, Shown, directions_in, fit, lines, shown
 from freebody.equations.derivation.balance_page import fitted as balances
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.directions import Directions
@@ -19,7 +19,6 @@ from freebody.solve.symbolic_state import Motion, SymbolicState
 from freebody.symbolic.algebra import signed
 from freebody.symbolic.formula import typed
 from freebody.symbolic.nomenclature import Nomenclature
-from freebody.symbolic.printers.printer import Components, Cross
 from freebody.symbolic.symbols import direction
 from freebody.symbolic.tree import Sym, is_zero, power, symbols
 
@@ -67,9 +66,9 @@ def _coordinates(subject: SymbolicState) -> Words:
 def fitted(subject: SymbolicState, stated: Sequence[Stated], closed: Closed, besides: Sequence[Block]) -> list[Block]:
     """The page below its beginning, with what stands ``besides`` before the balances: in full where there is room for it; else closures
     without their derivatives, and accelerations from body to body."""
-    every = shown(subject, stated, closed)
-    above = lines(subject, [*_head(subject, closed, every), *besides])
     named = preamble.directions(subject)
+    every = shown(subject, stated, closed, named)
+    above = lines(subject, [*_head(subject, closed, every), *besides])
     for brief in range(3) if fit(every, "whole", ROOM) else (2,):
         opening = [*closure(subject, closed, brief), *kinematics(subject, closed, named, subject.motions, chained=brief > 0)]
         room = ROOM - above - lines(subject, opening)
@@ -144,14 +143,8 @@ def roots(closed: Closed) -> list[Block]:
 
 def units(made: Sequence[Block]) -> set[str]:
     """The names of the unit directions in laws in vectors."""
-
-    def inside(parts: Components) -> set[str]:
-        units = {unit for _, unit in parts if isinstance(unit, str)}
-        crossed = (side for _, unit in parts if isinstance(unit, Cross) for side in (unit.arm, unit.vector))
-        return units.union(*map(inside, crossed))
-
     sides = (side for block in made if isinstance(block, Equation) for side in (block.left, block.right))
-    return set().union(*(inside(side.components) for side in sides if isinstance(side, Vector)))
+    return directions_in(side for side in sides if isinstance(side, Vector))
 
 
 def _head(subject: SymbolicState, closed: Closed, every: Sequence[Shown]) -> list[Block]:

@@ -52,7 +52,7 @@ def _page(subject: SymbolicState, stated: Sequence[Stated], closed: Closed, abov
     bodies = {body for each in stated for body in each.balance.bodies}
     named, moving = preamble.directions(subject), [m for m in subject.motions if m.body in bodies]
     opening = [*page.roots(closed), *page.kinematics(subject, closed, named, moving)]
-    made = fitted(shown(subject, stated, closed), ROOM - above - lines(subject, opening))
+    made = fitted(shown(subject, stated, closed, named), ROOM - above - lines(subject, opening))
     return [*page.roots(closed), *page.kinematics(subject, closed, named, moving, page.units(made)), *made]
 
 
