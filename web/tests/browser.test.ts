@@ -203,6 +203,14 @@ describe.runIf(folder)("the four-bar", () => {
     await page.close();
   });
 
+  test("a quantity goes around an angle", async () => {
+    const page = await open("four_bar.html");
+    await page.getByLabel("around").check();
+    expect(await page.locator("circle.ring").count()).toBeGreaterThan(2);
+    expect(await page.locator("svg:has(circle.ring) path.curve").getAttribute("d")).toMatch(/^M/);
+    await page.close();
+  });
+
   test("many lines that are alike are one that opens", async () => {
     const page = await open("four_bar.html");
     const rows = (): Promise<number> => page.locator("tr.folded:visible").count();

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Later styles lie on top of earlier ones.
-ORDER = ("hatch", "dash", "band", "body", "rail", "block", "mark", "slot", "mass", "weld", "pin")
+ORDER = ("hatch", "dash", "band", "body", "rail", "block", "mark", "slot", "coil", "mass", "weld", "pin")
 _LAYER = 0.6  # more than all styles of one body need
 
 
@@ -61,6 +61,8 @@ def _look(style: str, tint: str) -> dict[str, Any]:
         return {"facecolor": INK, "edgecolor": INK, "lw": 1}
     if style in ("pin", "slot"):
         return {"facecolor": PAPER, "edgecolor": INK if style == "pin" else tint, "lw": 1.4 if style == "pin" else 1.1}
+    if style == "coil":
+        return {"fill": False, "edgecolor": INK, "lw": 1.2}
     width = {"band": 4.0, "mark": 1.5, "rail": 1.6, "hatch": 0.8, "dash": 1.2}[style]
     tone = GROUND if style in ("hatch", "rail") else tint
     return {"fill": False, "edgecolor": tone, "lw": width, "ls": (0, (5, 3)) if style == "dash" else "-"}

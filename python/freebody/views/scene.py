@@ -10,6 +10,7 @@ import numpy as np
 from freebody.core import GROUND, Array, State
 from freebody.views import shapes
 from freebody.views.contact_glyphs import draw_contacts, draw_strings
+from freebody.views.drive_glyphs import draw_drives
 from freebody.views.glyphs import draw_forces, draw_joints
 from freebody.views.impact_markers import impact_markers
 from freebody.views.sketch import Figure, Sketch, Stroke, named_points
@@ -35,6 +36,7 @@ def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Sketch:
         _draw_body(sketch, body)
     draw_joints(sketch)
     draw_forces(sketch)
+    draw_drives(sketch)
     draw_contacts(sketch)
     draw_strings(sketch)
     sketch.traces = _worth_tracing(sketch) if traces is None else list(traces)

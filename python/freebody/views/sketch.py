@@ -32,7 +32,7 @@ class Stroke:
     """A polyline (k, 2) in m with its style.
 
     Styles: ``body`` and ``block`` (filled in the body's colour), ``band`` (a thick line), ``mass`` (solid), ``mark``
-    (a line in the body's colour), ``slot`` and ``pin`` (filled with the paper), ``weld`` (solid dark), ``rail``,
+    (a line in the body's colour), ``coil`` (a dark line), ``slot`` and ``pin`` (filled with the paper), ``weld`` (solid dark), ``rail``,
     ``hatch`` and ``dash`` (lines in the colour of ground). ``shown`` (nt,): whether it is there; None: always. ``about`` is the
     place of a symbol, whose size is not the model's but the drawing's.
     """

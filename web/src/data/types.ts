@@ -47,7 +47,7 @@ export interface Figure {
   strokes: Stroke[];
 }
 
-export type Style = "hatch" | "dash" | "band" | "body" | "rail" | "block" | "mark" | "slot" | "mass" | "weld" | "pin";
+export type Style = "hatch" | "dash" | "band" | "body" | "rail" | "block" | "mark" | "slot" | "coil" | "mass" | "weld" | "pin";
 
 export interface Stroke extends Passing {
   points: Point[];

@@ -32,9 +32,9 @@ _NEARBY = 40.0  # pt about all else, in which points of ground are shown
 _RADIUS = 5.0  # sizes of symbols, of the arcs of angles
 _BESIDE = 8.0  # pt from its body at which a force hangs in the air
 _BLOCK, _SMALL_BLOCK = (5.6, 2.6), (3.2, 1.6)  # sizes of symbols, half of a block by itself, or among others
-_LOOSE = ("rail", "slot", "hatch")
+_LOOSE = ("rail", "slot", "hatch", "coil")
 _SOLID = ("body", "block", "band", "mass")
-_CUT = ("pin", "weld")
+_CUT = ("pin", "weld", "coil")
 Dimensioned: TypeAlias = Callable[[Sketch, Paper], Iterable[DimensionLine]]
 """What finds coordinates to draw in a sketch."""
 
