@@ -24,5 +24,6 @@ test("numbers have a true minus sign, and powers of ten", () => {
   expect(tickLabel(-2e-9, 4e-9)).toBe("−2·10⁻⁹");
   expect(tickLabel(-0.5, 1)).toBe("−0.5");
   expect(figure(-12.3456)).toBe("−12.35");
+  expect(figure(7.5261e-11)).toBe("7.526·10⁻¹¹");
   expect(figure(NaN)).toBe("–");
 });

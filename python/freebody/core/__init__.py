@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from freebody._core import parse
 
-from .compiled import BEFORE, EXTREMES, CompiledModel, ReportItem, Settings, Spec, quote
+from .compiled import BEFORE, EXTREMES, CompiledModel, PlotItem, ReportItem, Settings, Spec, quote
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite, OutcomeKind
 from .free_bodies import GROUND, Body, FreeBodies, Load, Pair, Part, Row
 from .motion import Change, Event, Impulses, Motion, Outcome, Snapshot, Trajectory, there
@@ -37,6 +37,7 @@ __all__ = [
     "OutcomeKind",
     "Pair",
     "Part",
+    "PlotItem",
     "Rank",
     "ReportItem",
     "Row",

@@ -65,10 +65,20 @@ class ReportItem:
     unit: str = ""
 
 
+@dataclass(frozen=True)
+class PlotItem:
+    """A plot that the model asks for: curves of expressions over ``t``, or one expression over another, or ``around`` an angle."""
+
+    title: str
+    up: tuple[str, ...]
+    across: str = "t"
+    around: bool = False
+
+
 @dataclass(frozen=True, eq=False)
 class CompiledModel:
     """A mechanism without numbers, with the ``spec`` that it was compiled from; beside it the ``model`` as its file says it, what to
-    ``report``, and what is worth saying about its assembly (``notes``).
+    ``report``, which ``plots`` it wants, and what is worth saying about its assembly (``notes``).
 
     Where a state has no answer ``MotionError`` is raised, and ``ModelError`` for an expression or word that means nothing."""
 
@@ -76,6 +86,7 @@ class CompiledModel:
     spec: Spec
     model: Mapping[str, Any] = field(default_factory=dict)
     report: tuple[ReportItem, ...] = ()
+    plots: tuple[PlotItem, ...] = ()
     notes: tuple[str, ...] = ()
 
     @classmethod

@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from freebody.core import BEFORE, EXTREMES, ReportItem, Settings, cards
+from freebody.core import BEFORE, EXTREMES, PlotItem, ReportItem, Settings, cards
 
 from . import start, units
 from .errors import ModelProblem, Path
 from .names import suggestion
-from .schema import Question, Run
+from .schema import Over, Question, Run
 from .writer import Writer
 
 _STATISTIC = re.compile(rf"\s*({'|'.join(EXTREMES)})\s+of\s+(.+)", re.DOTALL)
@@ -76,6 +76,24 @@ def report(write: Writer) -> list[ReportItem]:
         path: Path = ("report", label)
         with write.scope.noting(path):
             found.append(_item(write, path, asked if isinstance(asked, Question) else _question(asked)))
+    return found
+
+
+def plots(write: Writer) -> list[PlotItem]:
+    """The plots that are wanted, in order."""
+    found: list[PlotItem] = []
+    for title, asked in write.scope.model.plots.items():
+        with write.scope.noting(("plots", title)):
+            if isinstance(asked, Over):
+                across, _ = write.measured(asked.over or asked.around)
+                found.append(PlotItem(title, (write.measured(asked.of)[0],), across, asked.around is not None))
+                continue
+            up = [write.measured(text) for text in ([asked] if isinstance(asked, str) else asked)]
+            known = [dimension for _, dimension in up if dimension is not None]
+            if other := next((each for each in known if not each.fits(known[0])), None):
+                what = f"the curves of one plot measure the same; here are {known[0].words()} and {other.words()}"
+                raise ModelProblem(what, "make two plots of them")
+            found.append(PlotItem(title, tuple(text for text, _ in up)))
     return found
 
 

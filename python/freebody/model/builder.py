@@ -347,7 +347,7 @@ class Builder:
         lowered = self.lowered()
         if lowered.source is None:
             model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
-            lowered.source = replace(lowered.compiled, model=model, report=tuple(self.report_items()))
+            lowered.source = replace(lowered.compiled, model=model, report=tuple(self.report_items()), plots=tuple(lowered.plots))
         return replace(lowered.source, notes=tuple(notes))
 
     def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:

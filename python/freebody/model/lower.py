@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import CompiledModel, ModelError, MotionError, ReportItem, Spec, State, cards
+from freebody.core import CompiledModel, ModelError, MotionError, PlotItem, ReportItem, Spec, State, cards
 from freebody.symbolic.dimensions import TIME
 
 from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, table_friction, tables, units
@@ -33,7 +33,7 @@ _STEP = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
 
 @dataclass
 class Lowered:
-    """A model as the core takes it, and what the core does not need: start, run, report.
+    """A model as the core takes it, and what the core does not need: start, run, report, plots.
 
     ``hand_over`` holds the events that go on as another model, with its file. ``items`` leads from an item of the spec
     (``joints.pivot``) to where it was written.
@@ -43,6 +43,7 @@ class Lowered:
     start: Start
     run: dict[str, Any]
     report: list[ReportItem]
+    plots: list[PlotItem]
     root: Scope
     hand_over: dict[str, str] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
@@ -134,7 +135,9 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
             if other not in others and not folder.beside(other).exists():
                 raise ModelProblem(f"there is no file `{other}`", "the file of the other model is looked for beside this one")
     hand_over = {event: other for event, (_, _, other) in whole.hand_over.items()}
-    lowered = Lowered(spec, begins, answers.run(whole), answers.report(whole), root, hand_over, whole.items | _items(root))
+    lowered = Lowered(
+        spec, begins, answers.run(whole), answers.report(whole), answers.plots(whole), root, hand_over, whole.items | _items(root)
+    )
     if problems:
         raise ModelFileError(problems)
     return lowered

@@ -307,6 +307,26 @@ class Question(Section):
         return self
 
 
+class Over(Section):
+    """A plot of one quantity over another, or around an angle."""
+
+    of: Text = Field(description="An expression, upwards or as the radius.")
+    over: Text = Field(None, description="The expression across.")
+    around: Text = Field(None, description="The angle around which it goes.")
+
+    @model_validator(mode="after")
+    def _one_way(self) -> Over:
+        if len(self.model_fields_set & {"over", "around"}) != 1:
+            raise refuse(
+                "a plot goes either `over` a quantity or `around` an angle",
+                "give one of the two; over time write the expression alone",
+            )
+        return self
+
+
+Plot = one_of(
+    "this is no plot", "write an expression, a list of them, or `{of: …, over: …}`", text=Text, pair=list[Text], mapping=Over
+)
 _Acceleration = number_in("m/s^2")
 Gravity = one_of(
     "this is no gravity", "write `none`, a size like `9.81`, or `[gx, gy]`", text=_Acceleration, number=_Acceleration, pair=Pair
@@ -349,6 +369,7 @@ class Model(Section):
     run: Run = Field(None, description="How far and how the motion is computed.")
     report: dict[str, Report] = Field({}, description="Quantities to report.")
     units: UserUnits = Field(None, description="Units in which figures are shown: `lb-ft`, or a list like `mm, deg, rpm`.")
+    plots: dict[str, Plot] = Field({}, description="Plots, by their titles.")
 
 
 def schema() -> dict[str, Any]:

@@ -87,6 +87,21 @@ def polar(run: Run, angle: str, radius: str, ax: Axes | None = None) -> Axes:
 
 
 @quiet()
+def wanted(run: Run, title: str, ax: Axes | None = None) -> Axes:
+    """A plot that the model asks for under ``plots``, by its title."""
+    items = {item.title: item for item in run.source.plots}
+    if title not in items:
+        raise KeyError(f"the model asks for no plot {title!r}; there are {', '.join(items) or 'none'}")
+    item = items[title]
+    if item.across == "t":
+        drawn = series(run, *item.up, ax=ax)
+    else:
+        drawn = (polar if item.around else against)(run, item.across, *item.up, ax=ax)
+    drawn.set_title(title)
+    return drawn
+
+
+@quiet()
 def paths(run: Run, *points: str, ax: Axes | None = None) -> Axes:
     """Paths of points in the plane; without names, those at which nothing is joined."""
     from freebody.views.scene import of_run

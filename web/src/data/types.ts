@@ -163,6 +163,8 @@ export interface Plot {
   t: Floats;
   curves: Curve[];
   note: string;
+  /** What the one curve stands over, if not over time; or the angle that it goes around. */
+  across?: Curve & { unit: string; around: boolean };
 }
 
 /** NaN where there is no value, and between what was before and after a switch. */

@@ -31,13 +31,19 @@ export function rangeOf(values: Iterable<number>[]): Range {
 const RAISED = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
 const minus = (text: string): string => text.replaceAll("-", "−");
 
+/** The text of a number, with a power of ten as people write it. */
+function written(text: string): string {
+  const [mantissa, power] = text.split("e");
+  const raised = [...String(Number(power))].map((sign) => RAISED["-0123456789".indexOf(sign)]).join("");
+  return minus(power ? `${Number(mantissa)}·10${raised}` : text);
+}
+
 /** A number at an axis whose largest is `largest`. */
 export function tickLabel(x: number, largest: number): string {
   const exact = Math.abs(x) < 1e-12 * largest ? 0 : x;
   const long = Math.abs(exact) >= 1e5 || (exact !== 0 && largest < 1e-3);
   if (!long) return minus(String(Number(exact.toPrecision(6))));
-  const [mantissa, power] = exact.toExponential(1).split("e");
-  return minus(`${Number(mantissa)}·10${[...String(Number(power))].map((sign) => RAISED["-0123456789".indexOf(sign)]).join("")}`);
+  return written(exact.toExponential(1));
 }
 
 /** A value with as many digits as one reads, none of them below the `error` that it may have. */
@@ -45,5 +51,5 @@ export function figure(x: number | null, error = 0): string {
   if (x === null || Number.isNaN(x)) return "–";
   const read = Number(x.toPrecision(4));
   const least = error > 0 ? 10 ** Math.ceil(Math.log10(error)) : 0;
-  return minus(String(least > 0 ? Number((Math.round(read / least) * least).toPrecision(4)) + 0 : read));
+  return written(String(least > 0 ? Number((Math.round(read / least) * least).toPrecision(4)) + 0 : read));
 }

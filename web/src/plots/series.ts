@@ -19,6 +19,9 @@ export function seriesOf(plot: Plot): Series[] {
   return plot.curves.map((curve) => ({ ...curve, unit: plot.unit, t, y: floats(curve.y) }));
 }
 
+/** What its curve stands over, or goes around. */
+export const acrossOf = (plot: Plot, across: NonNullable<Plot["across"]>): Series => ({ ...across, t: floats(plot.t), y: floats(across.y) });
+
 /** Its value at a time; NaN within a gap. */
 export function valueAt({ t: times, y }: Series, t: number): number {
   return readAt(times, y, placeIn(times, t)).value;

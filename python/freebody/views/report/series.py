@@ -36,7 +36,7 @@ class Curve(NamedTuple):
 def plots(run: Run) -> list[dict[str, Any]]:
     """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
     shown = refined_at_jumps(run.at(_thinned(run.t, _points(run))))
-    made = _coordinates(shown) + _reactions(shown)
+    made = _wanted(shown) + _coordinates(shown) + _reactions(shown)
     ledger = shown.energy
     stored = [
         *map(Curve, ledger.entries, ledger.entries.values()),
@@ -112,6 +112,20 @@ def _reactions(run: Run) -> list[dict[str, Any]]:
     made += [_plot(what, "N", run, _resolved(held))] if held else []
     made += [_plot(f"{what}, couple", "N*m", run, _resolved(turned))] if turned else []
     return made + ([_plot("Reactions, couple", "N*m", run, couples)] if couples else [])
+
+
+def _wanted(run: Run) -> list[dict[str, Any]]:
+    """The plots that the model asks for."""
+    made = []
+    for item in run.source.plots:
+        values = run.motion.evaluate([*item.up, item.across], run.t).T
+        curves = [Curve(plain(text), y) for text, y in zip(item.up, values[:-1], strict=True)]
+        plot = _plot(item.title, run.unit_of(item.up[0]), run, _resolved(curves))
+        if item.across != "t":
+            [across] = _plot("", run.unit_of(item.across), run, [Curve(plain(item.across), values[-1])])["curves"]
+            plot["across"] = across | {"unit": pretty_unit(run.unit_of(item.across)), "around": item.around}
+        made.append(plot)
+    return made
 
 
 def _asked(run: Run) -> list[dict[str, Any]]:
