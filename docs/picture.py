@@ -1,7 +1,7 @@
-"""Draws the pictures of the documents: `.venv/bin/python docs/picture.py` writes docs/four_bar.svg and docs/free_body.svg.
+"""Draws the pictures of the documents: `.venv/bin/python docs/picture.py` writes docs/four_bar.svg, docs/free_body.svg and docs/homework.svg.
 
 The linkage of examples/four_bar.yaml from its release until it comes to rest on the other side, and the force at each pin; and
-the free-body diagrams of its crank, and of crank and coupler together.
+the free-body diagrams of its crank, and of crank and coupler together, and of the bar of the homework.
 """
 
 from pathlib import Path
@@ -59,6 +59,7 @@ def main() -> None:
         draw_forces(run, right)
         figure.savefig(HERE / "four_bar.svg", metadata={"Date": None})
     linkage.diagram(["crank", "crank+coupler"]).save(HERE / "free_body.svg")
+    freebody.load(HERE / "homework.yaml").diagram(column=120).save(HERE / "homework.svg")
 
 
 if __name__ == "__main__":

@@ -54,13 +54,15 @@ class Links(HTMLParser):
         self.places |= {given["id"]} if given.get("id") else set()
 
 
-def dead_links(folder: Path) -> list[str]:
-    """Links of pages to what is not there, or to elsewhere."""
+def dead_links(folder: Path, elsewhere: bool = False) -> list[str]:
+    """Links of pages to what is not there; and to ``elsewhere`` unless these are meant."""
     pages = {path: Links(path.read_text(encoding="utf-8")) for path in folder.rglob("*.html")}
     dead = []
     for path, links in pages.items():
         for link in links.to:
-            file, _, place = link.partition("#")
+            if elsewhere and ":" in link:
+                continue
+            file, _, place = link.partition("?")[0].partition("#")
             target = (path.parent / file).resolve() if file else path
             lost = ":" in link or not target.is_file() or (place and target in pages and place not in pages[target].places)
             dead += [f"{path.relative_to(folder)}: {link}"] if lost else []

@@ -16,7 +16,7 @@ from freebody.formats import write
 from freebody.site.parts import FAMILIES, PARTS, Part, part_page, part_picture
 from freebody.site.systems import Card, natural, system_pages
 
-__all__ = ["Card", "write_site"]
+__all__ = ["Card", "family", "write_site"]
 
 
 def write_site(systems: Iterable[System], folder: Path) -> Iterator[Card]:
@@ -37,10 +37,10 @@ def write_site(systems: Iterable[System], folder: Path) -> Iterator[Card]:
     write(folder / "site.css", look)
     write(folder / "site.js", template(__package__, "site.js").render())
     (folder / "math.woff").write_bytes(shared_look.joinpath("math.woff").read_bytes())
-    write(folder / "parts" / "index.html", template(__package__, "parts.html").render(families=families()))
+    write(folder / "parts" / "index.html", template(__package__, "parts.html").render(families={name: family(name) for name in FAMILIES}))
     write(folder / "index.html", template(__package__, "index.html").render(cards=natural(cards)))
 
 
-def families() -> dict[str, list[tuple[Part, Markup]]]:
-    """Parts and their pictures, by what they are."""
-    return {family: [(part, part_picture(part)) for part in PARTS if part.family == family] for family in FAMILIES}
+def family(name: str) -> list[tuple[Part, Markup]]:
+    """The parts of a family, joints, forces or contacts, with their pictures."""
+    return [(part, part_picture(part)) for part in PARTS if part.family == name]
