@@ -37,7 +37,10 @@ def write_site(systems: Iterable[System], folder: Path) -> Iterator[Card]:
     write(folder / "site.css", look)
     write(folder / "site.js", template(__package__, "site.js").render())
     (folder / "math.woff").write_bytes(shared_look.joinpath("math.woff").read_bytes())
-    write(folder / "parts" / "index.html", template(__package__, "parts.html").render(families={name: family(name) for name in FAMILIES}))
+    write(
+        folder / "parts" / "index.html",
+        template(__package__, "parts.html").render(families={name: family(name) for name in FAMILIES}),
+    )
     write(folder / "index.html", template(__package__, "index.html").render(cards=natural(cards)))
 
 

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array
+from freebody.core import GROUND, Array
 from freebody.views.render import ORDER
 from freebody.views.scene import of_run
-from freebody.views.sketch import Pair, Sketch, Stroke
+from freebody.views.sketch import Figure, Pair, Sketch, Stroke
 from freebody.views.style import PALETTE
 
 if TYPE_CHECKING:
@@ -29,6 +29,8 @@ _LASTS = (3.0, 8.0)
 """Seconds of one showing, at least and at most; between them as long as in life."""
 _POSES = 720
 """Of all bodies together: more bodies have fewer frames."""
+_STRETCHED = (0, ORDER.index("coil") - 0.5)
+"""The layer of what is stretched between bodies, below their pins."""
 _HELD = 0.15
 """The part of a showing for which its end stands."""
 
@@ -79,26 +81,27 @@ class _Drawn:
         """Places in the fixed axes."""
         return (points - self.middle) * self.scale * (1, -1) + (WIDTH / 2, HEIGHT / 2)
 
-    def _parts(self) -> Iterator[tuple[float, str]]:
-        """What is drawn, each with its layer."""
+    def _parts(self) -> Iterator[tuple[tuple[int, float], str]]:
+        """What is drawn, each with its layer and its place within it."""
         for i, figure in enumerate(self.sketch.figures.values()):
             for stroke in figure.strokes:
-                yield ORDER.index(stroke.style), self._with_body(i, self._stroke(i, stroke))
+                yield (
+                    (self.sketch.layer(figure.name), ORDER.index(stroke.style)),
+                    self._with_body(i, self._stroke(figure, stroke)),
+                )
         for pair in self.sketch.pairs:
-            yield ORDER.index("slot") + 0.5, self._pair(pair)
+            yield _STRETCHED, self._pair(pair)
         for cord in self.sketch.cords:
             path = self.paper(cord.path)
             moved = self._values("points", [_points(each) for each in path])
-            yield (
-                ORDER.index("slot") + 0.5,
-                f'<polyline class="cord" points="{_points(path[0])}">{moved}{self._shown(cord.shown)}</polyline>',
-            )
+            drawn = f'<polyline class="cord" points="{_points(path[0])}">{moved}{self._shown(cord.shown)}</polyline>'
+            yield _STRETCHED, drawn
 
-    def _stroke(self, figure: int, stroke: Stroke) -> str:
+    def _stroke(self, figure: Figure, stroke: Stroke) -> str:
         points = stroke.points
         if stroke.about is not None:
             points = np.asarray(stroke.about) + self.symbol * (points - stroke.about)
-        tone = f"tone{(figure - 1) % len(PALETTE)}" if figure else "ground"
+        tone = "ground" if figure.name == GROUND else f"tone{self.sketch.tone(figure.name) % len(PALETTE)}"
         shape = "polygon" if stroke.closed else "polyline"
         shown = "" if stroke.shown is None else self._shown(stroke.shown)
         return f'<{shape} class="{stroke.style} {tone}" points="{_points(points * self.scale * (1, -1))}">{shown}</{shape}>'
