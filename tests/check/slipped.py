@@ -26,7 +26,7 @@ WEIGHTS = {
     "arm": 1.0,
     "derivative": 1.0,
 }
-"""How often each slip is made, beside the others."""
+"""How often each slip is made, beside the others: as students make them."""
 _NUMBERS = {
     "1/2": ("", "1/3", "1/4"),
     "1/3": ("1/2", "1/12", ""),
