@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 State = tuple[Array, float, Array, Array]
@@ -25,6 +25,25 @@ def cards() -> dict[str, Any]:
 
 def time_chain(n: int, repeats: int) -> float:
     """Seconds for one acceleration solve of a chain of ``n`` bars; for benchmarks."""
+
+class Evaluator:
+    """Accelerations and all reactions of a mechanism at one state after another, as arrays; made by ``Mechanism.evaluator``."""
+
+    coordinates: list[str]
+    """The names of the coordinates, in the order of q and of the accelerations."""
+    reactions: list[str]
+    """The names of the reactions: of each joint the force on its second body along the fixed axes and the couple about its point, the force
+    or torque of each motion and coupling, and of each contact, stop and string the force on its first body."""
+    parameters: list[str]
+    """The names of the parameters, in the order of p."""
+
+    def __init__(self, spec: Mapping[str, Any], p: Array) -> None:
+        """``spec``: crates/freebody/src/spec/; all parameters (np,) that are meant where none are given."""
+
+    def __call__(self, q: ArrayLike, u: ArrayLike, p: ArrayLike | None = None, t: float = 0.0) -> tuple[Array, Array]:
+        """Accelerations (n,), m/s² or rad/s², and reactions (k,), N and N·m, at coordinates (n,), rates (n,), all parameters (np,) and a
+        time, s. A reaction that the balances leave open is NaN. The state decides by itself what touches, is taut or slides. Loops are
+        not closed: ``q`` and ``u`` must keep them. Raises MotionError."""
 
 class Mechanism:
     """A compiled model: topology without numbers. Raises ModelError and MotionError."""

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import ModelError, MotionError, Settings
+from freebody.core import Evaluator, ModelError, MotionError, Settings
 from freebody.model.answers import fault, numbers
 from freebody.model.builder import asking
 from freebody.model.errors import ModelFileError, Problem
@@ -73,6 +73,14 @@ class Moving:
         state, notes = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():
             return Instant(replace(self.compile(), notes=tuple(notes)), state, route)
+
+    @asking
+    def evaluator(self: Builder, **parameters: Any) -> Evaluator:
+        """What gives accelerations and all reactions at one state after another, as arrays and with nothing made in between: for
+        inner loops. ``at = m.evaluator(); a, r = at(q, u)`` has as many numbers as ``at.coordinates`` and ``at.reactions`` have names;
+        see ``freebody.core.Evaluator``."""
+        p = self.initial_state(parameters)["p"]
+        return Evaluator(self.compile().spec, p)
 
     @asking
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:

@@ -2,6 +2,7 @@
 
 mod data;
 mod errors;
+mod evaluator;
 mod instant;
 mod mechanism;
 mod trajectory;
@@ -55,6 +56,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add_function(wrap_pyfunction!(parse, m)?)?;
     m.add_function(wrap_pyfunction!(cards, m)?)?;
     m.add_function(wrap_pyfunction!(time_chain, m)?)?;
+    m.add_class::<evaluator::Evaluator>()?;
     m.add_class::<mechanism::History>()?;
     m.add_class::<mechanism::Mechanism>()?;
     m.add_class::<trajectory::Trajectory>()

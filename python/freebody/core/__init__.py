@@ -5,7 +5,7 @@ Text and plain data of ``freebody._core`` end here; everybody else imports from 
 
 from __future__ import annotations
 
-from freebody._core import parse
+from freebody._core import Evaluator, parse
 
 from .compiled import BEFORE, EXTREMES, CompiledModel, PlotItem, ReportItem, Settings, Spec, quote
 from .errors import ExpressionError, Indeterminate, ModelError, MotionError, NotFinite, OutcomeKind
@@ -22,6 +22,7 @@ __all__ = [
     "Body",
     "Change",
     "CompiledModel",
+    "Evaluator",
     "Event",
     "ExpressionError",
     "FreeBodies",

@@ -42,10 +42,16 @@ impl<'m> super::Workspace<'m> {
         let mut workspace = Self::in_mode(m, p, mode)?;
         workspace.move_to(t, q, u);
         if mode.is_none() {
-            let mode = workspace.initial_mode()?;
-            workspace.enter(&mode);
+            workspace.enter_initial_mode()?;
         }
         Ok(workspace)
+    }
+
+    /// Contacts, strings and friction as they are where nothing moved before.
+    pub(super) fn enter_initial_mode(&mut self) -> Result<(), super::DynamicsError> {
+        let mode = self.initial_mode()?;
+        self.enter(&mode);
+        Ok(())
     }
 
     /// The mechanism in a mode, not yet placed.

@@ -6,7 +6,7 @@
 use super::contact_modes::{force_on_first, REST};
 use super::minimal::{joint_wrenches, row_scales, rows_in_coordinates, Force};
 use super::rows::closing_rows;
-use super::{Row, SolvedView, Source, Workspace};
+use super::{Route, Row, SolvedView, Source, Workspace};
 use crate::kinematics::StateView;
 use crate::mechanism::{DriveKind, Mechanism, Part};
 use crate::mode::{ContactMode, Mode};
@@ -195,6 +195,12 @@ impl Workspace<'_> {
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
         let rank = Orthogonal::factor(&scaled).rank();
         (rank.rank, rank.uncertain)
+    }
+
+    /// Whether the last solution says that every reaction is determinate: in a tree, and where it found the rows of loops independent.
+    pub(super) fn is_determinate(&self) -> bool {
+        let solved_by_null_space = self.m.unilateral.is_empty() && self.cheapest() == Route::Minimal;
+        !self.is_closed() || solved_by_null_space && self.dense.saddle.self_stress().cols() == 0
     }
 
     /// All independent self-stresses at the present, solved state; the mechanism must not be too large for a

@@ -75,12 +75,22 @@ impl<S: Scalar> JointLoad<S> {
 }
 
 impl<S: Scalar> SolvedView<'_, S> {
-    /// The reaction of a joint: in the tree from the load passed, else from the multipliers.
+    /// The reaction of a joint, with where it acts.
     pub fn joint_load(&self, index: usize) -> JointLoad<S> {
         let at = self.at;
         let joint = &at.m.joints[index];
         let (axes, place) = relative(joint, at.m, &at);
         let point = joint_place(at, index);
+        let Wrench { f: force, m: couple } = self.reaction(index, point);
+        let tangent = axes.turn.apply(joint_tangent(at, index));
+        let span = axes.turn.apply(JointView::new(at.m, at.n, joint, |x| x).contact(&place));
+        JointLoad { point, force, couple, tangent, span }
+    }
+
+    /// The reaction of a joint on its second body about the joint's `point`: in the tree from the load passed, else from the multipliers.
+    pub fn reaction(&self, index: usize, point: Vec2<S>) -> Wrench<S> {
+        let at = self.at;
+        let joint = &at.m.joints[index];
         let [first, second] = at.m.ends(joint);
         let load = match joint.child {
             Some(child) if child == second => about(at, child, self.joint_wrenches[child], point),
@@ -97,10 +107,7 @@ impl<S: Scalar> SolvedView<'_, S> {
                 about(at, on_body, load, point)
             }
         };
-        let couple = if joint.couple { load.m } else { S::zero() };
-        let tangent = axes.turn.apply(joint_tangent(at, index));
-        let span = axes.turn.apply(JointView::new(at.m, at.n, joint, |x| x).contact(&place));
-        JointLoad { point, force: load.f, couple, tangent, span }
+        Wrench { f: load.f, m: if joint.couple { load.m } else { S::zero() } }
     }
 
     /// The reaction of every joint.
