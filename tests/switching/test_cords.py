@@ -281,3 +281,31 @@ initial: {x: 0.5 m, y: 0.2 m, at_rest: true}
     assert run.evaluate("x", times) == pytest.approx([0.5 * math.cos(2 * t) for t in times], abs=1e-9)
     with pytest.raises(fb.ModelFileError, match="0 stands where a positive length is needed"):
         fb.Mechanism.loads(text.replace(", stiffness: 8 N/m", "")).simulate(until=0.1)
+
+
+PEG = """
+bodies: {bob: {shape: particle, mass: 1 kg}}
+ground: {points: {peg: [0, PEG]}}
+joints: {free: {type: free, of: [ground.O, bob.centre], coordinates: [x, y]}}
+strings: {long: {ends: [ground.O, bob.centre], length: 1 m}STRINGS}
+initial: {x: 0, y: -1, rates: {x: SPEED, y: 0}}
+"""
+"""A bob on a string of 1 m; on another from a peg below, the first is just taut where the bob is lowest."""
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-8, 1e-10, 1e-13])
+@pytest.mark.parametrize("peg", [-0.3, -0.5, -0.8])
+def test_a_string_that_is_just_taut_beside_another_takes_no_speed(peg, rtol):
+    text = PEG.replace("STRINGS", f", short: {{ends: [ground.peg, bob.centre], length: {1 + peg}}}").replace("SPEED", "1.3")
+    run = model(text.replace("PEG", str(peg))).simulate(until=6, rtol=rtol)
+    assert run.outcome.ok and all(change.lost < 1e-6 for change in run.changes)
+    energy = run.energy["kinetic"] + run.energy["potential"]
+    assert np.ptp(energy) < 100 * rtol * 9.81
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13])
+def test_a_string_whose_tension_just_vanishes_stays_taut(rtol):
+    """At √(5 g l) below, a bob comes to the top with no tension."""
+    text = PEG.replace("STRINGS", "").replace("SPEED", repr(math.sqrt(5 * 9.81))).replace("PEG", "0")
+    run = model(text).simulate(until=3, rtol=rtol)
+    assert run.outcome.ok and not [change for change in run.changes if change.kind == "slack"]

@@ -177,13 +177,17 @@ impl HybridSystem<'_> {
         [gap, compliant_force(self.workspace.at(), l) / (lever * self.strength)]
     }
 
-    /// One guard of a contact, if it is of places and speeds alone: then nothing needs to be solved.
-    pub(super) fn guard_value(&mut self, l: usize, guard: ContactGuard, t: f64, y: &[f64]) -> Option<f64> {
-        let is_force = match self.mode.contacts[l].mode {
+    /// Whether a guard of a contact is of the forces there.
+    pub(super) fn is_force(&self, l: usize, guard: ContactGuard) -> bool {
+        match self.mode.contacts[l].mode {
             ContactMode::Stick => guard != ContactGuard::Border,
             mode => mode.carries() && guard == ContactGuard::Hold,
-        };
-        if is_force {
+        }
+    }
+
+    /// One guard of a contact, if it is of places and speeds alone: then nothing needs to be solved.
+    pub(super) fn guard_value(&mut self, l: usize, guard: ContactGuard, t: f64, y: &[f64]) -> Option<f64> {
+        if self.is_force(l, guard) {
             return None;
         }
         self.place(t, y);

@@ -10,6 +10,8 @@ use crate::plane::Vec2;
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
 /// its height comes near the round-off of the gap.
 const SHORTEST_FLIGHT: f64 = 1e-5;
+/// Change of a rate over the speed of parting beyond which bounces are not what it would end.
+const UNRELATED: f64 = 1e4;
 /// Largest ratio of one bounce to the one before of which a series is summed: nearer to 1 its end would be infinitely far.
 const SUMMABLE: f64 = 0.999;
 /// Part of the kinetic energy by which it may rise in an impact, as round-off.
@@ -213,6 +215,8 @@ impl HybridSystem<'_> {
         let part = same.map_or(0.0, |(_, before)| (flight / before).min(SUMMABLE));
         let (energy, earlier) = (self.workspace.kinetic_energy(), y.to_vec());
         let fastest = parting.iter().map(|&i| contacts.rates[i]).fold(0.0, f64::max);
+        let parts = constraints.iter().zip(parting).map(|(&l, &i)| contacts.rates[i] * self.workspace.lever(l));
+        let (parts, n) = (parts.fold(0.0, f64::max), self.workspace.m.freedom());
         let mut mode = mode.clone();
         for &constraint in &over {
             // What rocks comes to rest as a whole; what slides goes on sliding.
@@ -221,6 +225,11 @@ impl HybridSystem<'_> {
             mode.contacts[constraint].mode = if rocks { ContactMode::Stick } else { ContactMode::Frictionless };
         }
         let work = self.project_velocities(&mode, t, y)?;
+        let change = |i: usize| (y[n + i] - earlier[n + i]).abs() / self.units[i] * self.workspace.length;
+        if (0..n).map(change).fold(0.0, f64::max) > UNRELATED * parts {
+            y.copy_from_slice(&earlier);
+            return Ok(None);
+        }
         let lost = energy + work - self.workspace.kinetic_energy();
         self.begin_phase(t, -lost);
         self.record(ModeChange {

@@ -377,6 +377,17 @@ impl System for HybridSystem<'_> {
         })
     }
 
+    fn switch_value_closed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, DynamicsError> {
+        let SwitchingFunction::Contact(l, guard) = self.switching_functions[i] else { return Ok(None) };
+        if !self.workspace.is_closed() {
+            return Ok(None);
+        }
+        let (n, mut y) = (self.workspace.m.freedom(), y.to_vec());
+        let (q, rest) = y.split_at_mut(n);
+        self.workspace.project_positions_with(&self.mode, t, q, &rest[..n], &self.locked)?;
+        Ok(self.guard_value(l, guard, t, &y))
+    }
+
     fn check(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
         if self.workspace.m.unilateral.is_empty() {
             return Ok(());
@@ -396,7 +407,10 @@ impl System for HybridSystem<'_> {
                 }
             }
             SwitchingFunction::Discontinuity(_) => EventSpec::discontinuity(),
-            _ => EventSpec::guard(self.roundoff_scale),
+            SwitchingFunction::Contact(l, guard) => {
+                EventSpec { of_forces: self.is_force(l, guard), ..EventSpec::guard(self.roundoff_scale) }
+            }
+            SwitchingFunction::JointFriction(..) => EventSpec::guard(self.roundoff_scale),
         }
     }
 

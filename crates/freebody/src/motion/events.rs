@@ -123,6 +123,8 @@ fn beyond(value: f64, noise: f64) -> i8 {
 pub(super) struct EventDetector {
     memory: Vec<Memory>,
     points: [f64; SAMPLES],
+    /// Relative tolerance of the motion.
+    rtol: f64,
     /// What acts on the segment last searched, or does not, and is not sure.
     pub unresolved: Vec<Unresolved>,
 }
@@ -144,7 +146,7 @@ impl EventDetector {
             Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze, doubt }
         };
         let memory = (0..system.switches()).map(memory).collect();
-        Self { memory, points: chebyshev_points(), unresolved: vec![] }
+        Self { memory, points: chebyshev_points(), rtol, unresolved: vec![] }
     }
 
     pub fn is_idle(&self) -> bool {
@@ -166,7 +168,11 @@ impl EventDetector {
                 continue;
             }
             let largest = values.iter().fold(0.0, |top: f64, value| top.max(value.abs()));
-            self.memory[i].size = self.memory[i].size.max(largest).max(probe.system.switch(i).scale);
+            let (spec, memory) = (probe.system.switch(i), &mut self.memory[i]);
+            memory.size = memory.size.max(largest).max(spec.scale);
+            if memory.is_guard {
+                memory.graze = if spec.of_forces { GRAZE_OF_ACTION * self.rtol } else { 0.0 };
+            }
             let nodes = self.nodes(i, values, &mut probe)?;
             self.walk(i, &nodes, &mut probe, &mut marks)?;
         }
@@ -188,17 +194,26 @@ impl EventDetector {
             return Ok(nodes);
         }
         let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);
-        let mut past = None;
+        let (mut past, mut dip) = (None, 0.0_f64);
         for x in extrema(&polynomial, 1.0 + PAST) {
             let t = probe.time(x);
             if x <= 1.0 {
-                nodes.push(Node { t, value: probe.one(i, t)?, is_extremum: true });
+                let value = probe.one(i, t)?;
+                nodes.push(Node { t, value, is_extremum: true });
+                if memory.is_guard
+                    && value < dip
+                    && probe.closed(i, t)?.is_some_and(|value| value > -TOUCH * memory.size)
+                {
+                    dip = value;
+                }
             } else if past.is_none()
-                && value(&polynomial, x).abs() <= 2.0 * memory.graze.max(memory.doubt) * memory.size
+                && value(&polynomial, x).abs() <= 2.0 * memory.graze.max(memory.doubt).max(TOUCH) * memory.size
             {
                 past = Some(Node { t, value: probe.one(i, t)?, is_extremum: true });
             }
         }
+        // What touches zero on the loops may dip below it on the dense output, which is off them.
+        nodes.iter_mut().filter(|node| (dip..0.0).contains(&node.value)).for_each(|node| node.value = 0.0);
         let (t0, later) = (probe.segment.t0, probe.ahead());
         nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
         let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
@@ -258,7 +273,7 @@ impl EventDetector {
         let inside = nodes.iter().filter(|node| probe.ahead() * (node.t - end) <= 0.0).count();
         for k in usize::from(memory.is_spent)..inside {
             let (node, near) = (nodes[k], memory.near(place));
-            let may_touch = !memory.is_guard && place.reach > near;
+            let may_touch = place.reach > near;
             let unsure = |turn: &Node, t: f64| {
                 let part = turn.value.abs() / place.reach;
                 (memory.doubt > 0.0 && part <= memory.doubt).then_some(Unresolved {
@@ -343,7 +358,7 @@ impl EventDetector {
         for (memory, &value) in self.memory.iter_mut().zip(values) {
             memory.is_spent = false;
             let (mut place, touch, near) = (memory.now, memory.ahead.last_touch, memory.near(memory.now));
-            let at_touch = !has_jumped && !memory.is_guard && value.abs() <= near;
+            let at_touch = !has_jumped && value.abs() <= near;
             if touch != place.last_touch && passed(touch) {
                 (place.grazes, place.last_touch) = (at_touch.then_some(true), touch);
             }

@@ -68,6 +68,12 @@ impl<'a> Probe<'a> {
         }
     }
 
+    /// The same on the invariants, which a dense output leaves.
+    pub fn closed(&mut self, i: usize, t: f64) -> Result<Option<f64>, DynamicsError> {
+        self.segment.at(t, &mut self.y);
+        self.system.switch_value_closed(i, t, &self.y)
+    }
+
     /// Whether function `i` is another at time `t` with the state that the segment has at its start.
     pub fn depends_on_state(&mut self, i: usize, t: f64) -> Result<bool, DynamicsError> {
         let (mut here, mut there) = (vec![0.0; self.system.switches()], vec![0.0; self.system.switches()]);

@@ -13,6 +13,8 @@ pub struct EventSpec {
     pub acts: bool,
     /// It is positive where the run starts: a value below zero there is its zero.
     pub is_positive: bool,
+    /// It is of forces, which are known as well as the motion is; what is of places is kept to round-off.
+    pub of_forces: bool,
     /// Physical size of the function: what is below 16 ε of it is zero. 0 when unknown; the
     /// largest value met stands in for it.
     pub scale: f64,
@@ -33,15 +35,15 @@ pub enum Role {
 impl EventSpec {
     /// An event that counts in a direction.
     pub fn event(direction: i8) -> Self {
-        EventSpec { direction, role: Role::Event, acts: false, is_positive: false, scale: 0.0 }
+        EventSpec { direction, role: Role::Event, acts: false, is_positive: false, of_forces: false, scale: 0.0 }
     }
     /// A discontinuity.
     pub fn discontinuity() -> Self {
-        EventSpec { direction: 0, role: Role::Discontinuity, acts: false, is_positive: false, scale: 0.0 }
+        EventSpec { role: Role::Discontinuity, ..EventSpec::event(0) }
     }
     /// A guard of given physical size.
     pub fn guard(scale: f64) -> Self {
-        EventSpec { direction: -1, role: Role::Guard, acts: false, is_positive: true, scale }
+        EventSpec { role: Role::Guard, is_positive: true, scale, ..EventSpec::event(-1) }
     }
 }
 
@@ -75,6 +77,11 @@ pub trait System {
     /// A named failure when there is no way back; the run ends with it.
     fn project(&mut self, _t: f64, _y: &mut [f64]) -> Result<f64, DynamicsError> {
         Ok(0.0)
+    }
+
+    /// A switching function at a state that is first brought onto the invariants; None where it is on them.
+    fn switch_value_closed(&mut self, _i: usize, _t: f64, _y: &[f64]) -> Result<Option<f64>, DynamicsError> {
+        Ok(None)
     }
 
     /// Why no step from (t, y) is short enough, where that is known.
