@@ -124,6 +124,23 @@ run: {until: 4 s, impacts: newton}
 """
 
 
+@pytest.mark.parametrize("rtol", [1e-3, 1e-6])
+def test_a_lock_holds_between_the_steps_too(tmp_path: Path, rtol: float) -> None:
+    """The radius of that ball, with no stop or floor there: locked, released after 2 s and locked again after 3 s."""
+    alone = "".join(line for line in AT_ITS_STOP.splitlines(True) if not line.startswith(("stops", "contacts")))
+    later = """
+  release: {when: t - 2, then: {release: "lock distance(ground.O, ball.centre)"}},
+  again: {when: t - 3, then: {lock: "distance(ground.O, ball.centre)"}},
+"""
+    run = model(tmp_path, alone.replace("{hold", "{" + later + "  hold")).simulate(rtol=rtol)
+    distances = np.hypot(run["x"], run["y"])
+    assert run.outcome.ok
+    assert_allclose(distances[run.t < 2], 0.7, rtol=1e-14)
+    # Free for 1 s, at 1 m/s along the tangent.
+    assert_allclose(distances[run.t > 3], np.hypot(0.7, 1), rtol=rtol)
+    assert np.ptp(distances[run.t > 3]) < 1e-14
+
+
 @pytest.mark.parametrize("rtol", np.logspace(-5, -13, 9))
 def test_a_stop_at_which_a_lock_holds_takes_no_part_in_an_impact(tmp_path: Path, rtol: float) -> None:
     """A ball on a circle, its radius locked at the stop of that radius, meets a floor after a (φ + asin(0.2/0.7))/v."""
@@ -131,4 +148,4 @@ def test_a_stop_at_which_a_lock_holds_takes_no_part_in_an_impact(tmp_path: Path,
     [impact] = run.impacts
     assert run.outcome.ok and impact.t == pytest.approx(0.7 * (0.6 + np.arcsin(2 / 7)), abs=10 * rtol)
     assert np.hypot(*(run.at(impact.t)[each] for each in ("rate(x)", "rate(y)"))) == pytest.approx(0.4, abs=1e-9)
-    assert_allclose(np.hypot(run["x"], run["y"]), 0.7, atol=1e-12)
+    assert_allclose(np.hypot(run["x"], run["y"]), 0.7, rtol=1e-12)

@@ -32,6 +32,8 @@ pub struct Phase {
     pub p: Vec<f64>,
     /// What is active in it.
     pub mode: Mode,
+    /// The gauges that its locks keep, each at its value.
+    pub(super) locked: Vec<(ModelExpr, f64)>,
     /// Energy that the change of parameters, parts or springs in touch at its beginning put in, J.
     pub jump: f64,
     /// Energy that impacts and jumps of the velocities at its beginning put in, J: less than nothing for impacts.
@@ -179,9 +181,9 @@ impl<'m> HybridSystem<'m> {
     pub(super) fn begin_phase(&mut self, from: f64, impact: f64) {
         let (p, mode) = (self.workspace.at().n.p.clone(), self.mode.clone());
         let given = self.phases.last().map_or_else(|| self.workspace.force_potentials(), |phase| phase.given.clone());
-        self.phases.push(Phase { from, p, mode, jump: 0.0, impact, given });
-        self.independence = 0.0;
         self.note_locks();
+        self.phases.push(Phase { from, p, mode, locked: self.locked.clone(), jump: 0.0, impact, given });
+        self.independence = 0.0;
     }
 
     /// All energy at a state, and the potential of each force in it, J.

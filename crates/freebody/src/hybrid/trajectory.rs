@@ -191,7 +191,7 @@ impl Trajectory {
             workspace.set_states(self.states(m, &y));
             if workspace.is_closed() && !phase.mode.resting {
                 let (q, rest) = y.split_at_mut(n);
-                workspace.project_positions(&phase.mode, t, q, &rest[..n])?;
+                workspace.project_positions_with(&phase.mode, t, q, &rest[..n], &phase.locked)?;
                 workspace.project_velocities(&phase.mode, t, q, &mut rest[..n])?;
             }
             workspace.place(&phase.mode, t, &y[..n], &y[n..2 * n]);
