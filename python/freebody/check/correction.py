@@ -365,7 +365,8 @@ class _Search:
         """What an equation says, however it is arranged; None where it says nothing (a = a)."""
         places = self.other if {n.key for n in symbols_in(equation)} - self.given else self.free
         found = self._residual(equation, places)
-        if found and found.worst < HOLDS:  # what defines a parameter may be what was asked
+        defines = {*symbols_in(equation)} <= {*self.vocabulary.parameters}
+        if defines and found and found.worst < HOLDS:  # what a parameter is may be what was asked
             places, found = self.free, self._residual(equation, self.free)
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None

@@ -97,7 +97,7 @@ _NUMBER = re.compile(rf"{_BEHIND}\s+\((?:eq(?:uation|n)?\.?\s*)?(?:\d{{1,2}}[a-z
 _LETTER = re.compile(r"\A\s*(?:\([a-h]\)\s+(?=[\w\\$])|[a-h]\)\s+)")
 _AS = r"as (?:expected|required|before|usual|given|shown|stated|above)"
 _COMMENT = re.compile(
-    rf"{_BEHIND}(?:\s*,(?:(?!\s*(?:{CONDITION})\b)|(?=\s*{_AS}\b))([^=<>≈≤≥,;:()+*/^\\$]+)"
+    rf"{_BEHIND}(?:\s*,(?:(?!\s*(?:{CONDITION})\b)|(?=\s*{_AS}\b))([^=<>≈≤≥,;:()\[\]+*/^\\$]+)"
     rf"|\s+[(\[]\s*(?:in\s)?\+?((?:[^()\[\]=<>≈≤≥+\\$]|\([^()]*\))+?)\+?\s*[)\]]){_CLOSES}"
 )
 """Words behind an equation, after a comma or in brackets."""
@@ -137,6 +137,8 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
 def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
     """Whether what stands behind an equation, or a figure that is ``measured``, is words: one of them at least, and none nearly a name that
     is known; or the unit of a formula."""
+    if any(sign.isalpha() and not sign.isascii() for sign in words):
+        return False
     if _is_unit(words) and words not in known:
         return not measured
     found = re.findall(r"[^\W\d_]{3,}", words) if not re.search(r"[*/^·×_-]|\.\w", words) else []
