@@ -53,7 +53,7 @@ def drawn(model, each_body=False):
     return Configuration(mechanism(model).source(notes), state, each_body)
 
 
-every_model = every(sorted(SYSTEMS))
+every_model = every(sorted(SYSTEMS), share=60)
 
 
 @every_model

@@ -19,7 +19,7 @@ SHAFT, HEAD = 14.0, 5.6  # pt
 BLUNT = 1.5  # pt at an end of a line, where it may touch what it ends on
 FULL = 10  # labels on a panel, beyond which there may be no room for all
 SOLID = ("body", "block", "band", "mass")
-every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER))
+every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER), share=60)
 sheets = pytest.mark.parametrize(("of", "to_scale"), [(None, False), (None, True), ("all", False)])
 
 

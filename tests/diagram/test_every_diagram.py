@@ -18,7 +18,7 @@ from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.labels import extent
 
 LONG_LETTERS = {"GEN-CAR/driveshaft": 110}  # mm; "pinion bearing" and "axle" at the two ends of the car, and three more between
-every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER))
+every_model = every(sorted(set(store.SYSTEMS) - WITHOUT_ANSWER), share=60)
 
 
 @cache

@@ -39,7 +39,7 @@ def drawn(source, state, free):
     return [mark.action for cut in diagram(source, state, free).cuts for mark in cut.forces if mark.action.kind == "force"]
 
 
-@every(FORCED)
+@every(FORCED, share=60)
 def test_a_law_is_what_acts_along_its_arrow(model):
     """Its symbols put to numbers give the force, or the couple, of the load as data."""
     source, state, free = moved(model)
@@ -57,7 +57,7 @@ def test_a_law_is_what_acts_along_its_arrow(model):
             assert x and y  # aslant
 
 
-@every(FORCED)
+@every(FORCED, share=60)
 @pytest.mark.parametrize("column", [COLUMN, 241.0])
 def test_what_is_more_than_a_symbol_is_said_and_can_be_printed(model, column):
     source, state, free = moved(model)
