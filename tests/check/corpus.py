@@ -20,9 +20,10 @@ from textbook import BOOKS, Book
 from freebody.check import Checker, Kind
 from freebody.check.budget import Budget
 from freebody.check.case import Case
-from freebody.check.correction import Correction, corrections
+from freebody.check.correction import corrections
 from freebody.check.language.spelling import spell
 from freebody.check.language.statements import Equation, symbols_in
+from freebody.check.stated import Correction
 from freebody.check.vocabulary import Vocabulary
 from freebody.mechanism import Mechanism
 from freebody.symbolic.tree import Node, Sym, substitute

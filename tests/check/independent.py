@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from freebody.check.language.statements import Equation, symbols_in
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
+from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit
 
 Array = NDArray[np.float64]
 Values = Mapping[Sym, Array]
@@ -35,6 +35,8 @@ def valued(node: Node, at: Values) -> tuple[Array, Array]:
         case Mul(factors=parts):
             found = [valued(part, at) for part in parts]
             return math.prod(v for v, _ in found), math.prod(s for _, s in found)
+        case Dot(left=a, right=b):  # of two numbers: as the pages print a product
+            return valued(Mul((a, b)), at)
         case Quotient(top=top, bottom=bottom):
             (a, size), (b, _) = valued(top, at), valued(bottom, at)
             return a / b, size / np.abs(b)

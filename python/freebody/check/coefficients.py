@@ -78,6 +78,11 @@ def product(factors: Sequence[Node]) -> Node:
     return Mul(tuple(factors)) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
 
 
+def more(node: Node, *terms: Node) -> Node:
+    """A sum with more terms."""
+    return Add((*(node.terms if isinstance(node, Add) else (node,)), *terms), span=node.span)
+
+
 def tidied(node: N) -> N:
     """The same without factors and denominators 1, and without 0 in sums."""
     node = without_ones(node)

@@ -13,7 +13,7 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, is_zero, walk
 
 from .coefficients import multiplied, tidied
-from .correction import EQUAL, MOST, Correction, stated
+from .correction import EQUAL, MOST
 from .edits import Edit, conventions, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits, proportional
 from .language.dimensions import dimension
@@ -22,6 +22,7 @@ from .language.statements import Equation, symbols_in
 from .likelihood import Likelihood
 from .residual import magnitude
 from .slips import why
+from .stated import Correction, stated
 
 if TYPE_CHECKING:
     from .case import Case

@@ -23,10 +23,11 @@ from .edits import Edit, conventions, depth, edits, forgotten_factors, other_fig
 from .families import NoMotion
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
-from .language.statements import Equation, rows, symbols_in
+from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
 from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
 from .slips import is_constraint, why
+from .stated import Correction, stated
 
 if TYPE_CHECKING:
     from .case import Case
@@ -58,34 +59,7 @@ _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance do
 _SWAPPED = ("missing factor", "symbol", "other term")
 _REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"))
 """Pairs that take something away and put another in its place: no correction."""
-_LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
-
-
-@dataclass(frozen=True)
-class Correction:
-    """One way to make a statement true: ``edits`` by kind with what stood there and what should; ``equation`` is the result.
-    ``where`` are the characters of each edit in the statement, ``given`` under what it is true, if not always."""
-
-    edits: tuple[tuple[str, str, str], ...]
-    equation: str
-    size: float
-    where: tuple[tuple[int, int], ...] = ()
-    given: str = ""
-    why: str = ""
-    """What was wrong, in a sentence."""
-
-    @property
-    def is_slip(self) -> bool:
-        """Whether something stands there that is wrong, rather than something left out."""
-        return not any(kind in _LEFT_OUT for kind, _, _ in self.edits)
-
-    def __str__(self) -> str:
-        def said(kind: str, before: str, after: str) -> str:
-            both = f"{kind}: `{before}` should be `{after}`" if before and after else f"{kind} `{before or after}`"
-            return after if kind == "convention" else both
-
-        stated = " and ".join(said(*edit) for edit in self.edits)
-        return f"{stated}: {self.equation}" + (f" (with {self.given})" if self.given else "")
+FROM_START = "motions from the start of this model"
 
 
 @dataclass(frozen=True)
@@ -105,11 +79,6 @@ class _Found:
         where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
         shown = edits[0].shown if len(edits) == 1 and edits[0].shown else self.after
         return Correction(tuple(map(stated, edits)), spell(tidied(shown)), self.size, where, given, why)
-
-
-def stated(edit: Edit) -> tuple[str, str, str]:
-    """The kind of an edit, what stood there and what should."""
-    return edit.kind, spell(edit.old) if edit.old else "", edit.words or (spell(edit.new) if edit.new else "")
 
 
 Step = Callable[["_Search"], Iterator[_Found]]
@@ -145,7 +114,11 @@ def _of_row(
     if any(search.right for search, _ in searches):
         return
     tried: list[list[_Found]] = [[] for _ in searches]
+    some: list[tuple[list[_Found], str]] = []
     for step in steps:
+        if step is _Search.pairs and not some and (late := _from_start(case, row, families, part)):
+            yield from late
+            return
         for (search, _), seen in zip(searches, tried, strict=True):
             seen += step(search)
         every = [(search.best(seen), given) for (search, given), seen in zip(searches, tried, strict=True)]
@@ -154,6 +127,14 @@ def _of_row(
             found, given = min(some, key=lambda pair: pair[0][0].size)
             yield from (each.correction(given, searches[0][0].why(each)) for each in found)
             return
+
+
+def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], part: float) -> list[Correction]:
+    """The single edits after which an equation holds of the motions from the start of the model, if it may be said of them."""
+    ((given, words), *_) = families
+    if given.since or given.at_rest or given.at_start or given.small or given.scaled:
+        return []
+    return list(_of_row(case, row, [(replace(given, since="start"), words or FROM_START)], _SINGLE, part))
 
 
 class _Search:
@@ -346,7 +327,8 @@ class _Search:
 
     def _confirmed(self, equation: Equation) -> bool:
         holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
-        return holds and not (self.family.held and unreached(equation, self.values))  # what is held at 0 may hide what is wrong
+        held = self.family.held and unreached(equation, self.values)  # what is held at 0, or stays it, may hide what is wrong
+        return holds and not held and not (self.family.since and not all(map(self._moves, terms(equation))))
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
         return (edit for edit in self.within(found) if self._worst(edit.after, self.few) < self._near)

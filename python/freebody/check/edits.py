@@ -145,6 +145,12 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
         case Quotient(top=top, bottom=bottom):
             yield "extra factor", top
             yield "missing factor", Mul((top, bottom), **at)
+            if isinstance(bottom, Add):
+                yield "inverses", Add(tuple(_over(top, term) for term in bottom.terms), **at)
+        case Add(terms=terms):
+            yield from _of_sums(terms, node.span)
+        case Num(value=math.pi):
+            yield "power", Pow(node, Num(2.0, "2"), **at)
         case Cross(left=left, right=right):
             yield "sign", Cross(right, left, **at)
             yield "function", Dot(left, right, **at)
@@ -162,6 +168,21 @@ def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
                 fraction = Quotient(factor.top, Mul((factor.bottom, *factors[i + 1 : end])), span=span)
                 rest = (*factors[:i], fraction, *factors[end:])
                 yield Mul(rest, span=span) if len(rest) > 1 else fraction
+
+
+def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[str, Node]]:
+    """The square of a sum for the sum of squares, and one fraction for those of each: what is not linear, taken term by term."""
+    two = Num(2.0, "2")
+    if all(isinstance(term, Pow) and term.exponent == two for term in terms):
+        yield "power", Pow(Add(tuple(term.base for term in terms if isinstance(term, Pow))), two, span=span)
+    if all(isinstance(term, Quotient) for term in terms):
+        tops, bottoms = zip(*((term.top, term.bottom) for term in terms if isinstance(term, Quotient)), strict=True)
+        if all(top == tops[0] for top in tops):
+            yield "inverses", Quotient(tops[0], Add(bottoms), span=span)
+
+
+def _over(top: Node, bottom: Node) -> Node:
+    return Negative(Quotient(top, bottom.of)) if isinstance(bottom, Negative) else Quotient(top, bottom)
 
 
 def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:

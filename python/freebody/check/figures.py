@@ -11,10 +11,10 @@ import numpy as np
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Mul, Negative, Node, Num, Pow, Sym, exchange, walk
 
-from .correction import Correction
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in, terms
 from .residual import HOLDS, equation_sides, jacobian, sizes
+from .stated import Correction
 
 _DIRECTIONS = {Sym(name) for name in ("i", "j", "k")}
 _FIGURE = Sym("the figure")

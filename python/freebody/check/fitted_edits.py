@@ -11,24 +11,25 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension, Known
+from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, walk
 
-from .coefficients import multiplied, powered, product, recognised, snapped
+from .coefficients import more, multiplied, powered, product, recognised, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
+from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, required_terms
+from .square_edits import SquareEdits
 from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _NEARLY = 1e-5  # relative spread below which one is meant
 _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
-_SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _MOST_LENGTHS = 5  # of which sums and differences are thought of
@@ -48,7 +49,6 @@ class FittedEdits:
     _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
     _terms: dict[Equation, Monomials] = field(default_factory=dict)
     _numbers: dict[Node, bool] = field(default_factory=dict)
-    _made_speeds: dict[Dimension, tuple[list[Node], Array]] = field(default_factory=dict)
     _made_pairs: dict[object, tuple[list[tuple[Node, Node]], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
@@ -56,6 +56,7 @@ class FittedEdits:
         quotients = [n for n in walk(equation) if isinstance(n, Quotient)]
         whole = {id(part) for n in (*quotients, equation) for part in children(n) if not isinstance(part, Num)}
         with np.errstate(all="ignore"):
+            yield from shared_ratios(equation, self.values, self.vocabulary, self.blur)
             for required in self.within(required_terms(equation, self.values)):
                 yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
                 node = required.node  # a number, or a fraction of two
@@ -65,7 +66,7 @@ class FittedEdits:
                     yield Edit.at(equation, "factor", required.node, number)
                 if required.addend:
                     yield from self._factors(equation, required)
-                yield from self._squares(equation, required)
+                yield from self._squares.edits(equation, required)
                 yield from self._weights(equation, required)
                 if isinstance(node, Add):
                     yield from self._parts(equation, required)
@@ -137,50 +138,14 @@ class FittedEdits:
         return self._made_pairs[its]
 
     @cached_property
+    def _squares(self) -> SquareEdits:
+        return SquareEdits(self.values, self.vocabulary)
+
+    @cached_property
     def _known(self) -> list[Sym]:
         known = self.vocabulary
         moving = [Sym(q.name, dots) for q in known.coordinates for dots in range(3)]
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
-
-    def _squares(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """The square of a speed that lacks a part of it: that of the ground, or of a rotation."""
-        node, base = required.node, required.node.base if isinstance(required.node, Pow) else None
-        its = None if base is None else dimension(base, self.vocabulary.dimensions)
-        if base is None or its not in _SPEEDS or node.exponent != Num(2.0) or required.needed.ndim != 1:
-            return
-        value, lost = sampled(base, self.values), required.missing
-        if not np.isfinite(lost).all() or not lost.any():
-            return
-        nodes, rows = self._parts_of_speeds(its)
-        # (base + k part)² is what is needed: lost = 2 k base part + k² part²
-        linear, square = 2 * value * rows, rows**2
-        ll, ls, ss = (np.sum(a * b, axis=1) for a, b in ((linear, linear), (linear, square), (square, square)))
-        lw, sw = linear @ lost, square @ lost
-        det = ll * ss - ls**2
-        k, k2 = (ss * lw - ls * sw) / det, (ll * sw - ls * lw) / det
-        off = np.abs(linear * k[:, None] + square * k2[:, None] - lost).max(axis=1)
-        same = (off <= _NEARLY * np.abs(lost).max()) & (np.abs(k**2 - k2) <= _NEARLY * np.abs(k2))
-        for place in np.flatnonzero(same).tolist():
-            if (part := multiplied(nodes[place], snapped(float(k[place]), _NEARLY))) is not None:
-                new = Pow(_more(base, part), node.exponent, span=node.span)
-                yield Edit.at(equation, "symbol", node, new, 0.1 + 0.02 * depth(part))
-
-    def _parts_of_speeds(self, its: Dimension) -> tuple[list[Node], Array]:
-        """Rates, and rates times a length, of a dimension, and their values."""
-        if its not in self._made_speeds:
-            known = self.vocabulary
-            rates = [Sym(q.name, 1) for q in known.coordinates]
-            rates += [n for n in (*known.parameters, *known.others) if known.is_rate(n)]
-            lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
-            turns = [n for n in rates if known.dimension(n) != its]
-            found: list[Node] = [n for n in rates if known.dimension(n) == its]
-            if its.length:
-                found += [Mul((length, turn)) for turn in turns for length in lengths]
-            else:
-                found += [Quotient(rate, length) for rate in turns for length in lengths]
-            rows = self._rows(found) if found else np.zeros((0, 1))
-            self._made_speeds[its] = found, rows
-        return self._made_speeds[its]
 
     def _weights(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A force for a weight: the normal force where something else presses, too."""
@@ -264,7 +229,7 @@ class FittedEdits:
             if is_number and {*symbols_in(term)} <= {*symbols_in(equation)}:
                 continue  # another number is a factor
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
-            yield Edit("missing term", None, term, exchange(equation, required.node, _more(required.node, term)), size)
+            yield Edit("missing term", None, term, exchange(equation, required.node, more(required.node, term)), size)
 
     def _denominator(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten; where it is one symbol,
@@ -321,7 +286,7 @@ class FittedEdits:
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
-                    after = exchange(equation, required.node, _more(required.node, *lost))
+                    after = exchange(equation, required.node, more(required.node, *lost))
                     yield Edit("missing term", None, Add(tuple(lost)), after, 1.2 + 0.02 * sum(map(depth, lost)))
 
     def _matching(self, equation: Equation, wanted: Array, less: Dimension = NUMBER_ONLY) -> Iterator[Node]:
@@ -414,8 +379,3 @@ def _spanning(rows: Array, wanted: Array, within: Callable[[Iterable[int]], Iter
         rest, others = wanted - (wanted @ along) * along, rows - np.outer(rows @ along, along)
         others[np.linalg.norm(others, axis=1) < 1e-6 * sizes] = np.nan
         yield from ((i, j) for j in proportional(others, rest) if i < j or j not in order)
-
-
-def _more(node: Node, *terms: Node) -> Node:
-    """A sum with more terms."""
-    return Add((*(node.terms if isinstance(node, Add) else (node,)), *terms), span=node.span)

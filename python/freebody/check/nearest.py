@@ -17,7 +17,6 @@ from freebody.symbolic.dimensions import FORCE
 from freebody.symbolic.tree import ZERO, Add, Negative, Node, Num, Sym, is_zero
 
 from .beside import Difference, Letters, difference, said_terms
-from .correction import Correction
 from .edits import Edit
 from .families import NoMotion
 from .language.dimensions import dimension
@@ -25,6 +24,7 @@ from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, residual
 from .slips import why
+from .stated import Correction
 
 if TYPE_CHECKING:
     from .case import Case

@@ -42,6 +42,7 @@ _WHY = {
     "power": "the power is another: a centripetal term goes with the square of the rate, a moment of inertia with that of the distance",
     "missing factor": "a factor is forgotten: dimensions or an arm tell which",
     "extra factor": "a factor is one too many: dimensions tell which",
+    "inverses": "the inverse of a sum is not the sum of the inverses: springs, masses or inertias count otherwise together",
     "brackets": "what stands behind a fraction is not below it",
     "unit vector": "a vector and a number cannot be equal: a direction is missing",
     "other term": "this part is no balance of what acts and moves",

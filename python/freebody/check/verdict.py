@@ -15,13 +15,14 @@ from freebody.symbolic.errors import StatementError
 
 from .assumptions import assumption, leaves_out, linearised, tiny
 from .case import Case
-from .correction import MOST, SECOND, Correction, corrections
+from .correction import MOST, SECOND, corrections
 from .families import ALL, NoMotion, Samples
 from .figures import corrected_figures, rounding, says_a_figure
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .nearest import nearest
 from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, sizes, unreached
+from .stated import Correction
 
 if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array

@@ -64,13 +64,17 @@ class Vocabulary:
 
     @cached_property
     def double_factors(self) -> list[Node]:
-        """Differences of two coordinates or of their rates, and squares of rates and of those."""
+        """Differences of two coordinates or of their rates, squares of rates and of those, and of sines and cosines, and what is left or
+        gained where a number is a share: 1 + e."""
         pairs = [(a, b) for a, b in combinations(self.coordinates, 2) if self.coordinates[a] == self.coordinates[b]]
         rates = [(Sym(a.name, 1), Sym(b.name, 1)) for a, b in pairs]
         lengths = [pair for pair in pairs if pair[0] not in self.angular]
         apart: list[Node] = [Add((a, Negative(b))) for a, b in (*lengths, *rates)]
         squares = [_square(Sym(n.name, 1)) for n in self.coordinates]
-        return [*apart, *squares, *(_square(Add((a, Negative(b)))) for a, b in rates), *(Mul(pair) for pair in rates)]
+        squares += [_square(Fn(name, (angle,))) for angle in self.angles for name in ("sin", "cos")]
+        shares = [n for n, its in self.parameters.items() if its == NUMBER_ONLY and n not in self.angular]
+        sums = [Add((Num(1.0, "1"), share)) for n in shares for share in (n, Negative(n))]
+        return [*apart, *squares, *(_square(Add((a, Negative(b)))) for a, b in rates), *(Mul(pair) for pair in rates), *sums]
 
     # -- terms
 
@@ -122,12 +126,13 @@ class Vocabulary:
             yield (Sym(q.name, 1),), self.dimension(Sym(q.name, 1))
 
     def _works(self, wanted: Known) -> Iterator[tuple[tuple[Node, ...], Known]]:
-        """What changes with the motion in an energy, a couple times an angle, and in a power, a rate times an acceleration or a force."""
+        """What changes with the motion in an energy, a couple times an angle or the difference of two, and in a power, a rate times an acceleration or a force."""
         if wanted == ENERGY:
-            couples = (n for n in (*self.parameters, *self.others) if self.dimension(n) == ENERGY)
-            yield from (
-                ((couple, angle), ENERGY) for couple, angle in product(couples, self.coordinates) if angle in self.angular
-            )
+            couples = [n for n in (*self.parameters, *self.others) if self.dimension(n) == ENERGY]
+            couples += [n for n in self.parameters if self.dimension(n) is None]
+            turned: list[Node] = [n for n in self.coordinates if n in self.angular]
+            turned += [Add((a, Negative(b))) for a, b in combinations(turned, 2)]
+            yield from (((couple, angle), ENERGY) for couple, angle in product(couples, turned))
         if wanted is None or wanted.time != _OF_POWER:
             return
         rates = [Sym(q.name, 1) for q in self.coordinates] + [n for n in self.others if self.is_rate(n)]

@@ -224,8 +224,9 @@ class _Reader:
             calls = spelling in CALLS and not marks and self.row[start].kind is Kind.WORD
             if calls and (not known or self.is_argument(stop)):
                 out.append(_Piece("function", CALLS[spelling], 0, stop))
-            elif known:
-                out.append(_Piece("symbol", known[0], known[1] + marks, stop))
+            elif known or (spelling == "pi" and not marks):  # no p times i
+                name, dots = known or (spelling, 0)
+                out.append(_Piece("symbol", name, dots + marks, stop))
         return out
 
     def is_argument(self, at: int) -> bool:
