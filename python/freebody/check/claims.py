@@ -229,12 +229,12 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
 
 
 def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples, str]:
-    """States along the motion that goes on from a true state, to its first change if that is asked for or rates do not jump there, as
+    """States along the motion that goes on from a true state, to its first change if that is asked for or rates never jump on it, as
     where something lifts off; and what changes on it."""
     sampler = checker.sampler
     motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
     change = next((each for each in motion.changes if each.t > state.t), None)
-    until_change |= change is not None and change.before is None
+    until_change |= change is not None and all(each.before is None for each in motion.changes if each.t > state.t)
     ends = sampler.staying(motion, state.t, change.t if change and until_change else motion.end.t)
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""

@@ -22,8 +22,9 @@ def changes_side(core: CompiledModel, squares: Sequence[str], start: Array, stat
     first, half, last = np.array([core.evaluate(squares, state.at(q)) for q in (start, (start + state.q) / 2, state.q)])
     a, b = 2 * (first - 2 * half + last), 4 * half - 3 * first - last  # along a line d² is a parabola, c + b s + a s²
     with np.errstate(all="ignore"):
-        between = (-b > 0) & (-b < 2 * a)
-        return bool(np.any((last < 0) | between & (first - b**2 / (4 * a) < _TOUCHING * np.maximum(first, last))))
+        size = np.maximum(first, last)
+        between = (first > _TOUCHING * size) & (-b > 0) & (-b < 2 * a)  # what begins at 0 leaves it
+        return bool(np.any((last < 0) | between & (first - b**2 / (4 * a) < _TOUCHING * size)))
 
 
 def squares(spec: Mapping[str, Any]) -> Iterator[str]:
