@@ -34,6 +34,7 @@ from .wording import with_condition_first
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
+_PATIENT = 10.0  # s, within which an event is waited for where the model does not say how long it runs
 _STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
@@ -151,6 +152,13 @@ class Checker:
         what = ", ".join({**events, **parts}) or "nothing does"
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
 
+    def event_called(self, words: str) -> str | None:
+        """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
+        there: ``the lowest point``, ``the clutch grips``."""
+        said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
+        found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or _alike(e["name"], word) for word in said)]
+        return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
+
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
         """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, with sizes of vectors, and
         with the only body turning clockwise; each with declarations, whether it is read so tightly, and what is to be said of it."""
@@ -178,6 +186,8 @@ class Checker:
         until = None if self.mechanism.run_numbers().until is not None else 1.0
         with suppress(ModelProblem):
             until = until and max(until, quantity("at", name, "s"))
+        if until and any(event["name"] == name for event in self.sampler.spec["events"]):
+            until = _PATIENT  # it may come late
         run = self._runs.get(until) or self._runs.setdefault(until, self.mechanism.simulate(until))
         times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
         times |= {event.name: event.t for event in reversed(run.events)}

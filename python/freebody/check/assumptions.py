@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 FAR = 1e7, 1e5, 1e3
 """How far a parameter goes that goes to infinity (its inverse: to 0): as far as closed loops still close to round-off."""
 
+LATE = 1e3
+"""How many times the time typical of a model a motion lasts whose end is asked for: what dies away has done so to round-off."""
+
 SMALL = 1e-3
 """How small a coordinate is that is small, in rad or typical lengths of the model."""
 
@@ -43,6 +46,7 @@ _WORDS: dict[str, dict[str, Any]] = {
     "without gravity": {"gravity": False},
     "with these numbers": {"numbers": True, "zeros": False},
 }
+FROM_START = "motions from the start of this model"
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
 IN_EQUILIBRIUM = "in equilibrium"
@@ -63,7 +67,7 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     They count only where every term still takes part: an assumption explains what was left out, not what is wrong.
     """
     for families in case.budget.within(_assumptions(case), _PART):
-        if found := tuple(words for words, family in case.budget.within(families, _PART) if _holds(case, equation, family)):
+        if found := tuple(words for words, family in case.budget.within(families, _PART) if of_family(case, equation, family)):
             return found
     words = _to_first_order(case, equation) or _limit(case, equation)
     return (words,) if words else ()
@@ -157,7 +161,7 @@ def vanishes(equation: Equation, there: Mapping[str, Array], before: Mapping[str
     return last <= least * first
 
 
-def _holds(case: Case, equation: Equation, family: Family) -> bool:
+def of_family(case: Case, equation: Equation, family: Family) -> bool:
     """Whether an equation holds in a family of which there are motions, every term of it taking part."""
     try:
         values = case.values(family, count=_STATES)
@@ -193,7 +197,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     yield [("at the start", replace(given, at_start=True))]
     yield [("at the start, with these numbers of the model", replace(own, at_start=True))]
     if not (given.at_rest or given.at_start or given.small):
-        yield [("motions from the start of this model", replace(given, since="start"))]
+        yield [(FROM_START, replace(given, since="start"))]
         yield [("motions from the start of this model at rest", replace(given, since="rest"))]
 
 
@@ -286,6 +290,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
 def _with_limit(given: Family, name: str, value: str, checker: Checker, declared: Declared) -> Family:
     """A parameter that goes to infinity or to 0; 0 itself where the model can have it; or a coordinate that stays near a
     value (``theta -> 0``: small motions, to first order)."""
+    if name == "t" and value in _INFINITE:
+        return replace(given, since="start", late=LATE)
     found = _parameter(name, checker, declared)
     if found is None and value not in _INFINITE:
         return replace(given, small=(*given.small, (_meant(f"({name}) - ({value})", checker, declared), SMALL)))

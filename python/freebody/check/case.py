@@ -98,6 +98,13 @@ class StatementSymbols:
         read = [self._one(n) for n in self.required]
         return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
 
+    def speaks_of_start(self, equation: Equation) -> bool:
+        """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
+        said = [text for n in symbols_in(equation) for text in self.texts(Sym(n.name))]
+        words = {word for text in said for word in _WORD.findall(text)}
+        of_start = (name for name in self.sampler.free_parameters if name in words and name not in self.sampler.gravities)
+        return "t" in said or any(not re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in of_start)
+
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""
         return {n.key: _meant(self._one(n).needed(n.dots)) for n in self._valued}

@@ -101,8 +101,13 @@ def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ve
 def _labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
     that is the ``problem``. Raises it."""
+    if event := checker.event_called(words):
+        return timed_claims.at(checker, declared, event, statement)
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
-    names = bool(parts & {*re.findall(r"\w+", words)})
+    meshing = {
+        word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
+    }
+    names = bool((parts | meshing) & {*re.findall(r"\w+", words)})
     said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
     verdict = checker.check(statement, declared, correcting=checker.correcting and names) if said else None
     if verdict is None or not (names or verdict.ok):
@@ -162,18 +167,19 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
     case = checker.case(statement, declared, given)
     if given.small:
         return _small(case, statement, limits)
-    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled))
+    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled), late=given.late ** (4 / 7))
     values, before = case.values(), case.values(near)
     for equation in case.equations:
         found = residual(equation, values)
         if says_zero(equation):
-            if not vanishes(equation, values, before if given.scaled else case.values(ALL)):
+            if not vanishes(equation, values, before if given.scaled or given.late else case.values(ALL)):
                 what = f"it does not vanish in the limit {limits}"
                 return Verdict(Kind.WRONG, statement, what, evidence=evidence(found, values))
             rest = 0.0
             continue
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
-        if np.isnan(rest) or (rest > HOLDS and not (rest < 1e-3 and rest < 0.1 * earlier)):
+        shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier  # what grows with t leaves more behind
+        if np.isnan(rest) or (rest > HOLDS and not shrinks):
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)

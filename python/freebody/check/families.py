@@ -29,7 +29,7 @@ class Family:
     in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
     expressions of configuration and, linearly, rates that are 0; ``small`` are expressions of configuration with the size that
     they and their rates have at most. ``since``: motions that begin where the model does, with its rates (``start``) or without
-    (``rest``)."""
+    (``rest``), and last so many times the time typical of the model if it is to be ``late``."""
 
     held: tuple[tuple[str, float | str], ...] = ()
     numbers: bool = False
@@ -41,6 +41,7 @@ class Family:
     vanishing: tuple[str, ...] = ()
     small: tuple[tuple[str, float], ...] = ()
     since: str = ""
+    late: float = 0.0
 
 
 ALL = Family()

@@ -307,13 +307,17 @@ class MotionSampler(AskedModel):
         start = self._at_moment(
             self._started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
-        long = _LONG if family.vanishing else rng.uniform(0.05, 0.3)
+        long = family.late or (_LONG if family.vanishing else rng.uniform(0.05, 0.3))
         motion = self._run(start, long / self.rate, _EXACT)
         ends = min([motion.end.t, *(change.t for change in motion.changes if change.t > start.t)])
+        if family.late and ends < start.t + 0.99 * long / self.rate:
+            return None, start
         ends = self.staying(motion, start.t, ends)
-        if not family.vanishing:
+        there = (at_start(text, self.core, start) for text in family.vanishing)
+        middle = motion.state((start.t + ends) / 2)  # what is 0 there and at the start, too, is asked of no moment
+        first = next((text for text in there if not (self._vanishes(text, start) and self._vanishes(text, middle))), None)
+        if first is None:
             return self._sampled(motion.state(start.t + 0.99 * (ends - start.t))), start
-        first = at_start(family.vanishing[0], self.core, start)
         t = self._first_zero(first, motion, start, ends)
         return (None if t is None else self._sampled(start if t == start.t else motion.state(t))), start
 

@@ -20,6 +20,8 @@ _FROM_REST = re.compile(
     rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\bfrom rest(?=\s*\Z)",
     re.IGNORECASE,
 )
+_REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")
+"""``(starts from rest at x = 0)``."""
 _THESE_NUMBERS = re.compile(
     r"\b(?:if\s+)?(?:with|for|using|at|from)\s+(?:the\s+|these\s+|our\s+|its\s+)?(?:given\s+|numerical\s+|above\s+)*"
     r"(?:numbers|data|values|parameters)(?:\s+given)?\b|\bnumerically\b",
@@ -81,6 +83,10 @@ _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
 _FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
 """``=>`` where no sign of relation can stand."""
 _SAYING = re.compile(r"\A\s*([A-Za-z]{2,}(?:[ ,-]+[A-Za-z]{2,})+)\s*(?:⇒|∴|\\(?:Rightarrow|implies|therefore)\b)")
+_REASON = re.compile(
+    rf"\A\s*(?!(?:{CONDITION})\b)((?:[A-Za-z]+[ ,'-]+){{2,}})(?<=,\s)(?:and\s+)?(?:so|hence|thus|therefore)\s+(?=\S[^:]*[=<>])"
+)
+"""``no force acts along x, so p_x = const``."""
 _CLOSES = r"(?=\s*(?:\$+|\\[\])]|\\end\s*\{[^{}]*\})?\s*(?:\Z|[;\n]|\\\\|⇒))"
 """The end of a line, behind which only its display is closed."""
 _STOP = re.compile(
@@ -119,7 +125,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
 
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", text))
     said = _CAPITAL.sub(lambda found: found[0].lower(), said)
-    said = _FROM_REST.sub("if the start is at rest", said)
+    said = _REST_AT.sub(r"\1, \2_0 = \3", _FROM_REST.sub("if the start is at rest", said))
     said = _THESE_NUMBERS.sub("if with these numbers", said)
     said = _REMARK.sub("", said)
     for sense, sign in _SENSE.items():
@@ -128,6 +134,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
     said = _STOP.sub("", _COMMENT.sub(comment, said))
     said = _SAYING.sub(lambda found: told(found, "a remark, and not judged"), said)
+    said = _REASON.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _LETTER.sub(lambda found: told(found, "the letter of a question"), said)
     said = _THUS.sub(lambda found: found[0] if {*re.findall(r"\w+", found[0])} & {*known} else " ", said)
     said = _CALLED.sub(lambda found: found[0] if {*found[2].split()} & {*known} else "initially: " * bool(found[1]), said)

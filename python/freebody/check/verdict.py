@@ -13,7 +13,7 @@ import numpy as np
 from freebody.solve.rich_tables import PlainText
 from freebody.symbolic.errors import StatementError
 
-from .assumptions import assumption, leaves_out, linearised, tiny
+from .assumptions import FROM_START, assumption, leaves_out, linearised, of_family, tiny
 from .case import Case
 from .correction import MOST, SECOND, corrections
 from .families import ALL, NoMotion, Samples
@@ -256,6 +256,8 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     """Under an assumption that a person would make; else wrong, with its corrections, also where what was left out would be 0 at
     rest or without a part of the model."""
     seen = evidence(found, case.values())
+    if from_start := _from_start(case, equation):
+        return from_start
     if case.sampler.rolls_in_loop and _stays(case, equation):
         what = "the angles of what rolls are measured from a place where both sides are equal"
         return Verdict(
@@ -286,6 +288,16 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     what = reason or ("wrong" if case.budget.spent else "wrong, and no single or double edit corrects it")
     true, differs = (near.text, near.differs) if near else ("", "")
     return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=true, differs=differs)
+
+
+def _from_start(case: Case, equation: Equation) -> Verdict | None:
+    """That it is true of motions from the start of the model, where its letters are of these; else None."""
+    since = replace(case, hypothesis=replace(case.hypothesis, since="start"), known={})
+    said = case.hypothesis == ALL and not says_a_figure(equation) and case.meaning.speaks_of_start(equation)
+    if not said or not of_family(case, equation, since.hypothesis):
+        return None
+    verdict = judged_one(since, equation)
+    return replace(verdict, assumption=FROM_START) if verdict.ok else None
 
 
 def _stays(case: Case, equation: Equation) -> bool:

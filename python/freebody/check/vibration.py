@@ -1,4 +1,5 @@
-"""The small vibration of a model of one freedom about a place of rest: natural frequency, damping ratio, period."""
+"""The small vibrations of a model about a place of rest: natural frequency, damping ratio, period; of several freedoms without damping, its
+natural frequencies."""
 
 from __future__ import annotations
 
@@ -20,7 +21,9 @@ from .user_symbols import Masses, Meaning, Values
 if TYPE_CHECKING:
     from .motion_sampler import MotionSampler
 
+_MOST = 6  # natural frequencies that have an index
 _QUANTITIES = {
+    **{f"ω_{i}": f"natural frequency {i}" for i in range(1, _MOST + 1)},
     **dict.fromkeys(("ω_n", "ω_0", "natural_frequency"), "natural frequency"),
     **dict.fromkeys(("f", "f_n", "frequency"), "frequency"),
     **dict.fromkeys(("τ", "τ_n", "T_n", "period"), "period"),
@@ -33,6 +36,7 @@ _QUANTITIES = {
     },
 }
 _STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
+_NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
 _LENGTHS = 3.0  # of the model, within which a place of rest is looked for
 
 
@@ -53,7 +57,7 @@ class OfVibration(Meaning):
         if dots or self.of is None:
             return values["0"]
         rows = np.array([values[name] for name in self.of.parameters]).T
-        return np.array([self.of.quantities(row)[self.texts[0]] for row in rows])
+        return np.array([self.of.quantities(row).get(self.texts[0], np.nan) for row in rows])
 
 
 class Vibration:
@@ -72,18 +76,31 @@ class Vibration:
         return {
             name: OfVibration("vibration", (what,), dimensions.get(what, per_second), of=self)
             for name, what in (found.items() if found and self.rest else ())
+            if what in self._own
         }
 
     @property
     def place(self) -> str:
         """Where that is, in words."""
         core, rest = self.sampler.core, self.rest
-        (name,) = state_space(core, rest).free
+        free = state_space(core, rest).free
+        if len(free) > 1:
+            return f"the place of rest at {', '.join(free)} = {', '.join(f'{q + 0.0:g}' for q in self._places(free))} (SI)"
+        (name,) = free
         k, is_angle = (
             self.sampler.names.index(name),
             name in {c["name"] for c in self.sampler.coordinates if c["dimension"] == "rad"},
         )
         return f"{name} = {round(np.degrees(rest.q[k]), 6) + 0.0:g}°" if is_angle else f"{name} = {round(rest.q[k], 6) + 0.0:g} m"
+
+    def _places(self, names: Iterable[str]) -> list[float]:
+        """The coordinates of rest by their names."""
+        return [round(float(self.rest.q[self.sampler.names.index(name)]), 6) for name in names]  # type: ignore[union-attr]
+
+    @cached_property
+    def _own(self) -> Mapping[str, float]:
+        """What it has with the model's own numbers."""
+        return self.quantities(np.array(list(self.sampler.free_parameters.values())))
 
     @cached_property
     def rest(self) -> State | None:
@@ -92,8 +109,11 @@ class Vibration:
         try:
             first = sampler.first.at(sampler.first.q)
             free = state_space(core, first).free
-            if sampler.restricted or len(free) != 1 or core.metadata["states"]:
+            if sampler.restricted or not free or core.metadata["states"]:
                 return None
+            if len(free) > 1:
+                rest = rest_near(core, first)
+                return rest if rest and len(_squares(state_space(core, rest).a)) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
             found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
@@ -110,6 +130,8 @@ class Vibration:
 
     def _found(self, row: Array) -> dict[str, float]:
         a = self._linear(row)
+        if a is not None and len(a) > 2:
+            return _of_several(_squares(a))
         with np.errstate(all="ignore"):
             natural = np.sqrt(np.linalg.det(a)) if a is not None else np.nan
             damping = -np.trace(a) / (2 * natural) if a is not None else np.nan
@@ -133,6 +155,35 @@ class Vibration:
                     state = None
                 if state is None:
                     break
-            if state is not None and np.linalg.det(a := state_space(core, state).a) > 0:
+            if state is not None and _swings(a := state_space(core, state).a):
                 return a
         return None
+
+
+def _swings(a: Array) -> bool:
+    """Whether linear equations are those of a vibration."""
+    return bool(np.linalg.det(a) > 0) if len(a) == 2 else len(_squares(a)) > 0
+
+
+def _squares(a: Array) -> Array:
+    """The squares of the natural frequencies of the linear equations of several freedoms without damping, the least first, without those
+    that are 0; none where it is damped or not stable."""
+    n = len(a) // 2
+    stiff, damped = -a[n:, :n], a[n:, n:]
+    found = np.linalg.eigvals(stiff) if len(a) == 2 * n else np.zeros(1)
+    most = float(np.abs(found).max())
+    if (
+        np.abs(damped).max() ** 2 > _NOTHING * most
+        or np.abs(found.imag).max() > _NOTHING * most
+        or found.real.min() < -_NOTHING * most
+    ):
+        return np.zeros(0)
+    return np.sort(found.real[found.real > _NOTHING * most])
+
+
+def _of_several(squares: Array) -> dict[str, float]:
+    """Natural frequencies by their size; that alone, where there is one."""
+    found = np.sqrt(squares).tolist()
+    if len(found) == 1:
+        return {"natural frequency": found[0], "frequency": found[0] / (2 * np.pi), "period": 2 * np.pi / found[0]}
+    return {f"natural frequency {i}": each for i, each in enumerate(found, 1)}

@@ -9,6 +9,8 @@ _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _BEFORE = re.compile(rf"({_STARTS}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(rf"\A[^=<>:;,\n]*,\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)")
+_SMALL = re.compile(r"\A\s*(small (?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?)\s*:(?!=)")
+"""``small θ:``, without a word before it; a small block is no angle."""
 _BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
@@ -80,7 +82,7 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _LABELLED.sub("", text)
+    text = _SMALL.sub(r"for \1:", _LABELLED.sub("", text))
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
     if not found:
         return text

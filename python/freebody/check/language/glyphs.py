@@ -89,7 +89,7 @@ _UPRIGHT = {Kind.LOW: Kind.DIGIT, Kind.RAISED: Kind.WORD}
 _BLANKS = re.compile(r"\s*")
 _COMMENT = re.compile(r"(?<!\\)(?:#|%(?<!\d%)(?<!\d %))[^\n]*")
 CONDITION = (
-    r"at|as|when|once|if|in|for|with|after|before|initially|just|immediately|right|until|while|during|lim|given|assuming|provided"
+    r"at|as|when|once|if|in|for|with|after|before|initially|just|immediately|right(?=\s+(?:after|before|at|when)\b)|until|while|during|lim|given|assuming|provided"
     r"|neglecting|without|suppose|starting|released|from rest"
 )
 """Words with which no label begins: what stands there says of which motions it is."""
@@ -101,7 +101,7 @@ _SENSE = rf"(?:[(\[]?\s*\+?\s*{_ARROW}\s*\+?\s*[)\]]?:?)"
 """What is positive, as in ``(↺+)`` and ``+→``."""
 _SUM = r"\s*(?:\\sum|\\Sigma|[Σ∑])"
 _LABEL = re.compile(
-    rf"(?m)(?:^|(?<=;))(?!\s*(?:{CONDITION})\b)[^=:;\n\\]*:(?!=)|(?:^|(?<=;))\s*{_SENSE}?{_SUM}[^:;\n]*:(?!=)"
+    rf"(?m)(?:^|(?<=;))(?!\s*(?:{CONDITION})\b)(?:[^=:;\n\\]|{_ARROW}|\\(?:perp|parallel)\b)*:(?!=)|(?:^|(?<=;))\s*{_SENSE}?{_SUM}[^:;\n]*:(?!=)"
     rf"|^\s*{_SENSE}{_SUM}[^:;\n]*=\s*(?:0|[^:;\n]*(?:a|α|M_?\{{?k)[^:;\n]*);|^\s*{_SENSE}(?={_SUM})"
     r"|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?:(?<=\s\s)|\\q?quad\s*)\(\d+\w?\)\s*$"
 )

@@ -201,7 +201,8 @@ class Line:
         return Integral(of, Sym(by.text, span=by.span), lower, upper, span=self.span(token))
 
     def symbol(self, token: Token) -> Node:
-        """A symbol; written as a function of time, θ(t), it is the same, and θ(0) is what it is at the start."""
+        """A symbol; written as a function of time, θ(t), it is the same, and θ(0) is what it is at the start; e with a power, where it is no
+        name, is the exponential function."""
         behind = "".join(t.text for t in self.row[self.at : self.at + 5])
         if behind.startswith("(t)") and self.now.attached:
             self.at += 3
@@ -210,6 +211,8 @@ class Line:
             return Sym(f"{token.text}(0)", token.dots, span=self.span(token))
         if token.text == "pi" and not self.names.find("pi"):
             return Num(math.pi, "pi", span=token.span)
+        if token.text == "e" and self.now.kind == "^" and not self.names.find("e"):
+            return Fn("exp", (self.exponent(),), span=self.span(token))
         return Sym(token.text, token.dots, span=self.span(token))
 
     def group(self, open_: Token) -> Node:
