@@ -6,6 +6,7 @@ use crate::gauges::{ModelExpr, ModelVariable};
 use crate::mechanism::{Body, Coordinate, Friction, FrictionSource, Mechanism, PointLocation, ValueId};
 use crate::plane::{Turn, Vec2};
 use crate::scalar::{Dual, Scalar};
+use std::collections::HashMap;
 
 /// All numbers of a mechanism, evaluated at parameters `p`.
 #[derive(Clone, Debug)]
@@ -26,6 +27,8 @@ pub struct BoundValues<S = f64> {
     pub hinges: Vec<HingeNumbers<S>>,
     /// Acceleration of gravity.
     pub gravity: Vec2<S>,
+    /// Zeros of rows of joints that stand for those of the mode, by joint and row: where these are symbols.
+    pub row_offsets: HashMap<(usize, usize), S>,
 }
 
 /// All that a body on a plain hinge needs to know of it, side by side, for long chains outgrow the caches.
@@ -132,6 +135,7 @@ impl Mechanism {
             centre: heavy.iter().zip(&pins).map(|(h, &pin)| h.1 - pin).collect(),
             inertia: heavy.iter().zip(&self.bodies).map(|(h, b)| if b.particle { S::one() } else { h.2 }).collect(),
             values: bound,
+            row_offsets: HashMap::new(),
         }
     }
 

@@ -22,6 +22,8 @@ from freebody.symbolic.tree import ZERO, Sym, Tree, add, is_zero, mul, read, wri
 
 Question = Mapping[str, Any]
 _SEED, _OTHERS = 5, 3
+_NOT_APART = ("rolling_circles",)
+"""Joints whose loads are not those of their equations where they were engaged apart from where they close."""
 _NEAR = 0.15
 """Part by which parameters of other states differ from those of a state, or what they are where they are 0 there."""
 
@@ -369,7 +371,22 @@ class SymbolicState:
         return [name for name, each in limits.items() if not (each.is_open or each.state == "off" or name in acting)]
 
     def _ask(self, questions: Sequence[Question]) -> SymbolicAnswers:
-        return self.source.symbolic_answers(self.state, questions, self.at_rest, self.numbers)
+        found = self.source.symbolic_answers(self.state, questions, self.at_rest, self.numbers)
+        if joint := next((name for name in self._not_apart if any(_is_offset(x, name) for x in found.symbols.values())), None):
+            raise ValueError(
+                f"joints.{joint}: it was engaged where its circles do not touch, and no equations are derived for that\n"
+                "  engage it where they touch: `when` their distance says so"
+            )
+        return found
+
+    @property
+    def _not_apart(self) -> list[str]:
+        return [joint["name"] for joint in self.source.spec["joints"] if joint["type"] in _NOT_APART]
+
+
+def _is_offset(entry: Mapping[str, Any], joint: str) -> bool:
+    """Whether a symbol says where a joint was engaged."""
+    return entry["kind"] == "number" and entry["names"][1].startswith(f"offset_{joint}")
 
 
 @contextmanager

@@ -110,10 +110,15 @@ pub fn loads<S: Scalar>(at: StateView<'_, S>) -> Vec<Load<S>> {
     reactions::drives(at, &mut loads);
     contacts::contacts(at, &mut loads);
     contacts::joint_friction(at, &mut loads);
-    for [parent, body] in at.joints().filter_map(|(joint, _)| at.m.carried(joint)) {
+    for (pin, _) in at.joints() {
+        let Some([parent, body]) = at.m.carried(pin) else { continue };
+        // What turns the massless body turns the other one only if it cannot turn against it.
+        let shift = if at.m.bodies[parent].particle { at.pin_shift(pin) } else { Vec2::zero() };
         for load in &mut loads {
-            let bodies = load.of.iter_mut().chain(load.parts.iter_mut().map(|part| &mut part.body));
-            bodies.filter(|on| **on == parent).for_each(|on| *on = body);
+            load.of.iter_mut().filter(|on| **on == parent).for_each(|on| *on = body);
+            for part in load.parts.iter_mut().filter(|part| part.body == parent) {
+                (part.body, part.point) = (body, part.point + shift);
+            }
         }
     }
     loads

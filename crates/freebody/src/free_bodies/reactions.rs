@@ -22,7 +22,7 @@ pub fn joints<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
             let Source::Joint(_, r) = row.source else { continue };
             let of_row = &card.rows[r];
             let (origin, parts) = match of_row.pin {
-                Some(axis) => (Origin::Pin(index, axis), pinned(at, joint, axis)),
+                Some(axis) => (Origin::Pin(index, axis), pinned(at, index, axis)),
                 None => (Origin::Row(row.source), loaded(at, row, place)),
             };
             let sign = S::of(of_row.sign());
@@ -42,14 +42,14 @@ pub fn joints<S: Scalar>(at: StateView<'_, S>, out: &mut Vec<Load<S>>) {
 }
 
 /// A unit force of a pin along a fixed axis; each body feels it where it has the pin.
-fn pinned<S: Scalar>(at: StateView<'_, S>, joint: &Joint, axis: usize) -> Vec<Part<S>> {
-    let (zero, one) = (S::zero(), S::one());
+fn pinned<S: Scalar>(at: StateView<'_, S>, index: usize, axis: usize) -> Vec<Part<S>> {
+    let (joint, zero, one) = (&at.m.joints[index], S::zero(), S::one());
     let force = if axis == 0 { vec2(one, zero) } else { vec2(zero, one) };
-    let on = |site: usize, force| {
+    let on = |site: usize, shift: Vec2<S>, force| {
         let body = at.m.body_of(site);
-        Part { body, point: at.pose(body).place(at.arm(site)), force, couple: zero }
+        Part { body, point: at.pose(body).place(at.arm(site)) + shift, force, couple: zero }
     };
-    vec![on(joint.first.site, -force), on(joint.second.site, force)]
+    vec![on(joint.first.site, at.pin_shift(index), -force), on(joint.second.site, Vec2::zero(), force)]
 }
 
 /// The loads of a unit multiplier of a row between two bodies, both at one place.

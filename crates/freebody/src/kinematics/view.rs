@@ -50,6 +50,23 @@ pub struct StateView<'a, S = f64> {
     pub mode: &'a Mode,
 }
 
+impl<S: Scalar> StateView<'_, S> {
+    /// What a row of a joint was where an event engaged it, its zero since; 0 for any other, and where only changes count.
+    pub fn engaged_at(&self, joint: usize, row: usize) -> S {
+        if self.m.joints[joint].is_relative.get(row) == Some(&true) {
+            return S::zero();
+        }
+        let of_mode = || self.mode.row_offsets.get(&(joint, row)).map_or(S::zero(), |&zero| S::of(zero));
+        self.n.row_offsets.get(&(joint, row)).copied().unwrap_or_else(of_mode)
+    }
+    /// From the first point of a pin to where an event engaged it on the first body, fixed axes.
+    pub fn pin_shift(&self, joint: usize) -> Vec2<S> {
+        let first = &self.m.joints[joint].first;
+        let axes = Turn::by(self.pose(self.m.body_of(first.site)).turn.angle + self.n.values[first.angle]);
+        axes.apply(Vec2 { x: self.engaged_at(joint, 0), y: self.engaged_at(joint, 1) })
+    }
+}
+
 impl<S: Scalar> Poses<S> for StateView<'_, S> {
     fn pose(&self, body: usize) -> Pose<S> {
         self.k.pose[body]

@@ -43,16 +43,18 @@ impl SymbolicState<'_> {
         }
         for &pin in &self.m.closures {
             let Some([carrier, body]) = self.m.carried(pin) else { continue };
-            let second = &self.m.joints[pin].second;
+            let (second, at) = (&self.m.joints[pin].second, self.at());
             let arm = k.pose[body].turn.apply(self.n.arms[second.site]);
             let (twist, acceleration) = (k.twist[body], bodies[body].acceleration_at(arm, k.twist[body].w));
-            let turn = match self.m.bodies[carrier].particle {
-                true => self.k.pose[carrier].turn,
-                false => Turn::by(k.pose[body].turn.angle + self.n.values[second.angle]),
+            let turned = k.pose[body].turn.angle + self.n.values[second.angle] - at.engaged_at(pin, 2);
+            let (turn, w, alpha) = match self.m.bodies[carrier].particle {
+                true => (self.k.pose[carrier].turn, Symbol::zero(), Symbol::zero()),
+                false => (Turn::by(turned), twist.w, bodies[body].w),
             };
-            k.pose[carrier] = Pose { at: k.pose[body].at + arm, turn };
-            k.twist[carrier] = Twist { v: twist.at(arm), w: twist.w };
-            bodies[carrier] = Twist { v: acceleration, w: bodies[body].w };
+            let shift = turn.apply(vec2(at.engaged_at(pin, 0), at.engaged_at(pin, 1)));
+            k.pose[carrier] = Pose { at: k.pose[body].at + arm - shift, turn };
+            k.twist[carrier] = Twist { v: twist.at(arm) - shift.perp() * w, w };
+            bodies[carrier] = Twist { v: acceleration - shift.perp() * alpha + shift * (w * w), w: alpha };
         }
         for (i, body) in self.m.bodies.iter().enumerate() {
             if let Some(branch) = body.tree_joint {

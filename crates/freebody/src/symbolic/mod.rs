@@ -7,6 +7,7 @@ mod energy;
 mod equation;
 mod maximal_coordinates;
 mod motion;
+mod offsets;
 mod power;
 mod query;
 mod vectors;
@@ -66,8 +67,9 @@ impl<'m> SymbolicState<'m> {
         };
         let p: Vec<Symbol> = m.parameters.iter().zip(&at.n.p).map(|(p, &x)| named(&p.name, 0, x)).collect();
         let mut bound = m.bind(&p).values;
-        let numbers = name_numbers(m, at.n, &named, &mut bound);
-        let n = m.with_values(&p, bound);
+        let mut numbers = name_numbers(m, at.n, &named, &mut bound);
+        let mut n = m.with_values(&p, bound);
+        n.row_offsets = offsets::name_offsets(workspace, &named, &mut numbers);
         let coordinate = |i: usize, dots: u8, x: f64| named(&m.coordinate(i).name, dots, x);
         let q: Vec<Symbol> =
             witness::coordinates(workspace).iter().enumerate().map(|(i, &x)| coordinate(i, 0, x)).collect();

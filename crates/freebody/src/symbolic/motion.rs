@@ -110,17 +110,19 @@ impl SymbolicState<'_> {
     }
 
     /// Tells the rows of joint origins along the fixed axes: from the first point to the second, with its rate and its
-    /// acceleration.
+    /// acceleration; and every row from where an event engaged its joint.
     pub(super) fn joint_origins(&self, k: &Kinematics<Symbol>, bodies: &[Twist<Symbol>], rows: &mut [Row<Symbol>]) {
-        let place = |site: usize| {
+        let place = |site: usize, shift: Vec2<Symbol>| {
             let body = self.m.body_of(site);
-            moving(k, bodies, body, k.pose[body].turn.apply(self.n.arms[site]))
+            moving(k, bodies, body, k.pose[body].turn.apply(self.n.arms[site]) + shift)
         };
         for row in rows {
-            let Source::Joint(joint, _) = row.source else { continue };
-            let joint = &self.m.joints[joint];
+            let Source::Joint(index, r) = row.source else { continue };
+            let joint = &self.m.joints[index];
+            row.value = row.value.map(|value| value - self.at().engaged_at(index, r));
             if let Some(axis) = self.card_of(row).and_then(|card| card.pin) {
-                let (first, second) = (place(joint.first.site), place(joint.second.site));
+                let first = place(joint.first.site, self.at().pin_shift(index));
+                let second = place(joint.second.site, Vec2::zero());
                 let [value, rate, bias] =
                     std::array::from_fn(|i| [(second[i] - first[i]).x, (second[i] - first[i]).y][axis]);
                 (row.value, row.rate, row.bias) = (Some(value), Some(rate), bias);
