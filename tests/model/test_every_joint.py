@@ -164,3 +164,23 @@ def test_its_equations_are_true_where_it_was_engaged(card, alone, turned):
             for part in document.parts:
                 assert evaluate(part.residual, values, at.tables) == pytest.approx(0.0, abs=1e-7), (form, part.title)
     assert seen
+
+
+@pytest.mark.parametrize("pair", ["[bar, clay]", "[clay, bar]"])
+def test_a_lump_sticks_to_what_turns_in_either_order(pair):
+    """Angular momentum about the pin: m v b = (M L²/3 + m b²) θ̇, and the clay stays b from it."""
+    made = fb.Mechanism.loads(f"""
+freebody: 1
+bodies:
+  bar: {{shape: rod, length: 1 m, mass: 4 kg}}
+  clay: {{shape: particle, mass: 0.5 kg}}
+joints:
+  O: {{type: hinge, of: [ground.O, bar.start], coordinate: {{name: θ, zero: down}}}}
+  flight: {{type: free, of: [ground.O, clay.centre], coordinates: [x, y]}}
+events: {{hit: {{at: start, then: {{weld: {pair}}}}}}}
+initial: {{θ: 0, x: 0, y: -0.7 m, rates: {{θ: 0, x: 12 m/s, y: 0}}}}
+""")
+    assert made.moment(after="hit")[0].u[0] == pytest.approx(0.5 * 12 * 0.7 / (4 / 3 + 0.5 * 0.49), rel=1e-12)
+    later, _ = made.moment(at=0.1)
+    assert np.hypot(*later.q[1:]) == pytest.approx(0.7, rel=1e-9)
+    assert later.q[1] == pytest.approx(0.7 * np.sin(later.q[0]), rel=1e-9)

@@ -23,10 +23,14 @@ _PARTS = ("joints", "forces", "motions", "contacts", "strings", "stops")
 
 def welds(write: Writer) -> None:
     """The joints that events put in place."""
+    particles = {body["name"] for body in write.spec["bodies"] if body["particle"]}
     for name, event in write.scope.model.events.items():
         for weld, *bodies in event.welds(name):
             path: Path = ("events", name, "then")
-            of = [write.point(path, f"{body}.origin") for body in bodies]
+            # The axes of the first say where the two were joined, so that a particle, which has none that turn, comes second.
+            of = sorted(
+                (write.point(path, f"{body}.origin") for body in bodies), key=lambda at: at.rpartition(".")[0] in particles
+            )
             made = {"name": write.prefix + weld, "type": "weld", "with": {"of": of}, "coordinates": [], "engaged": False}
             write.spec["joints"].append(made)
             write.items[f"joints.{made['name']}"] = (write.scope, path)
