@@ -172,7 +172,7 @@ def test_tenths_and_fifths_are_decimal_numbers_beside_others_and_as_lengths():
 
 
 def test_a_rope_keeps_a_sum_and_no_length_that_nobody_wrote():
-    assert "x + R φ − y = const" in page("tests/check/books_unseen/disk_drawn_by_block.yaml").text()
+    assert "x + R φ − y = const" in page("tests/check/books/disk_drawn_by_block.yaml").text()
 
 
 def test_balances_for_one_unknown_have_the_accelerations_of_their_bodies():
