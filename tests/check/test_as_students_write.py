@@ -104,7 +104,7 @@ SAID = {
         ("½ m v² + ½ k x² = const.", T),
         ("x = x_0 cos ω t where ω = sqrt(k/m)", T),
         (r"x = x_0 \cos \omega t \text{ with } \omega = \sqrt{k/m}", T),
-        ("x = d cos(sqrt(k/m) t)", IF),
+        ("x = d cos(sqrt(k/m) t)", T),
     ],
     "two": [
         ("ω_AB = θ'", T),

@@ -99,7 +99,9 @@ _EVER = (
 )
 _ALWAYS = re.compile(rf"(?:,|\\q?quad)?\s*{_EVER}{_CLOSES}|\A\s*{_EVER}\s*[,:]", re.IGNORECASE)
 _BEHIND = r"(?<=[^\s=+*/·<>≈-])"
-_NUMBER = re.compile(rf"{_BEHIND}\s+\((?:eq(?:uation|n)?\.?\s*)?(?:\d{{1,2}}[a-z]?|\*+|ii+|iv|vi+|[IVX]{{2,}})\){_CLOSES}")
+_NUMBER = re.compile(
+    rf"{_BEHIND}\s+(?:\\q?quad\s*)?\((?:eq(?:uation|n)?\.?\s*)?(?:\d{{1,2}}[a-z]?|\*+|ii+|iv|vi+|[IVX]{{2,}})\){_CLOSES}"
+)
 _LETTER = re.compile(r"\A\s*(?:\([a-h]\)\s+(?=[\w\\$])|[a-h]\)\s+)")
 _AS = r"as (?:expected|required|before|usual|given|shown|stated|above)"
 _COMMENT = re.compile(

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import re
 
+from .language.glyphs import CONDITION
+
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _BEFORE = re.compile(rf"({_STARTS}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
@@ -32,6 +34,8 @@ _CONSTANT = re.compile(
     r"(?=\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``."""
+_LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
+"""``Energy: T + V = const``."""
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|\\[\[\]]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
@@ -77,7 +81,7 @@ def with_condition_first(text: str) -> str:
         return f"{name} = {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
         said = f"{found[2]}: {found[1]}"
-    return _CONSTANT.sub(r"constant: \1", said) if "cons" in said else said
+    return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if "cons" in said else said
 
 
 def as_claim(text: str) -> str:
