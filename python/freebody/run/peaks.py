@@ -113,8 +113,8 @@ def _peak(run: Run, sampled: Run, i: int, name: str, noise: float) -> Peak:
     t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*solved(t)[:, :2].T))
     couple = t_couple = None
     if reaction.has_couple:
-        heard = np.where(np.abs(reaction.M) > noise, np.abs(reaction.M), 0.0)
-        t_couple, couple = _largest(run, sampled.t, heard, lambda t: np.abs(solved(t)[:, 2]))
+        resolved = np.where(np.abs(reaction.M) > noise, np.abs(reaction.M), 0.0)
+        t_couple, couple = _largest(run, sampled.t, resolved, lambda t: np.abs(solved(t)[:, 2]))
     force_x, force_y, _ = solved(np.array([t]))[0].tolist()
     return Peak(name, reaction.second, True, t, size, force_x, force_y, couple, t_couple)
 

@@ -141,12 +141,12 @@ class _Drawn:
         return "".join(f'<polyline class="trace" points="{_points(path)}"/>' for path in paths)
 
     def _moves(self, kind: str, values: list[str]) -> str:
-        told = ";".join(values[k] for k in self.frames)
-        return f'<animateTransform attributeName="transform" type="{kind}" values="{told}" {self.clock}/>'
+        listed = ";".join(values[k] for k in self.frames)
+        return f'<animateTransform attributeName="transform" type="{kind}" values="{listed}" {self.clock}/>'
 
     def _values(self, name: str, values: list[str], how: str = "linear") -> str:
-        told = ";".join(values[k] for k in self.frames)
-        return f'<animate attributeName="{name}" calcMode="{how}" values="{told}" {self.clock}/>'
+        listed = ";".join(values[k] for k in self.frames)
+        return f'<animate attributeName="{name}" calcMode="{how}" values="{listed}" {self.clock}/>'
 
     def _shown(self, shown: Array) -> str:
         """When it is there, of what comes and goes."""

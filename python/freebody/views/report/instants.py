@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
 _EVEN, _SWITCHES = 60, 60
-"""Instants that are taken in any case: evenly spread ones, and switches, of very many every so-manieth."""
+"""Instants that are taken in any case: evenly spread ones, and switches, of very many a share of equal steps."""
 _FOLLOWED = 1e-3
 """Of the largest of its kind, by which a line may miss: less than a screen shows."""
 

@@ -143,8 +143,8 @@ def _tracks_data(tracks: Sequence[_Track], sketch: Sketch) -> list[dict[str, Any
 
 def _column(values: Array, noise: float = 0.0) -> float | str:
     """A number that stays, or numbers over time; what is below the noise is 0."""
-    heard = np.where(np.abs(values) <= noise, 0.0, values)
-    return float(heard[0]) if np.ptp(heard) <= noise else floats(heard)
+    resolved = np.where(np.abs(values) <= noise, 0.0, values)
+    return float(resolved[0]) if np.ptp(resolved) <= noise else floats(resolved)
 
 
 def _effective(name: str, free: Sequence[FreeBodies], labels: Labels, sketch: Sketch) -> dict[str, Any]:

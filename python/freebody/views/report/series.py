@@ -66,8 +66,8 @@ def _coordinates(run: Run) -> list[dict[str, Any]]:
     for dots, (values, (kind, title)) in enumerate(zip(orders, _ORDERS.items(), strict=True)):
         units = [column.unit for column in run.columns if column.kind == kind]
         units += [column.unit for column in run.columns if column.kind == "dependent"][dots * len(following) :][: len(following)]
-        heard = np.where(np.abs(values) > _ROUND_OFF * largest / lasting**dots, values, 0.0)
-        curves = [Curve(unicode_name(name, dots), y) for name, y in zip(names, heard.T, strict=True)]
+        resolved = np.where(np.abs(values) > _ROUND_OFF * largest / lasting**dots, values, 0.0)
+        curves = [Curve(unicode_name(name, dots), y) for name, y in zip(names, resolved.T, strict=True)]
         for unit in dict.fromkeys(units):
             made.append(_plot(title, unit, run, [curve for curve, own in zip(curves, units, strict=True) if own == unit]))
     return made
@@ -80,7 +80,7 @@ def _resolved(curves: Sequence[Curve]) -> list[Curve]:
 
 
 def _thinned(t: Array, most: int) -> Array:
-    """Every so-manieth time, the last one always."""
+    """Evenly thinned times, the last one always."""
     return t if len(t) <= most else t[np.unique(np.linspace(0, len(t) - 1, most).astype(int))]
 
 
