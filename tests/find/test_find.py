@@ -73,6 +73,17 @@ def test_both_angles_of_a_throw():
     assert "angle = 0.374734406322 rad, = 1.19606192047 rad, and for no other" in found.sentence
 
 
+def test_answers_are_told_in_the_units_of_choice():
+    """Angles in degrees, places in feet of 0.3048 m, in sentences and tables; data stay in SI."""
+    found = throw().find("range", "10 m", vary="angle", within=("5 deg", "85 deg"), points=9)
+    best = throw().extremes("range", vary="angle", within=("5 deg", "85 deg"), points=9)
+    flat = math.degrees(math.asin(10 * G / 144) / 2)
+    with fb.units("deg, ft"):
+        assert f"range is {10 / 0.3048:.10g} ft for angle = {flat:.10g}" in str(found) and "angle [deg]" in str(found)
+        assert "between 5 and 85 deg" in best.sentence and "range [ft]" in str(best) and f"{144 / G / 0.3048:.9g}" in str(best)
+        assert found.values[0] == pytest.approx(math.radians(flat), rel=1e-12)
+
+
 def test_the_furthest_throw_is_a_root_that_touches_and_an_extreme():
     furthest = 144 / G
     (root,) = throw().find("x @ lands", furthest, vary="angle", within=("5 deg", "85 deg")).roots

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 
 from freebody.cli.models import opened, ranges
-from freebody.cli.options import AsJson, Changes, Model, Until
+from freebody.cli.options import AsJson, Changes, Model, Units, Until
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import NOT_TRUE, UserError
 
@@ -28,6 +28,7 @@ def find(
     changes: Changes = None,
     until: Until = None,
     rtol: Annotated[float | None, typer.Option(help="Relative tolerance of the runs.")] = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """All values of a parameter or of the start for which a quantity is what it is asked to be; without --is, its extremes."""

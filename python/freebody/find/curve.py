@@ -13,7 +13,8 @@ from itertools import pairwise
 import numpy as np
 
 from freebody.find.response import Response, Sample
-from freebody.solve.figures import figure
+from freebody.model.user_units import shown
+from freebody.solve.rich_tables import figure_in
 
 FOLLOWED = 1e-3
 """Part of its swing by which the quantity may differ amid an interval from the cubic through its neighbours."""
@@ -122,10 +123,11 @@ class Curve:
 
     def sentence(self, unit: str) -> str:
         """How closely it was looked at."""
-        told = [f"{len(self.samples)} places, at most {figure(self.resolution, 3)} {unit}".rstrip() + " apart"]
+        widest = f"{figure_in(unit, self.resolution, 3)} {shown(unit).unit}".rstrip()
+        told = [f"{len(self.samples)} places, at most {widest} apart"]
         told += [f"between them it follows its neighbours to {FOLLOWED:g} of its swing, so what is narrower can be missed"]
         if self.unresolved:
-            where = ", ".join(f"{figure(a, 4)} to {figure(b, 4)}" for a, b in self.unresolved[:3])
+            where = ", ".join(f"{figure_in(unit, a, 4)} to {figure_in(unit, b, 4)}" for a, b in self.unresolved[:3])
             told += [f"not followed: {where}" + f" and {len(self.unresolved) - 3} more" * (len(self.unresolved) > 3)]
         return "; ".join(told)
 

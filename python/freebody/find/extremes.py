@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, ClassVar
 
 from freebody.find.curve import Curve
 from freebody.find.response import Response, Sample
 from freebody.find.roots import followed, lowest
-from freebody.solve.figures import Known, figure
-from freebody.solve.rich_tables import PlainText, table
+from freebody.model.user_units import shown
+from freebody.solve.figures import Known
+from freebody.solve.rich_tables import PlainText, figure_in, table
 
 
 @dataclass(frozen=True)
@@ -48,13 +50,14 @@ class Extremes(PlainText):
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        unit, of_value = (f" {each}" if each else "" for each in self.units)
+        at, value = (partial(figure_in, each) for each in self.units)
+        unit, of_value = (f" {shown(each).unit}".rstrip() for each in self.units)
         told = [
-            f"{word}, {figure(each.value, 10)}{of_value}, at {self.varied} = {figure(each.where, 8)}{unit}"
+            f"{word}, {value(each.value, 10)}{of_value}, at {self.varied} = {at(each.where, 8)}{unit}"
             + " (an edge)" * each.at_edge
             for word, each in (("greatest", self.greatest), ("least", self.least))
         ]
-        between = f"between {figure(self.curve.start)} and {figure(self.curve.end)}{unit}"
+        between = f"between {at(self.curve.start)} and {at(self.curve.end)}{unit}"
         return f"{self.of} is {' and '.join(told)}, {between}."
 
     def to_json(self) -> dict[str, Any]:
@@ -69,11 +72,10 @@ class Extremes(PlainText):
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         yield self.sentence
-        heads = [
-            "",
-            *(f"{name} [{unit}]" if unit else name for name, unit in zip((self.varied, self.of), self.units, strict=True)),
-        ]
-        rows = [(each.kind, figure(each.where, 8), figure(each.value, 10), "edge" * each.at_edge) for each in self.all]
+        at, value = (partial(figure_in, each) for each in self.units)
+        named = zip((self.varied, self.of), self.units, strict=True)
+        heads = ["", *(f"{name} [{shown(unit).unit}]" if unit else name for name, unit in named)]
+        rows = [(each.kind, at(each.where, 8), value(each.value, 10), "edge" * each.at_edge) for each in self.all]
         yield table("", [*heads, " "], rows, heads[1:], edge=True)
         yield f"Looked at {self.curve.sentence(self.units[0])}."
 

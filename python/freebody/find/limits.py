@@ -15,9 +15,10 @@ import numpy as np
 from freebody.core import Array, MotionError, quote
 from freebody.find.response import Response
 from freebody.model.start import quantity
+from freebody.model.user_units import shown
 from freebody.run.records import Window, integral, over_time, unit_of
 from freebody.solve.figures import Known, figure
-from freebody.solve.rich_tables import PlainText
+from freebody.solve.rich_tables import PlainText, figure_in
 from freebody.stability.equilibria import Equilibrium, equilibrium
 from freebody.stability.state_space import SingularConfiguration
 
@@ -67,9 +68,10 @@ class Limit(PlainText):
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        unit, how = f" {self.unit}" if self.unit else "", "" if self.rests else "an estimated "
-        told = f"{self.of} tends to {figure(self.value, 12)}{unit}, to {how}{self.value.error:.0e}"
-        return f"{told}: {self.tail}; it was {figure(self.last, 8)} at {self.varied}{figure(self.until)}{'' if self.varied else ' s'}."
+        (unit, size), how = shown(self.unit), "" if self.rests else "an estimated "
+        value, last = (figure_in(self.unit, each, digits) for each, digits in ((self.value, 12), (self.last, 8)))
+        told = f"{self.of} tends to {f'{value} {unit}'.rstrip()}, to {how}{self.value.error / size:.0e}"
+        return f"{told}: {self.tail}; it was {last} at {self.varied}{figure(self.until)}{'' if self.varied else ' s'}."
 
     def to_json(self) -> dict[str, Any]:
         """As plain data, in SI."""

@@ -103,7 +103,7 @@ class Response:
         run, _ = self._reported(x)
         found = run.accuracy.report[self.item.label]
         unit = unit_size(found.unit)
-        return Known(found.value * unit, found.value.error * unit, found.value.size * unit)
+        return found.value.per(1 / unit)
 
     @property
     def _at_start(self) -> bool:

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import groupby, pairwise
 from math import isfinite
 from typing import Any, ClassVar
 
 from freebody.find.curve import Break, Curve
 from freebody.find.response import Response, Sample
-from freebody.solve.figures import Known, figure
-from freebody.solve.rich_tables import PlainText, table
+from freebody.model.user_units import shown
+from freebody.solve.figures import Known
+from freebody.solve.rich_tables import PlainText, figure_in, table
 
 _TOUCHES = 3.0
 """Errors of the quantity within which its extreme is the target."""
@@ -63,14 +65,15 @@ class Found(PlainText):
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        unit, of_value = (f" {each}" if each else "" for each in self.units)
-        asked = f"{self.of} is {figure(self.target, 10)}{of_value}"
-        between = f"between {figure(self.curve.start)} and {figure(self.curve.end)}{unit}"
-        told = [f"= {figure(root.where, 12)}{unit}" + " (touches)" * root.touching for root in self.roots]
-        told += [f"from {figure(a, 8)} to {figure(b, 8)}{unit}" for a, b in self.throughout]
+        at, value = (partial(figure_in, each) for each in self.units)
+        unit, of_value = (f" {shown(each).unit}".rstrip() for each in self.units)
+        asked = f"{self.of} is {value(self.target, 10)}{of_value}"
+        between = f"between {at(self.curve.start)} and {at(self.curve.end)}{unit}"
+        told = [f"= {at(root.where, 12)}{unit}" + " (touches)" * root.touching for root in self.roots]
+        told += [f"from {at(a, 8)} to {at(b, 8)}{unit}" for a, b in self.throughout]
         if not told:
             seen = [sample.y for sample in self.curve.samples if sample.is_known]
-            least_most = f"it is from {figure(min(seen))} to {figure(max(seen))}{of_value}"
+            least_most = f"it is from {value(min(seen))} to {value(max(seen))}{of_value}"
             return f"{asked} for no {self.varied} {between}: {least_most}."
         return f"{asked} for {self.varied} {', '.join(told)}, and for no other {between}."
 
@@ -90,21 +93,22 @@ class Found(PlainText):
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         yield self.sentence
-        unit, of_value = (f" [{each}]" if each else "" for each in self.units)
+        at, value = (partial(figure_in, each) for each in self.units)
+        unit, of_value = (f" [{shown(each).unit}]" if each else "" for each in self.units)
         if self.roots:
             heads = [f"{self.varied}{unit}", "error", f"found{of_value}", ""]
             rows = [
-                (figure(r.where, 12), f"{r.where.error:.0e}", figure(r.found, 10), "touches" if r.touching else "")
+                (at(r.where, 12), f"{r.where.error / shown(self.units[0]).size:.0e}", value(r.found, 10), "touches" * r.touching)
                 for r in self.roots
             ]
             yield table("", heads, rows, heads[:3], edge=True)
-        yield from (f"At {self.varied} = {figure(each.x, 10)} it {_broken(each)}." for each in self.breaks)
+        yield from (f"At {self.varied} = {at(each.x, 10)} it {_broken(each, self.units[1])}." for each in self.breaks)
         yield f"Looked at {self.curve.sentence(self.units[0])}."
 
 
-def _broken(each: Break) -> str:
+def _broken(each: Break, unit: str) -> str:
     jumps = each.below.is_known and each.above.is_known
-    what = f"jumps from {figure(each.below.y)} to {figure(each.above.y)}" if jumps else "begins or ends"
+    what = f"jumps from {figure_in(unit, each.below.y)} to {figure_in(unit, each.above.y)}" if jumps else "begins or ends"
     return f"{what}: {each.reason}"
 
 

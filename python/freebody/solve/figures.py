@@ -32,6 +32,10 @@ class Known(float):
         """The same beside others of its kind, the largest of which says what is round-off: that is 0."""
         return Known(self, self.error, max(self.size, NOISE * largest))
 
+    def per(self, unit: float) -> Known:
+        """The same in a unit of another size."""
+        return Known(self / unit, self.error / unit, self.size / unit)
+
     def like(self, value: float) -> Known:
         """Another value of the same quantity."""
         return Known(value, self.error, self.size)

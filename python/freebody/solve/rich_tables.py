@@ -109,7 +109,12 @@ def _divided(cell: Any, size: float) -> Any:
     """A figure, with what is known of its error, by the size of its unit; what is none as it is."""
     if size == 1 or not isinstance(cell, float):
         return cell
-    return Known(cell / size, cell.error / size, cell.size / size) if isinstance(cell, Known) else cell / size
+    return cell.per(size) if isinstance(cell, Known) else cell / size
+
+
+def figure_in(unit: str, value: float, most: int = 6) -> str:
+    """A figure in a unit of SI as it is printed: in the unit that is chosen in its place."""
+    return figure(_divided(value, user_units.shown(unit).size), most)
 
 
 def captured(shown: Any, width: int) -> str:
