@@ -16,6 +16,8 @@ KNOWN = ["m", "g", "l", "theta", "x", "F", "i", "j", "k", "t"]
 MISTAKES = [
     ("F = (m g", "       ^", "it ends where a `)` is missing"),
     ("F = m g)", "       ^", "never opened"),
+    ("1e400 m = F", "^^^^^", "beyond the range"),
+    ("F = m^1e-400", "      ^^^^^^", "beyond the range"),
     ("F = [m g)", "        ^", "`]` is expected"),
     ("F = = 3", "    ^", "something is missing before `=`"),
     ("F = m ? g", "      ^", "`?` stands where"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -153,7 +154,7 @@ class Line:
         digits = token.text.lstrip("-")
         if not digits.isdecimal():
             return Sym(token.text, span=token.span)
-        number = Num(float(digits), digits, span=token.span)
+        number = _number(digits, token.span)
         return Negative(number, span=token.span) if token.text.startswith("-") else number
 
     # --- the smallest pieces -------------------------------------------------------------------
@@ -171,7 +172,7 @@ class Line:
         self.take()
         match token.kind:
             case "number":
-                return Num(float(token.text), token.text, span=token.span)
+                return _number(token.text, token.span)
             case "symbol":
                 return self.symbol(token)
             case "function":
@@ -370,6 +371,13 @@ class Line:
 
 
 @lru_cache(4096)
+def _number(digits: str, span: Span) -> Num:
+    value = float(digits)
+    if math.isinf(value) or (value < sys.float_info.min and digits.lower().partition("e")[0].strip("0.")):
+        raise StatementError(f"`{digits}` is beyond the range of numbers here", span, "they go from 1e-307 to 1e308")
+    return Num(value, digits, span=span)
+
+
 def _size_of(unit: str) -> float | None:
     """A unit in SI; None where a text is none."""
     try:
