@@ -127,7 +127,7 @@ def test_a_time_that_is_never_reached(gun):
         gun.diagram(at="100 s")
 
 
-@pytest.mark.parametrize("suffix", ["svg", "png", "pdf"])
+@pytest.mark.parametrize("suffix", ["svg", "png", "pdf", "tex"])
 def test_the_command_writes_a_picture(tmp_path, suffix):
     file = tmp_path / f"fbd.{suffix}"
     done = CliRunner().invoke(app, ["diagram", GUN, "-o", str(file), "--of", "all", "--at", "theta=30 deg", "--to-scale"])
@@ -139,7 +139,7 @@ def test_the_command_writes_a_picture(tmp_path, suffix):
     ("arguments", "said"),
     [
         (["--of", "barrel"], "there are rod, collar"),
-        (["-o", "fbd.docx"], ".svg, .png or .pdf"),
+        (["-o", "fbd.docx"], ".svg, .png, .pdf or .tex"),
         (["--at", "1 s", "--at", "theta=0"], "--at takes one time, or coordinates"),
     ],
 )

@@ -1,10 +1,12 @@
 """Saved and loaded again: every number, the model, and what cannot be known from a file."""
 
+import re
 import sys
 
 import numpy as np
 import pytest
 
+import freebody as fb
 from freebody.run.simulation import Run
 from freebody.views.compare import compare
 
@@ -19,6 +21,23 @@ def test_a_run_comes_back_to_the_last_bit(suffix, four_bar, tmp_path):
         assert getattr(back, part) == getattr(four_bar, part), part
     assert back.source.model == four_bar.source.model and back.source.report == four_bar.source.report
     assert np.array_equal(back.end.q, four_bar.end.q) and np.array_equal(back.start.u, four_bar.start.u)
+
+
+def test_a_path_in_mm_is_the_place_over_time_and_closes_where_the_motion_comes_back(tmp_path):
+    """A crank turns once a second: its end goes round a circle of 0.4 m, which is as large on paper, with y upwards."""
+    crank = fb.Mechanism("crank")
+    arm = crank.rod("arm", length=0.4, mass=1)
+    crank.hinge(crank.ground.O, arm.start, coordinate="theta", name="pivot")
+    crank.motion("turn", "theta", "2*pi*t")
+    run = crank.simulate(until=1)
+    page = run.save(tmp_path / "path.svg", "arm.end").read_text()
+    places = np.array([[float(x) for x in place.split(",")] for place in re.search(r'd="M(.*) Z"', page)[1].split()])
+    assert np.hypot(*places.T) == pytest.approx(400, rel=1e-5) and places[1, 1] < 0 and len(places) == len(run.t) - 1
+    size = re.search(r'width="(.*?)mm" height="(.*?)mm" viewBox="(.*?) (.*?) (.*?) (.*?)"', page).groups()
+    width, *others = map(float, size)
+    assert width > 800 and others == pytest.approx([width, -width / 2, -width / 2, width, width], rel=1e-5)  # six figures
+    with pytest.raises(ValueError, match=r"pivot.F is none: write a \.csv"):
+        run.save(tmp_path / "path.svg", "pivot.F")
 
 
 def test_a_loaded_run_says_what_it_does_not_know(four_bar, tmp_path):

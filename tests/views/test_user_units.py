@@ -115,5 +115,5 @@ def test_columns_of_choice_have_their_units_in_their_heads(tmp_path):
     assert lines[0] == ",".join(["t [s]", *table]) and len(lines) == len(run.t) + 1
     last = [float(figure) for figure in lines[-1].split(",")]
     assert last == [0.1, *table.iloc[-1]] == pytest.approx([0.1, 10.0, 0.0, 19.62 / POUND_FORCE])
-    with pytest.raises(ValueError, match=r"written as \.csv, not '\.nc'"):
+    with pytest.raises(ValueError, match=r"written as \.csv or \.svg, not '\.nc'"):
         run.save(tmp_path / "table.nc", "track.F")

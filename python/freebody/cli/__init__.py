@@ -42,7 +42,9 @@ def run(
     output: Annotated[Path | None, typer.Option("-o", "--output", help="Save the run: {run.storage}.")] = None,
     column: Annotated[
         list[str] | None,
-        typer.Option(metavar="EXPRESSION", help="Into -o NAME.csv only this: A.F, x(P), a point or a column; repeatable."),
+        typer.Option(
+            metavar="EXPRESSION", help="Only this into -o, as {run.selection}: A.F, x(P), a point or a column; repeatable."
+        ),
     ] = None,
     changes: Changes = None,
     until: Until = None,
@@ -111,7 +113,7 @@ def solve(
 @app.command(cls=Command)
 def validate(
     model: Model,
-    output: Annotated[Path | None, typer.Option("-o", "--output", help="Labelled drawing: {views.diagram.picture}.")] = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Labelled drawing: {views.draw}.")] = None,
     units: Units = None,
     as_json: AsJson = False,
 ) -> None:

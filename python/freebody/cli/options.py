@@ -62,7 +62,7 @@ def offering(choices: Mapping[str, str]) -> Callable[[Callable[..., None]], Call
 
 class Command(TyperCommand):
     """A command in whose help ``{run.storage}`` stands for the kinds of files there, read only when they are asked for. What it
-    writes is held against them before it begins."""
+    writes is held against them before it begins, against those of ``--column`` where only columns are written."""
 
     def format_help(self, *where: Any) -> None:
         for option in self.params:
@@ -72,8 +72,9 @@ class Command(TyperCommand):
 
     def invoke(self, context: typer.Context) -> Any:
         if output := context.params.get("output"):
+            says = "column" if context.params.get("column") else "output"
             for option in self.params:
-                for _, formats in _formats(option) if option.name == "output" else ():
+                for _, formats in _formats(option) if option.name == says else ():
                     formats.of(output)
             check_writable(output)
         return super().invoke(context)

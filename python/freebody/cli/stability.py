@@ -27,7 +27,7 @@ def stability(
         str | None, typer.Option(metavar="LIST", help="Gains of inputs for these eigenvalues, like '-1,-2+1j,-2-1j'.")
     ] = None,
     output: Annotated[Path | None, typer.Option("-o", help="The modes, drawn or as a film: {views.modes}.")] = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw the frequency response: {views.diagram.picture}.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw the frequency response: {views.draw}.")] = None,
     changes: Changes = None,
     as_json: AsJson = False,
 ) -> None:

@@ -25,7 +25,7 @@ from freebody.core import (
     Settings,
     State,
 )
-from freebody.run import storage
+from freebody.run import selection, storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
 from freebody.run.peaks import Peak, known_peaks
 from freebody.run.records import (
@@ -369,8 +369,8 @@ class Run(PlainText):
 
     def save(self, path: str | Path, *names: str) -> Path:
         """Write ``.nc`` (netCDF) or ``.csv``, with the model, the settings and the versions inside; with ``names`` a plain table of
-        these in CSV, as ``to_pandas`` has them."""
-        return storage.save(self, Path(path), names)
+        these in CSV, as ``to_pandas`` has them, or the paths of points as outlines in SVG, in mm and true to size."""
+        return selection.save(self, Path(path), names) if names else storage.save(self, Path(path))
 
     @staticmethod
     def load(path: str | Path) -> Run:

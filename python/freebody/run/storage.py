@@ -16,8 +16,8 @@ import numpy as np
 
 from freebody.core import Array, CompiledModel, Motion, ReportItem, Settings, State
 from freebody.formats import Formats, replacing
-from freebody.model.user_units import shown
 from freebody.run.records import KINDS, Column, Reported
+from freebody.run.selection import selection
 
 if TYPE_CHECKING:
     import pandas
@@ -182,22 +182,10 @@ def need(module: str) -> Any:
         raise ImportError(f"this needs {module}, which is not installed: pip install {module}") from None
 
 
-def chosen(run: Run, names: Sequence[str]) -> dict[str, Array]:
-    """Columns, expressions, and points as their x and y, by ``name [unit]``, in the units that are chosen."""
-    found = {}
-    for name in names:
-        values = run[name]
-        parts = {name: values} if values.ndim == 1 else {f"{axis}({name})": values[:, i] for i, axis in enumerate("xy")}
-        for text, each in parts.items():
-            unit, size = shown(run.unit_of(text))
-            found[f"{text} [{unit}]" if unit else text] = each / size
-    return found
-
-
 def to_pandas(run: Run, *names: str) -> pandas.DataFrame:
-    """One row a time, one column each of ``run.columns``, or of ``names`` as ``chosen``; the reported quantities in ``attrs``."""
+    """One row a time, one column each of ``run.columns``, or of ``names`` as a ``selection``; the reported quantities in ``attrs``."""
     if names:
-        return need("pandas").DataFrame(chosen(run, names), index=need("pandas").Index(run.t, name="t [s]"))
+        return need("pandas").DataFrame(selection(run, names), index=need("pandas").Index(run.t, name="t [s]"))
     units = {column.name: column.unit for column in run.columns}
     values = np.hstack(list(run.blocks.values()))
     table = need("pandas").DataFrame(values, columns=list(units), index=need("pandas").Index(run.t, name="t"))
@@ -236,16 +224,8 @@ def to_xarray(run: Run) -> xarray.Dataset:
     return data
 
 
-def save(run: Run, path: Path, names: Sequence[str] = ()) -> Path:
-    """Write a run as one of ``FORMATS``; or only what ``names`` say, ``chosen``, as a plain table in CSV."""
-    if names:
-        Formats("columns of your choice are written as", {".csv": None}).of(path)
-        columns = {"t [s]": run.t} | chosen(run, names)
-        with replacing(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.writer(file)
-            writer.writerow(columns)
-            writer.writerows(zip(*(values.tolist() for values in columns.values()), strict=True))
-        return path
+def save(run: Run, path: Path) -> Path:
+    """Write a run as one of ``FORMATS``."""
     write, _ = FORMATS.of(path)
     with replacing(path) as beside:
         write(run, beside)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, Array, State
+from freebody.formats import Formats
 from freebody.run.records import plain
 from freebody.views import shapes
 from freebody.views.contact_glyphs import string_label
@@ -29,6 +30,7 @@ _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
 _CORNER = 74.0  # points
 _USUAL, _LARGE, _MANY = (8.0, 6.0), (11.0, 8.5), 20  # inches of the drawing; how many names take a large one
 _OVER_LINES, _OVER_ARROWS = 8.0, 40.0  # what a label pays for each place that it covers
+FORMATS = Formats("a drawing is", dict.fromkeys((".svg", ".png", ".pdf")))
 UNNAMED = ("origin", "G", "centre", "start", "end")
 """Points that nearly every body has, of which a drawing says nothing."""
 

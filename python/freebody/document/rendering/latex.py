@@ -34,7 +34,7 @@ class Latex(TypesetMarkup):
         return lead + super().render(blocks)
 
     def plain(self, text: str) -> str:
-        return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
+        return plain(text)
 
     def inline(self, formula: Formula) -> str:
         return f"${latex(formula)}$"
@@ -62,6 +62,11 @@ class Latex(TypesetMarkup):
             return self.plain(f"[Figure: {figure.picture.description}]")
         shown = rf"\includegraphics{{{self.beside}-{figure.name}.pdf}}"
         return "\n".join([r"\begin{center}", _fitted(shown), *([r"\par " + caption] if caption else []), r"\end{center}"])
+
+
+def plain(text: str) -> str:
+    """A text that TeX prints as it is."""
+    return re.sub("(?:\\w[\u0307\u0308]|[^\x00-\u024f])+", lambda signs: _signs(signs[0]), escaped(text))
 
 
 def _fitted(shown: str) -> str:

@@ -14,6 +14,7 @@ from zlib import crc32
 from freebody.formats import Formats, replacing
 from freebody.views.diagram.paper import parted, sheet
 from freebody.views.diagram.rows import Row
+from freebody.views.diagram.tikz import tikz
 from freebody.views.style import quiet
 
 if TYPE_CHECKING:
@@ -80,4 +81,8 @@ def _write_pages(picture: Picture, path: Path) -> None:
             pages.savefig(sheet(rows))
 
 
-FORMATS = Formats("a picture is", {".svg": _write_svg, ".png": _write_png, ".pdf": _write_pages})
+def _write_tikz(picture: Picture, path: Path) -> None:
+    path.write_text(tikz(picture.figure), encoding="utf-8")
+
+
+FORMATS = Formats("a picture is", {".svg": _write_svg, ".png": _write_png, ".pdf": _write_pages, ".tex": _write_tikz})
