@@ -11,6 +11,7 @@ from store import diagram as drawn
 from freebody.mechanism import Mechanism
 from freebody.views.diagram.arrows import Arrow, shared
 from freebody.views.diagram.configuration import Configuration
+from freebody.views.diagram.scenery import _ROOM
 from freebody.views.labels import AIR
 from freebody.views.render import ORDER
 from freebody.views.shapes import dense, inside
@@ -82,6 +83,13 @@ def test_what_meets_is_seen_to_meet():
     assert cross(across, up) and not cross(across + (0, 16), up) and not cross(across + (10, 0), up)
     line = dense([across], 1.0)
     assert passes(line, np.array([8.0, 0.0]), np.array([12.0, 9.0])) and not passes(line, np.zeros(2), np.array([9.0, 4.0]))
+
+
+@pytest.mark.parametrize("model", ["GEN-SUSP/one_sided", "GEN-SUSP/model"])
+def test_a_body_that_is_loaded_far_away_is_drawn_as_small_as_it_takes(model):
+    """The road presses on a quarter car's wheel, a particle, a tyre's deflection away, which was drawn a yard long."""
+    for panel in panels(model, None, False):
+        assert (np.ptp(panel.scenery.obstacles, axis=0) < (2 * _ROOM[0], 2 * _ROOM[1])).all()
 
 
 @every_model

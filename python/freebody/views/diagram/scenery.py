@@ -109,7 +109,11 @@ def scenery(source: CompiledModel, state: State, free: FreeBodies, group: Sequen
     """The bodies of a group, without coordinates, as large as the paper allows, or ``size`` of that."""
     width, height = _ROOM if len(group) == 1 else _WIDER if len(group) <= CROWD else _WIDEST
     room, block = (size * width, size * height), _BLOCK if len(group) == 1 else _SMALL_BLOCK
-    sketch, scale = _fitted(source, state, room, lambda sketch: [each.points for each in _strokes(sketch, group, 1.0)], block)
+
+    def seen(sketch: Sketch) -> list[Array]:
+        return [*(each.points for each in _strokes(sketch, group, 1.0)), *(at[None] for _, at in _loaded(sketch, free, group))]
+
+    sketch, scale = _fitted(source, state, room, seen, block)
     strokes = _strokes(sketch, group, scale)
     strokes = _arms(strokes, sketch, free, group, scale) + strokes
     centres = {name: scale * np.array(free.bodies[name].G) for name in group}
@@ -178,18 +182,23 @@ def _strokes(sketch: Sketch, group: Collection[str], scale: float, hidden: Colle
 def _arms(strokes: list[Drawn], sketch: Sketch, free: FreeBodies, group: Collection[str], scale: float) -> list[Drawn]:
     """An arm of its body to every force that would hang in the air."""
     arms = []
-    cuts = [(load, part) for load in free.loads for part in load.on if part.body in group and any(part.force)]
-    for load, part in cuts:
-        own = [stroke for stroke in strokes if stroke.body == part.body and stroke.style not in _LOOSE]
+    for body, place in _loaded(sketch, free, group):
+        own = [stroke for stroke in strokes if stroke.body == body and stroke.style not in _LOOSE]
         solid = [stroke for stroke in own if stroke.style in _SOLID]
-        at, seen = scale * attached(load, part, sketch), shapes.dense([stroke.line for stroke in own])
+        at, seen = scale * place, shapes.dense([stroke.line for stroke in own])
         if not solid or any(shapes.inside(stroke.points, at[None]) for stroke in solid):
             continue
         gaps = np.hypot(*(seen - at).T)
         if gaps.min() > _BESIDE:
             outline = shapes.rounded_hull(np.array([seen[gaps.argmin()], at]), 0.6 * SYMBOL)
-            arms.append(Drawn("body", outline, solid[0].tint, True, part.body))
+            arms.append(Drawn("body", outline, solid[0].tint, True, body))
     return arms
+
+
+def _loaded(sketch: Sketch, free: FreeBodies, group: Collection[str]) -> list[tuple[str, Array]]:
+    """Where forces act on the bodies of a group, with the body, in m."""
+    cuts = [(load, part) for load in free.loads for part in load.on if part.body in group and any(part.force)]
+    return [(part.body, attached(load, part, sketch)) for load, part in cuts]
 
 
 def _joining(sketch: Sketch, among: Collection[str] | None = None) -> list[Array]:
