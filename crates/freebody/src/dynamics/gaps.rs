@@ -3,9 +3,10 @@
 use super::rows::{closing_rows, joint_rows};
 use super::{compliant_force, DynamicsError, Source, Workspace};
 use crate::bound_values::BoundValues;
-use crate::kinematics::MotionView;
+use crate::kinematics::{Config, MotionView, Travel, TravelView};
 use crate::mechanism::{Gap, Group, Mechanism, Part};
 use crate::mode::{Border, ContactMode, ContactState, Feature, Mode};
+use crate::scalar::Ball;
 
 /// Depth, over the characteristic length, to which a unilateral constraint may be violated at the start.
 const SHALLOW: f64 = 1e-8;
@@ -179,11 +180,28 @@ impl Workspace<'_> {
     /// Of every contact, stop and string a distance that its two bodies keep at least, m, where they are clearly apart:
     /// then none of its unilateral constraints is near.
     pub fn apart(&self) -> Vec<Option<f64>> {
-        let apart = |(group, reach): (&Group, &[f64; 2])| {
-            let [a, b] = group.ends.map(|body| self.k.pose[body].at);
-            Some((a - b).norm() - reach[0] - reach[1]).filter(|&least| least > CLEARLY_APART * self.length)
-        };
-        self.m.groups.iter().zip(&self.reaches).map(apart).collect()
+        let clearly = |g: usize| Some(self.distance_kept(g)).filter(|&least| least > CLEARLY_APART * self.length);
+        (0..self.m.groups.len()).map(clearly).collect()
+    }
+
+    /// A distance that the two bodies of a contact keep at least, m; below 0 where it is not known.
+    fn distance_kept(&self, g: usize) -> f64 {
+        let [a, b] = self.m.groups[g].ends.map(|body| self.k.pose[body].at);
+        (a - b).norm() - self.reaches[g][0] - self.reaches[g][1]
+    }
+
+    /// The gap of an open unilateral constraint, or a distance that keeps it open, with how far that goes at most; None
+    /// where it has no bound.
+    pub fn gap_bound(&self, l: usize, travel: &Travel) -> Option<Ball> {
+        let (constraint, view) = (&self.m.unilateral[l], TravelView { at: self.at(), travel });
+        let [a, b] = self.m.groups[constraint.group].ends;
+        let apart = Ball { mid: self.distance_kept(constraint.group), radius: travel.way(a) + travel.way(b) };
+        match &constraint.gap {
+            _ if apart.mid > 2.0 * apart.radius => Some(apart),
+            Gap::ContactPair(touch) if touch.has_one_feature() => Some(touch.gap(self.m, &view, 0)),
+            Gap::Gauge(law) => Some(law.eval(&Config { poses: &view, m: self.m, mode: self.mode() })),
+            Gap::ContactPair(_) | Gap::Cable(_) => None,
+        }
     }
 
     /// The present mode with the present features of all open unilateral constraints, those apart left as they were;
@@ -286,7 +304,8 @@ impl Workspace<'_> {
     /// Whether the rows of the last solution leave nothing free, and no motion drives it.
     pub fn is_locked(&self) -> bool {
         let driven = self.at().drives().any(|(_, drive)| drive.is_motion());
-        !driven && self.dense.saddle.dof() == 0
+        let dof = if self.is_closed() { self.dense.saddle.dof() } else { self.m.freedom() };
+        !driven && dof == 0
     }
 
     /// The present mode with the values of all rows of which only the change counts as their zeros.

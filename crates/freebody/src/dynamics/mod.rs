@@ -60,8 +60,8 @@ pub use term_scales::TermScales;
 use crate::bound_values::BoundValues;
 pub use crate::error::DynamicsError;
 use crate::kinematics::{gradient, Kinematics, State, StateView};
-use crate::mechanism::{self, Mechanism};
-use crate::mode::Mode;
+use crate::mechanism::{self, Mechanism, Part};
+use crate::mode::{ContactMode, Mode};
 use crate::plane::{Twist, Vec2, Wrench};
 use generalized_force::{generalized_force, size_of_power, visit_ancestors};
 
@@ -119,9 +119,17 @@ struct Placed {
     t: f64,
     q: Vec<f64>,
     u: Vec<f64>,
+    /// Whether the kinematics are of these numbers and this state.
+    is_known: bool,
 }
 
 impl Placed {
+    /// Whether this is the state where the kinematics are, to the last bit.
+    fn is_at(&self, t: f64, q: &[f64], u: &[f64]) -> bool {
+        let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits());
+        self.is_known && same(&[self.t], &[t]) && same(&self.q, q) && same(&self.u, u)
+    }
+
     fn view<'a>(&'a self, m: &'a Mechanism, n: &'a BoundValues, k: &'a Kinematics) -> StateView<'a> {
         StateView { m, n, k, q: &self.q, u: &self.u, t: self.t, mode: self.bearing.as_ref().unwrap_or(&self.mode) }
     }
@@ -170,7 +178,14 @@ impl<'m> Workspace<'m> {
             reaches,
             turning_gaps: m.unilateral.iter().map(|constraint| constraint.gap.turns(m)).collect(),
             k: Kinematics::of(m),
-            placed: Placed { mode: Mode::free(m), bearing: None, t: 0.0, q: vec![0.0; freedom], u: vec![0.0; freedom] },
+            placed: Placed {
+                mode: Mode::free(m),
+                bearing: None,
+                t: 0.0,
+                q: vec![0.0; freedom],
+                u: vec![0.0; freedom],
+                is_known: false,
+            },
             arms: vec![Vec2::zero(); bodies],
             loads: vec![Wrench::zero(); bodies],
             rows: vec![],
@@ -200,6 +215,7 @@ impl<'m> Workspace<'m> {
     /// Takes other parameters.
     pub fn rebind(&mut self, p: &[f64]) {
         self.n = self.m.bind(p);
+        self.placed.is_known = false;
         self.length = self.m.characteristic_length(&self.n).unwrap_or(self.length);
         self.reaches = gaps::reaches(self.m, &self.n);
     }
@@ -221,9 +237,13 @@ impl<'m> Workspace<'m> {
     /// Goes to another state in the present mode.
     pub fn move_to(&mut self, t: f64, q: &[f64], u: &[f64]) {
         self.placed.bearing = None;
+        if self.placed.is_at(t, q, u) {
+            return;
+        }
         self.placed.t = t;
         self.placed.q.copy_from_slice(q);
         self.placed.u.copy_from_slice(u);
+        self.placed.is_known = true;
         self.k.forward_kinematics(self.m, &self.n, q, u);
         if self.length == 0.0 {
             // Where all is in one place no lever has a length: any unit will do.
@@ -233,7 +253,9 @@ impl<'m> Workspace<'m> {
 
     /// Gives the states with a rate of their own their values.
     pub fn set_states(&mut self, states: &[f64]) {
-        self.n.p[self.m.first_state()..].copy_from_slice(states);
+        let known = &mut self.n.p[self.m.first_state()..];
+        self.placed.is_known &= *known == *states;
+        known.copy_from_slice(states);
     }
 
     /// The rates of the states with a rate of their own.
@@ -308,6 +330,7 @@ impl<'m> Workspace<'m> {
         let at = self.placed.view(self.m, &self.n, &self.k);
         match route {
             Route::Minimal if !self.is_closed() => {
+                self.rows.clear();
                 self.solved.lambda.clear();
                 let s = &mut self.solved;
                 self.articulated_body.solve(
@@ -358,9 +381,13 @@ impl<'m> Workspace<'m> {
         }
     }
 
-    /// Whether anything but the tree constrains the motion.
+    /// Whether anything but the tree constrains the motion in the present mode.
     pub fn is_closed(&self) -> bool {
-        !self.m.closures.is_empty() || !self.m.drives.is_empty() || self.m.is_hybrid()
+        let mode = &self.placed.mode;
+        self.m.closures.iter().any(|&joint| mode.has(Part::Joint(joint)))
+            || self.at().drives().next().is_some()
+            || mode.contacts.iter().any(|contact| contact.mode.is_closed())
+            || mode.joint_friction.contains(&ContactMode::Stick)
     }
 
     /// What the last solution found.

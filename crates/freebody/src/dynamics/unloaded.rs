@@ -58,6 +58,6 @@ impl Workspace<'_> {
 
     /// Rows of the last solution that follow from the others.
     fn superfluous_rows(&self) -> usize {
-        self.rows.len() - self.dense.saddle.rank().rank
+        self.rows.len() - if self.rows.is_empty() { 0 } else { self.dense.saddle.rank().rank }
     }
 }

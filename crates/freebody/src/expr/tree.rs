@@ -150,6 +150,18 @@ impl<L> Expr<L> {
         }
     }
 
+    /// Whether no value decides how it is evaluated: it is made of sums, products, quotients, whole powers and functions that
+    /// have one formula.
+    pub fn is_without_choice(&self) -> bool {
+        use Function::{Cos, Exp, Ln, Sin, Sqrt, Tan};
+        self.ops.iter().all(|op| match op {
+            Op::Constant(_) | Op::Variable(_) | Op::Negate(_) | Op::Whole(..) => true,
+            Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) | Op::Divide(..) => true,
+            Op::Apply(function, _) => matches!(function, Sqrt | Exp | Ln | Sin | Cos | Tan),
+            _ => false,
+        })
+    }
+
     /// Whether nothing in it can change: it has no leaves.
     pub fn is_constant(&self) -> bool {
         self.variables().next().is_none()

@@ -3,6 +3,7 @@
 //! State y = [q, u, works]: coordinates, their rates, and the work of every force without a potential and of
 //! every prescribed motion, so that the energy ledger has the accuracy of the motion.
 
+mod bounds;
 mod cable_singularity;
 mod canonical;
 mod dead_position;

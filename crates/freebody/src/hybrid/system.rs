@@ -7,10 +7,10 @@ use super::scales::ROUNDOFF;
 use super::works::Works;
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
-use crate::kinematics::State;
+use crate::kinematics::{State, Travel};
 use crate::mechanism::{Discontinuity, EventAction};
 use crate::mode::Mode;
-use crate::motion::{After, Canonical, EventRecord, EventSpec, System};
+use crate::motion::{After, Canonical, EventRecord, EventSpec, Segment, System};
 use crate::plane::Vec2;
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
@@ -47,6 +47,11 @@ pub struct Phase {
 pub struct HybridSystem<'m> {
     pub(super) workspace: Workspace<'m>,
     switching_functions: Vec<SwitchingFunction>,
+    /// Whether all switching functions have bounds as long as nothing touches or rubs; how far the bodies go in a step, about
+    /// its middle.
+    pub(super) may_have_bounds: bool,
+    pub(super) travel: Travel,
+    pub(super) middle: Vec<f64>,
     /// What is active now.
     pub(super) mode: Mode,
     /// What works are integrated.
@@ -97,6 +102,9 @@ impl<'m> HybridSystem<'m> {
         HybridSystem {
             workspace,
             switching_functions: SwitchingFunction::all(m).collect(),
+            may_have_bounds: SwitchingFunction::all(m).all(|function| function.may_have_bound(m)),
+            travel: Travel::default(),
+            middle: vec![],
             mode,
             works,
             rule: Rule::Stop,
@@ -234,6 +242,12 @@ impl<'m> HybridSystem<'m> {
         (dt, [independence(t, y), independence(t + dt, &later)])
     }
 
+    /// A gap is known to the round-off of places and angles, which grows with them.
+    pub(super) fn note_roundoff(&mut self, y: &[f64]) {
+        let largest = y.iter().zip(&self.units).map(|(q, unit)| q.abs() / unit).fold(1.0, f64::max);
+        self.roundoff_scale = self.roundoff_scale.max(ROUNDOFF * largest);
+    }
+
     /// Kinetic and potential energy at a state.
     pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
         self.place(t, y);
@@ -288,7 +302,9 @@ impl System for HybridSystem<'_> {
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, DynamicsError> {
+        self.workspace.enter(&self.mode);
         if !self.workspace.is_closed() || self.mode.resting {
+            self.taut_segments.clear();
             return Ok(0.0);
         }
         let n = self.workspace.m.freedom();
@@ -354,9 +370,7 @@ impl System for HybridSystem<'_> {
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
         let m = self.workspace.m;
-        // A gap is known to the round-off of places and angles, which grows with them.
-        let largest = y.iter().zip(&self.units).map(|(q, unit)| q.abs() / unit).fold(1.0, f64::max);
-        self.roundoff_scale = self.roundoff_scale.max(ROUNDOFF * largest);
+        self.note_roundoff(y);
         let laws: Vec<&ModelExpr> = m.events.iter().map(|e| &e.when).collect();
         let values = if laws.is_empty() { vec![] } else { self.read(&laws, t, y)? };
         out[..values.len()].copy_from_slice(&values);
@@ -372,6 +386,10 @@ impl System for HybridSystem<'_> {
         Ok(())
     }
 
+    fn switch_bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> bool {
+        self.bounds(on, out)
+    }
+
     fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, DynamicsError> {
         Ok(match self.switching_functions[i] {
             SwitchingFunction::Contact(l, guard) => self.guard_value(l, guard, t, y),
@@ -381,9 +399,6 @@ impl System for HybridSystem<'_> {
 
     fn switch_value_closed(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, DynamicsError> {
         let SwitchingFunction::Contact(l, guard) = self.switching_functions[i] else { return Ok(None) };
-        if !self.workspace.is_closed() {
-            return Ok(None);
-        }
         let (n, mut y) = (self.workspace.m.freedom(), y.to_vec());
         let (q, rest) = y.split_at_mut(n);
         self.workspace.project_positions_with(&self.mode, t, q, &rest[..n], &self.locked)?;
@@ -453,7 +468,10 @@ impl System for HybridSystem<'_> {
     }
 
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {
-        if self.workspace.is_closed() || !(self.works.forces.is_empty() && self.workspace.m.state_rates.is_empty()) {
+        if self.workspace.is_closed()
+            || self.workspace.m.is_hybrid()
+            || !(self.works.forces.is_empty() && self.workspace.m.state_rates.is_empty())
+        {
             return None;
         }
         Some(self)

@@ -189,6 +189,7 @@ impl Trajectory {
             let known = last.take().filter(|(from, _)| *from == phase.from);
             let (_, workspace) = last.insert(known.unwrap_or_else(|| (phase.from, Workspace::new(m, &phase.p))));
             workspace.set_states(self.states(m, &y));
+            workspace.enter(&phase.mode);
             if workspace.is_closed() && !phase.mode.resting {
                 let (q, rest) = y.split_at_mut(n);
                 workspace.project_positions_with(&phase.mode, t, q, &rest[..n], &phase.locked)?;

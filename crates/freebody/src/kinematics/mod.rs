@@ -8,10 +8,12 @@
 
 mod joint_view;
 mod measure;
+mod travel;
 mod view;
 
 pub use joint_view::JointView;
 pub use measure::{gradient, jet, Config, Observed, State};
+pub use travel::{Travel, TravelView};
 pub use view::{relative, MotionView, Poses, SeededView, StateView, ValuesView};
 
 use crate::bound_values::BoundValues;

@@ -367,7 +367,7 @@ impl<S: Scalar> SeededView<'_, S> {
 }
 
 /// A coordinate of a joint read off the bodies.
-fn measured<S: Scalar, T: Scalar>(
+pub(super) fn measured<S: Scalar, T: Scalar>(
     m: &Mechanism,
     n: &BoundValues<S>,
     poses: &impl Poses<T>,

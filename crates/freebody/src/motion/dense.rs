@@ -54,6 +54,19 @@ impl Segment {
         }
     }
 
+    /// In how many parts [`Segment::part`] splits the motion about the middle of the step.
+    pub fn parts(&self) -> usize {
+        1 + self.bends.len() / self.y0.len().max(1)
+    }
+
+    /// Part `k` of how far component `i` goes from the middle of the step at most: it goes there by the sum of all parts, each
+    /// times a factor from −1 to 1 that is the same for all components. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to
+    /// below twice its value 2⁻ᵃ⁻ᵇ at the middle.
+    pub fn part(&self, k: usize, i: usize) -> f64 {
+        let full = if k == 0 { self.y1[i] - self.y0[i] } else { self.bends[(k - 1) * self.y0.len() + i] };
+        full / f64::from(2_u32 << k)
+    }
+
     /// State at the start of the step.
     pub fn start(&self) -> &[f64] {
         &self.y0

@@ -102,6 +102,12 @@ impl Memory {
         beyond(value, NOISE * self.size)
     }
 
+    /// Whether a function that goes so far from a value stays clearly on the side where it is.
+    fn is_kept_away(&self, [value, most]: [f64; 2]) -> bool {
+        let (is_calm, noise) = (!self.is_spent && self.now.grazes.is_none(), TOUCH * self.size.max(value.abs()));
+        is_calm && value.abs() - noise > CLEAR_OF_ZERO * most && self.now.side == value.signum() as i8
+    }
+
     /// Values below this, at an extremum, touch zero.
     fn near(&self, place: Place) -> f64 {
         (TOUCH * self.size).max(self.graze * place.reach)
@@ -127,6 +133,9 @@ pub(super) struct EventDetector {
     rtol: f64,
     /// What acts on the segment last searched, or does not, and is not sure.
     pub unresolved: Vec<Unresolved>,
+    /// Whether all functions are bounded away from zero on the segment last searched.
+    pub is_clear: bool,
+    bounds: Vec<[f64; 2]>,
 }
 
 impl EventDetector {
@@ -145,8 +154,9 @@ impl EventDetector {
             let doubt = if spec.acts { DOUBT * rtol } else { 0.0 };
             Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze, doubt }
         };
-        let memory = (0..system.switches()).map(memory).collect();
-        Self { memory, points: chebyshev_points(), rtol, unresolved: vec![] }
+        let memory: Vec<Memory> = (0..system.switches()).map(memory).collect();
+        let bounds = vec![[0.0; 2]; memory.len()];
+        Self { memory, points: chebyshev_points(), rtol, unresolved: vec![], is_clear: false, bounds }
     }
 
     pub fn is_idle(&self) -> bool {
@@ -155,6 +165,10 @@ impl EventDetector {
 
     /// All zeros on a segment, in the order of the run.
     pub fn search(&mut self, system: &mut dyn System, on: &Segment) -> Result<Vec<Mark>, DynamicsError> {
+        self.is_clear = system.switch_bounds(on, &mut self.bounds) && self.stays_clear();
+        if self.is_clear {
+            return Ok(vec![]);
+        }
         let mut probe = Probe::new(system, on);
         let mut samples = vec![[0.0; SAMPLES]; self.memory.len()];
         for (j, &x) in self.points.iter().enumerate() {
@@ -178,6 +192,20 @@ impl EventDetector {
         }
         marks.sort_by(|a, b| (a.t - on.t0).abs().total_cmp(&(b.t - on.t0).abs()));
         Ok(marks)
+    }
+
+    /// Whether the bounds keep every function where it is; if so, they are what is known of it.
+    fn stays_clear(&mut self) -> bool {
+        let mut all = self.memory.iter().zip(&self.bounds);
+        if !all.all(|(memory, &bound)| memory.is_muted || memory.is_kept_away(bound)) {
+            return false;
+        }
+        self.unresolved.clear();
+        for (memory, [value, _]) in self.memory.iter_mut().zip(&self.bounds) {
+            memory.size = memory.size.max(value.abs());
+            memory.ahead = Place { reach: memory.now.reach.max(value.abs()), ..memory.now };
+        }
+        true
     }
 
     /// The samples and, when zero is near, the extrema of the function, in order: between two

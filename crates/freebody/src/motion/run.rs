@@ -182,7 +182,9 @@ impl<'a> Runner<'a> {
         if marks.iter().any(|mark| mark.kind == Kind::Crossing) {
             self.go_to_event(segment, &marks)?;
         } else {
-            self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::DynamicsError)?;
+            if !self.detector.is_clear {
+                self.system.system.check(segment.t1, &self.next.y).map_err(Outcome::DynamicsError)?;
+            }
             self.note_touches(&segment, &marks, segment.t1);
             self.note_unresolved(&segment, segment.t1);
             self.push(segment);

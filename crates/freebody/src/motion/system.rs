@@ -1,5 +1,6 @@
 //! What an integrator may ask of the thing that moves.
 
+use super::dense::Segment;
 pub use crate::error::DynamicsError;
 
 /// How a switching function is watched.
@@ -128,6 +129,12 @@ pub trait System {
     /// A named failure; the run ends with it.
     fn switch_values(&mut self, _t: f64, _y: &[f64], _out: &mut [f64]) -> Result<(), DynamicsError> {
         Ok(())
+    }
+
+    /// Writes bounds of all switching functions on a step: the value of each in the middle, and how far it goes from there
+    /// at most. False, and nothing is known, where one has no bound.
+    fn switch_bounds(&mut self, _on: &Segment, _out: &mut [[f64; 2]]) -> bool {
+        false
     }
 
     /// The value of one switching function at (t, y), where that costs less than all; else none.

@@ -1,15 +1,17 @@
 //! The number. Every formula of mechanics is written once over [`Scalar`] and read as
-//! `f64` (values), [`Dual`] (exact gradients), [`Jet`] (exact time derivatives) or, in `algebra`, as
-//! a symbol (equations).
+//! `f64` (values), [`Dual`] (exact gradients), [`Jet`] (exact time derivatives), [`Ball`] (bounds) or, in
+//! `algebra`, as a symbol (equations).
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+mod ball;
 #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds, the quotient rule subtracts")]
 mod dual;
 mod jet;
 pub mod real;
 
+pub use ball::Ball;
 pub use dual::Dual;
 pub use jet::Jet;
 

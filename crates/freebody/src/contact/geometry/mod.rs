@@ -50,6 +50,11 @@ impl ContactPair {
         }
     }
 
+    /// Whether the same formula tells the gap everywhere: the surface has no ends and no corners.
+    pub fn has_one_feature(&self) -> bool {
+        matches!(self.against, Profile::Line(_) | Profile::Circle { .. })
+    }
+
     /// Where the feature ends.
     pub fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: usize) -> Vec<Border> {
         match &self.against {

@@ -1,0 +1,118 @@
+//! How far bodies go while the coordinates go their ways: a bound, found in one pass along the tree.
+
+use super::view::measured;
+use super::{Poses, StateView};
+use crate::mechanism::{Joint, TreeJoint};
+use crate::plane::{Pose, Turn, Vec2};
+use crate::scalar::{Ball, Scalar};
+
+/// Bounds of how far the bodies go from a state while each coordinate goes by Σₖ wₖ dₖ, where |wₖ| ≤ 1: all coordinates
+/// together, so that what opposite turns leave of each other is found.
+#[derive(Clone, Debug, Default)]
+pub struct Travel {
+    /// Of each body, how far its joint origin goes at most, m.
+    way: Vec<f64>,
+    /// How far it turns at most, rad.
+    turn: Vec<f64>,
+    /// How far it turns in each part of the motion, rad.
+    turns: Vec<f64>,
+    /// How far each coordinate goes at most.
+    change: Vec<f64>,
+    /// How far time goes, s.
+    time: f64,
+}
+
+impl Travel {
+    /// Takes the changes dₖ of the coordinates in each of `parts` parts of a motion that lasts from `time` before the state
+    /// to `time` after it. What hangs on a joint along a curve may go anywhere.
+    pub fn follow(&mut self, at: StateView<'_>, parts: usize, part: impl Fn(usize, usize) -> f64, time: f64) {
+        let bodies = at.m.bodies.len();
+        self.time = time;
+        self.change.clear();
+        self.change.extend((0..at.q.len()).map(|i| (0..parts).map(|k| part(k, i).abs()).sum::<f64>()));
+        for list in [&mut self.way, &mut self.turn] {
+            list.clear();
+            list.resize(bodies, 0.0);
+        }
+        self.turns.clear();
+        self.turns.resize(bodies * parts, 0.0);
+        for body in 1..bodies {
+            let Some(b) = at.m.bodies[body].tree_joint else { continue };
+            let joint = &at.m.joints[b.joint];
+            let (mut shift, mut spin) = (0.0, 0.0);
+            for k in 0..parts {
+                let carried = self.turns[b.parent * parts + k];
+                let mut turned = if at.m.bodies[body].particle { 0.0 } else { carried };
+                for (j, coordinate) in joint.coordinates.iter().enumerate() {
+                    let own = coordinate.reading(&at.n.values).to_joint(0.0, part(k, b.start + j), 0.0, carried).1;
+                    *(if coordinate.dimension == "m" { &mut shift } else { &mut spin }) += own.abs();
+                    turned += at.k.motion_subspace[body][j].w * own;
+                }
+                self.turns[body * parts + k] = turned;
+                self.turn[body] += turned.abs();
+            }
+            let swing = self.turn[b.parent] * at.k.arm[body].norm();
+            self.way[body] = self.way[b.parent] + swing + joint_way(at, body, joint, b, [shift, spin]);
+        }
+    }
+
+    /// How far the joint origin of a body goes at most, m.
+    pub fn way(&self, body: usize) -> f64 {
+        self.way[body]
+    }
+}
+
+/// How far a joint moves its second body's origin in the first body's axes, its coordinates shifting and turning by so much:
+/// what they turn is no longer than from one body's point to the other's.
+fn joint_way(at: StateView<'_>, body: usize, joint: &Joint, b: TreeJoint, [shift, spin]: [f64; 2]) -> f64 {
+    match (b.hinge, joint.curve) {
+        (true, _) => 0.0,
+        (_, Some(_)) => f64::INFINITY,
+        _ => {
+            let from = at.k.pose[b.parent].turn.apply(at.n.arms[joint.sides(b.reversed).0.site]);
+            shift + spin * ((at.k.arm[body] - from).norm() + shift)
+        }
+    }
+}
+
+/// A state with bounds of how far everything goes about it: measures come with theirs.
+pub struct TravelView<'a> {
+    /// The state.
+    pub at: StateView<'a>,
+    /// How far its bodies go.
+    pub travel: &'a Travel,
+}
+
+impl Poses<Ball> for TravelView<'_> {
+    fn pose(&self, body: usize) -> Pose<Ball> {
+        let (Pose { at, turn }, way, radius) = (self.at.k.pose[body], self.travel.way[body], self.travel.turn[body]);
+        let about = |mid: f64, radius: f64| Ball { mid, radius };
+        let chord = radius.min(2.0);
+        Pose {
+            at: Vec2 { x: about(at.x, way), y: about(at.y, way) },
+            turn: Turn { angle: about(turn.angle, radius), cos: about(turn.cos, chord), sin: about(turn.sin, chord) },
+        }
+    }
+    fn arm(&self, site: usize) -> Vec2<Ball> {
+        let arm = self.at.n.arms[site];
+        Vec2 { x: Ball::of(arm.x), y: Ball::of(arm.y) }
+    }
+    fn value(&self, id: usize) -> Ball {
+        Ball::of(self.at.n.values[id])
+    }
+    fn parameter(&self, i: usize) -> Ball {
+        Ball::of(self.at.n.p[i])
+    }
+    fn state(&self, i: usize) -> Ball {
+        Ball { mid: self.at.state(i), radius: f64::INFINITY }
+    }
+    fn time(&self) -> Ball {
+        Ball { mid: self.at.t, radius: self.travel.time }
+    }
+    fn coordinate(&self, joint: usize, k: usize) -> Ball {
+        match self.at.m.place_in_q(joint, k) {
+            Some(i) => Ball { mid: self.at.q[i], radius: self.travel.change[i] },
+            None => measured(self.at.m, self.at.n, self, joint, k, Ball::of),
+        }
+    }
+}
