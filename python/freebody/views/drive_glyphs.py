@@ -8,13 +8,13 @@ import numpy as np
 
 from freebody.core import GROUND, Array
 from freebody.views import shapes
+from freebody.views.glyphs import guided_point
 from freebody.views.sketch import Sketch
 
 _TURN, _SPIRAL = 2.2, (0.7, 1.9)  # sizes of symbols: radius of a turning arrow, first and last radius of a spiral
 _TURNS = 2.25
 _HEAD = 0.6
 _ASIDE, _LONG = 2.4, 2.0  # sizes of symbols: how far from a guide an arrow along it lies, and half its length
-_GUIDED = ("slot", "slider", "rollers")
 
 
 def draw_drives(sketch: Sketch) -> None:
@@ -30,8 +30,8 @@ def draw_drives(sketch: Sketch) -> None:
             continue
         if joint["type"] == "hinge":
             _about(sketch, joint, _turning())
-        elif joint["type"] in _GUIDED:
-            _along(sketch, joint)
+        elif point := guided_point(joint):
+            _along(sketch, joint, point)
 
 
 def _hinge(sketch: Sketch, bodies: set[Any]) -> dict[str, Any] | None:
@@ -51,11 +51,9 @@ def _about(sketch: Sketch, hinge: dict[str, Any], lines: list[Array]) -> None:
         sketch.figures[body].add(at + sketch.size * line, "coil", closed=False, about=at)
 
 
-def _along(sketch: Sketch, joint: dict[str, Any]) -> None:
+def _along(sketch: Sketch, joint: dict[str, Any], point: str) -> None:
     """An arrow to and fro beside what a guide leads, along the guide."""
-    own = joint["with"]
-    point = own.get("point") or (own["points"][0] if "points" in own else own["line"]["point"])
-    carrier, _, way = sketch.line(own["along"])
+    carrier, _, way = sketch.line(joint["with"]["along"])
     body, at = sketch.at[point]
     poses = sketch.poses[0, [sketch.names.index(carrier), sketch.names.index(body)], 2]
     line = _LONG * np.array([[-1.0, 0.0], [1.0, 0.0]]) + (0, _ASIDE)

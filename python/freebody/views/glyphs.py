@@ -65,14 +65,22 @@ def _ends(sketch: Sketch, fields: Fields) -> list[Place] | None:
         coordinates = next((each["coordinates"] for each in given if each["name"] == joint["name"]), [])
         if coordinates[:1] == [along] and joint["type"] == "polar":
             return [sketch.at[point] for point in own["of"]]
-        if coordinates[:1] == [along] and joint["type"] in ("slot", "slider", "rollers"):
-            point = own.get("point") or (own["points"][0] if "points" in own else own["line"]["point"])
+        if coordinates[:1] == [along] and (point := guided_point(joint)):
             return _from_wall(sketch, *sketch.line(own["along"]), point)
     if (found := re.fullmatch(r"([xy])\((.+)\)", along)) and found[2] in sketch.at:
         way = np.array([1.0, 0.0] if found[1] == "x" else [0.0, 1.0])
         middle = sketch.seen_from(GROUND, found[2]).mean(axis=0) * way[::-1]
         return _from_wall(sketch, GROUND, middle, way, found[2])
     return None
+
+
+def guided_point(joint: Mapping[str, Any]) -> str | None:
+    """The point that a slot, a slider or rollers lead along a line; None of any other joint."""
+    own = joint["with"]
+    if joint["type"] not in ("slot", "slider", "rollers"):
+        return None
+    point: str = own.get("point") or (own["points"][0] if "points" in own else own["line"]["point"])
+    return point
 
 
 def _from_wall(sketch: Sketch, body: str, origin: Array, along: Array, point: str) -> list[Place]:

@@ -14,6 +14,7 @@ from freebody.views.drive_glyphs import draw_drives
 from freebody.views.glyphs import draw_forces, draw_joints
 from freebody.views.impact_markers import impact_markers
 from freebody.views.sketch import Figure, Sketch, Stroke, named_points
+from freebody.views.stop_glyphs import draw_stops
 
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
@@ -39,6 +40,7 @@ def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Sketch:
     draw_drives(sketch)
     draw_contacts(sketch)
     draw_strings(sketch)
+    draw_stops(sketch)
     sketch.traces = _worth_tracing(sketch) if traces is None else list(traces)
     return sketch
 
@@ -47,6 +49,7 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     """The shapes of its pieces; for a body without shape, the hull of its points."""
     figure, look = sketch.figures[body["name"]], sketch.looks.get(body["name"], {})
     thickness = sketch.stated(look["thickness"]) / 2 if "thickness" in look else 0.8 * sketch.size
+    tips = _tips(sketch, body["name"])
     outline = sketch.outlines.get(body["name"])
     if outline == "none":
         return
@@ -57,14 +60,16 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
             else sketch.at[corner if corner in sketch.at else f"{body['name']}.{corner}"][1]
             for corner in outline
         ])  # fmt: skip
-        figure.add(named if len(named) > 2 else shapes.rounded_hull(named, thickness), "body")
+        figure.add(named if len(named) > 2 else shapes.rounded_hull(named, thickness, tips), "body")
         return
     for piece in body["pieces"]:
         sizes = {name: sketch.number(size) for name, size in piece.get("sizes", {}).items()}
         corners = np.array([[sketch.number(x) for x in corner] for corner in piece.get("corners", [])])
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
-        for points, style in _outlines(sketch, body["name"], piece["shape"], sizes, corners, thickness):
-            placed, place = shapes.turn(points, sketch.number(piece.get("angle", 0.0)), at), np.array(at)
+        angle = sketch.number(piece.get("angle", 0.0))
+        own_tips = shapes.turn(tips - at, -angle)
+        for points, style in _outlines(sketch, body["name"], piece["shape"], sizes, corners, thickness, own_tips):
+            placed, place = shapes.turn(points, angle, at), np.array(at)
             figure.add(placed, style, len(points) > 2, about=place if style == "mass" else None)
     masses = [stroke.points.mean(axis=0) for stroke in figure.strokes if stroke.style == "mass"]
     if 1 < len(masses) == len(figure.strokes):  # held together by a bar without mass
@@ -72,13 +77,21 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     joined = {name for joint in sketch.spec["joints"] for name in named_points(joint["with"])}
     own = np.array([at for name, at in figure.points.items() if not name.endswith(".origin") or name in joined] or [(0.0, 0.0)])
     if any(stroke.style in ("body", "band", "mass") for stroke in figure.strokes):
-        _reach_out(figure, own, thickness)
+        _reach_out(figure, own, thickness, tips)
     else:
-        figure.add(shapes.rounded_hull(own, thickness), "body")
+        figure.add(shapes.rounded_hull(own, thickness, tips), "body")
+
+
+def _tips(sketch: Sketch, body: str) -> Array:
+    """Points (k, 2) with which a body may touch something: there it ends, however thick it is drawn."""
+    touching = [
+        surface["point"] for contact in sketch.spec.get("contacts", []) for surface in contact["of"] if "point" in surface
+    ]
+    return np.array([sketch.at[name][1] for name in touching if sketch.at[name][0] == body]).reshape(-1, 2)
 
 
 def _outlines(
-    sketch: Sketch, body: str, shape: str, sizes: Mapping[str, float], corners: Array, thickness: float
+    sketch: Sketch, body: str, shape: str, sizes: Mapping[str, float], corners: Array, thickness: float, tips: Array
 ) -> list[tuple[Array, str]]:
     """Outlines of a piece with their style, as the look of its body has them; what goes on rollers has these for wheels."""
     look = sketch.looks.get(body, {})
@@ -90,10 +103,10 @@ def _outlines(
         return shapes.wheel(sizes["radius"], rim, int(look.get("spokes", 0)))
     if shape == "rectangle" and "wheels" in look and not rolls:
         return shapes.cart(sizes["width"], sizes["height"], sketch.stated(look["wheels"]))
-    return shapes.piece_outlines(shape, sizes, corners, thickness)
+    return shapes.piece_outlines(shape, sizes, corners, thickness, tips)
 
 
-def _reach_out(figure: Figure, points: Array, thickness: float) -> None:
+def _reach_out(figure: Figure, points: Array, thickness: float, tips: Array) -> None:
     """Arms from the shape to named points that lie outside of it, so that a joint there does not hang in the air."""
     solid = np.vstack([stroke.points for stroke in figure.strokes])
     hull = shapes.convex_hull(solid)
@@ -101,7 +114,7 @@ def _reach_out(figure: Figure, points: Array, thickness: float) -> None:
         edges = np.roll(hull, -1, axis=0) - hull
         beyond = edges[:, 1] * (point[0] - hull[:, 0]) - edges[:, 0] * (point[1] - hull[:, 1])
         if (beyond > 0.1 * thickness * np.hypot(*edges.T)).any():
-            arm = shapes.rounded_hull(np.array([solid.mean(axis=0), point]), 0.6 * thickness)
+            arm = shapes.rounded_hull(np.array([solid.mean(axis=0), point]), 0.6 * thickness, tips)
             figure.strokes.insert(0, Stroke(arm, "body"))
 
 

@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike
 from freebody.core import Array
 
 _ARC_STEP = np.pi / 60
+_TIP = 3.0  # radii, the length of a tip
+NONE = np.zeros((0, 2))
 
 
 def turn(points: Array, angle: float, at: ArrayLike = (0.0, 0.0)) -> Array:
@@ -75,8 +77,18 @@ def _chain(ordered: Array) -> list[Array]:
     return chain
 
 
-def rounded_hull(points: Array, radius: float) -> Array:
-    """All places within a radius of the convex hull: a disk for one point, a capsule for two."""
+def rounded_hull(points: Array, radius: float, tips: Array = NONE) -> Array:
+    """All places within a radius of the convex hull: a disk for one point, a capsule for two. Where one of the points is among the
+    ``tips`` (k, 2), the shape ends in it, in a tip."""
+    middle = points.mean(axis=0)
+    pointed = np.array(
+        [(np.hypot(*(tips - point).T) < 1e-9 + 1e-6 * radius).any() and (point != middle).any() for point in points]
+    )
+    if pointed.any():
+        ways = middle - points[pointed]
+        lengths = np.hypot(*ways.T)[:, None]
+        blunt = points[pointed] + ways / lengths * np.minimum(_TIP * radius, lengths)
+        return convex_hull(np.vstack([rounded_hull(np.vstack([points[~pointed], blunt]), radius), points[pointed]]))
     hull = convex_hull(points)
     if len(hull) == 1:
         return circle(hull[0], radius)
@@ -96,11 +108,13 @@ def dense(lines: Sequence[Array], step: float = 2.5) -> Array:
     return found
 
 
-def piece_outlines(shape: str, sizes: Mapping[str, float], corners: Array, thickness: float) -> list[tuple[Array, str]]:
-    """Outlines with their style of a piece of a body in its own axes; ``thickness`` is that of slender parts."""
+def piece_outlines(
+    shape: str, sizes: Mapping[str, float], corners: Array, thickness: float, tips: Array = NONE
+) -> list[tuple[Array, str]]:
+    """Outlines with their style of a piece of a body in its own axes; ``thickness`` is that of slender parts, which end in ``tips``."""
     if shape == "rod":
         half = sizes["length"] / 2
-        return [(rounded_hull(np.array([[-half, 0.0], [half, 0.0]]), thickness), "body")]
+        return [(rounded_hull(np.array([[-half, 0.0], [half, 0.0]]), thickness, tips), "body")]
     if shape == "disk":
         radius = sizes["radius"]
         return [(circle((0, 0), radius), "body"), (np.array([[0.0, 0.0], [radius, 0.0]]), "mark")]
