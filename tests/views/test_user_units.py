@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import json
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -14,6 +16,8 @@ from freebody.model.user_units import choice, shown
 from freebody.solve.figures import Known
 from freebody.solve.rich_tables import captured, table
 from freebody.views import plots
+from freebody.views.report import report_html
+from freebody.views.report.data import report_data
 
 FOOT, POUND_FORCE = 0.3048, 0.45359237 * 9.80665
 """Their definitions: m, and N."""
@@ -104,6 +108,24 @@ def test_plots_are_in_the_units_of_their_axes():
     with fb.units("lb-ft"):
         ax = plots.series(run, "s")
     assert ax.get_ylabel().endswith("[ft]") and ax.lines[0].get_ydata()[0] == pytest.approx(10.0)
+
+
+def test_a_report_is_in_units_of_choice():
+    """Plots and tables have them; the page turns the rest, the numbers of its arrows, by what it is told."""
+    run = fb.Mechanism.loads(MODEL).simulate()
+    with fb.units("lb-ft"):
+        data, page = report_data(run), report_html(run)
+    place, force = (next(plot for plot in data["plots"] if plot["title"].startswith(title)) for title in ("Coord", "React"))
+    first = [np.frombuffer(base64.b64decode(plot["curves"][0]["y"]), "<f4")[0] for plot in (place, force)]
+    assert (place["unit"], force["unit"]) == ("ft", "lbf") and first == pytest.approx([10.0, 19.62 / POUND_FORCE])
+    assert data["units"]["N*m"] == {"unit": "lbf·ft", "size": pytest.approx(POUND_FORCE * FOOT)}
+    peak = "".join(f'<td class="number">{19.62 / POUND_FORCE:.6g}</td>')
+    assert (
+        peak in page
+        and "force / lbf" in page
+        and "Figures in ft, slug" in page
+        and "SI units and radians; x right" in report_html(run)
+    )
 
 
 def test_columns_of_choice_have_their_units_in_their_heads(tmp_path):

@@ -12,6 +12,16 @@ export interface ReportData {
   marks: Mark[];
   /** From when on no digit holds. */
   noneFrom: number | null;
+  /** How numbers in SI are shown; those of plots are so already. */
+  units: Record<Unit, Shown>;
+}
+
+export type Unit = "m" | "rad" | "N" | "N*m" | "N*s";
+
+/** A unit, and how much SI one of it is. */
+export interface Shown {
+  unit: string;
+  size: number;
 }
 
 export interface Scene {

@@ -42,6 +42,7 @@ def report_html(run: Run) -> str:
         beside=tables.beside(run),
         notes=[tables.sentence(note) for note in run.metadata["notes"]],
         below=tables.below(run),
+        units=tables.units(),
         settings=tables.settings(run),
         is_figure=tables.is_figure,
         raised=tables.raised,

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array
+from freebody.model.user_units import shown
+from freebody.views.plots import pretty_unit
 from freebody.views.report.floats import floats
 from freebody.views.report.loads import loads
 from freebody.views.report.series import plots
@@ -21,6 +23,8 @@ _NUMBERS = 60_000
 """Of all frames together: a third of a megabyte."""
 _STRING = 80
 """About as many numbers say where a string is in one frame."""
+_UNITS = ("m", "rad", "N", "N*m", "N*s")
+"""In which the page has numbers that it shows: all but those of plots, which are in the user's units."""
 _UNNAMED = ("origin",)
 """Points that a reader does not ask for."""
 
@@ -34,6 +38,7 @@ def report_data(run: Run) -> dict[str, Any]:
         "plots": plots(run),
         "marks": _marks(run),
         "noneFrom": None if run.recorded else run.accuracy.none_from,
+        "units": {unit: {"unit": pretty_unit(shown(unit).unit), "size": shown(unit).size} for unit in _UNITS},
     }
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from freebody.core import Array, quote
+from freebody.model.user_units import shown
 from freebody.run.peaks import couple_noise
 from freebody.run.records import plain
 from freebody.symbolic.symbols import unicode_name
@@ -35,18 +36,18 @@ class Curve(NamedTuple):
 
 def plots(run: Run) -> list[dict[str, Any]]:
     """All plots: coordinates, rates, reactions, energies, and what the model reports, over time."""
-    shown = refined_at_jumps(run.at(_thinned(run.t, _points(run))))
-    made = _wanted(shown) + _coordinates(shown) + _reactions(shown)
-    ledger = shown.energy
+    finer = refined_at_jumps(run.at(_thinned(run.t, _points(run))))
+    made = _wanted(finer) + _coordinates(finer) + _reactions(finer)
+    ledger = finer.energy
     stored = [
         *map(Curve, ledger.entries, ledger.entries.values()),
         Curve("kinetic + potential", ledger.kinetic + ledger.potential),
     ]
     made += [
-        _plot("Energy", "J", shown, _resolved(stored)),
-        _plot("Energy error", "J", shown, [Curve("balance", ledger.balance)]),
+        _plot("Energy", "J", finer, _resolved(stored)),
+        _plot("Energy error", "J", finer, [Curve("balance", ledger.balance)]),
     ]
-    return made if run.recorded else made + _asked(shown)
+    return made if run.recorded else made + _asked(finer)
 
 
 def _points(run: Run) -> int:
@@ -86,12 +87,12 @@ def _thinned(t: Array, most: int) -> Array:
 
 def _plot(title: str, unit: str, run: Run, curves: Sequence[Curve], note: str = "") -> dict[str, Any]:
     """One plot. Where something switched the curves have gaps."""
-    breaks = gaps(run)
+    breaks, (shown_as, size) = gaps(run), shown(unit)
     return {
         "title": title,
-        "unit": pretty_unit(unit),
+        "unit": pretty_unit(shown_as),
         "t": floats(breaks(run.t)),
-        "curves": [{"name": name, "y": floats(breaks(y, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves],
+        "curves": [{"name": name, "y": floats(breaks(y / size, np.nan))} | ({"of": of} if of else {}) for name, y, of in curves],
         "note": note,
     }
 
@@ -122,8 +123,8 @@ def _wanted(run: Run) -> list[dict[str, Any]]:
         curves = [Curve(plain(text), y) for text, y in zip(item.up, values[:-1], strict=True)]
         plot = _plot(item.title, run.unit_of(item.up[0]), run, _resolved(curves))
         if item.across != "t":
-            [across] = _plot("", run.unit_of(item.across), run, [Curve(plain(item.across), values[-1])])["curves"]
-            plot["across"] = across | {"unit": pretty_unit(run.unit_of(item.across)), "around": item.around}
+            below = _plot("", run.unit_of(item.across), run, [Curve(plain(item.across), values[-1])])
+            plot["across"] = below["curves"][0] | {"unit": below["unit"], "around": item.around}
         made.append(plot)
     return made
 

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from markupsafe import Markup, escape
 
+from freebody.model.user_units import shown
 from freebody.run.certificate import Certificate, weakest
 from freebody.run.storage import versions
-from freebody.solve.figures import figure
 from freebody.solve.instant import Instant
+from freebody.solve.rich_tables import figure_in
 from freebody.views.plots import pretty_unit
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def beside(run: Run) -> list[Table]:
     """What stands beside the moving mechanism: reported quantities and events."""
     reported, time = [], float if run.recorded else run.accuracy.time
     for label, r in (run if run.recorded else run.accuracy).report.items():
-        value = r.note if r.value is None else f"{_figure(r.value, 8)} {pretty_unit(r.unit)}".strip()
+        value = r.note if r.value is None else f"{_figure(r.value, 8, r.unit)} {_unit(r.unit)}".strip()
         when = f"{_figure(r.t)} ({r.note})" if r.note and r.value is not None else _figure(r.t)
         reported.append((label, value, when))
     ways = {1: "rising", -1: "falling"}
@@ -102,15 +103,19 @@ def below(run: Run) -> list[Table]:
     known, stored = {} if run.recorded else run.accuracy.energy, []
     for name, y in ledger.entries.items():
         start, *later = y[0], y[-1], y.min(), y.max()
-        stored.append((name, *map(_figure, (start, *(map(known[name].like, later) if known else later)))))
-    remark = f"Energy error below {_figure(np.abs(ledger.balance).max(), 2)} J at all output times."
-    masses = [(b["name"], _figure(b["mass"]), "particle" if b["particle"] else _figure(b["inertia"])) for b in bodies]
+        figures = (start, *(map(known[name].like, later) if known else later))
+        stored.append((name, *(_figure(each, unit="J") for each in figures)))
+    remark = f"Energy error below {_figure(np.abs(ledger.balance).max(), 2, 'J')} {_unit('J')} at all output times."
+    masses = [
+        (b["name"], _figure(b["mass"], unit="kg"), "particle" if b["particle"] else _figure(b["inertia"], unit="kg*m^2"))
+        for b in bodies
+    ]
     tables = (
         _mode_changes(run),
         _peaks(run),
-        Table("Energy ledger", ("J", "start", "end", "least", "most"), stored, remark),
+        Table("Energy ledger", (_unit("J"), "start", "end", "least", "most"), stored, remark),
         _certificate(run),
-        Table("Bodies", ("body", "mass / kg", "inertia / kg·m²"), masses),
+        Table("Bodies", ("body", f"mass / {_unit('kg')}", f"inertia / {_unit('kg*m^2')}"), masses),
     )
     return [table for table in tables if table.rows]
 
@@ -125,6 +130,13 @@ def marked(text: str) -> Markup:
     return Markup(re.sub("`([^`]*)`", r"<code>\1</code>", str(raised(text))))
 
 
+def units() -> str:
+    """In which units figures are, in words."""
+    others = {unit: _unit(unit) for unit in ("m", "rad", "kg", "N", "N*m", "J", "m/s")}
+    chosen = [other for unit, other in others.items() if other != pretty_unit(unit)]
+    return f"Figures in {', '.join(chosen)}, else in SI units and radians" if chosen else "SI units and radians"
+
+
 def is_figure(cell: str) -> bool:
     """Whether a cell holds a number, or stands for one."""
     return bool(re.match(r"−?\d|–", cell))
@@ -135,13 +147,18 @@ def raised(cell: str) -> Markup:
     return Markup(re.sub(r"× 10\^(−?\d+)", r"× 10<sup>\1</sup>", str(escape(cell))))
 
 
-def _figure(value: float | None, digits: int = 6) -> str:
-    """A number as people write it: a true minus sign, no e-notation where it can be helped."""
+def _figure(value: float | None, digits: int = 6, unit: str = "") -> str:
+    """A number as people write it: a true minus sign, no e-notation where it can be helped; of a unit of SI, as that is shown."""
     if value is None or math.isnan(value):
         return "–"
-    text = figure(value, digits)
+    text = figure_in(unit, value, digits)
     mantissa, _, power = text.partition("e")
     return (f"{mantissa} × 10^{int(power)}" if power else text).replace("-", "−")
+
+
+def _unit(unit: str) -> str:
+    """How a unit of SI is shown."""
+    return pretty_unit(shown(unit).unit)
 
 
 def _mode_changes(run: Run) -> Table:
@@ -149,21 +166,27 @@ def _mode_changes(run: Run) -> Table:
     changes = (run if run.recorded else run.accuracy).changes
     many, rows = len(changes) > _FIRST + _LAST, []
     for c in [*changes[:_FIRST], *changes[-_LAST:]] if many else changes:
-        impulses = "; ".join(f"{name} {_figure(size)}" for name, size in c.sizes.items())
-        work = "" if c.work is None else _figure(c.work)
-        rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), _figure(c.lost) if c.before else "", work, impulses, c.note))
+        impulses = "; ".join(f"{name} {_figure(size, unit='N*s')}" for name, size in c.sizes.items())
+        work, lost = (
+            _figure(each, unit="J") if there else "" for each, there in ((c.work, c.work is not None), (c.lost, c.before))
+        )
+        rows.append((_figure(c.t, 9), c.kind, ", ".join(c.of), lost, work, impulses, c.note))
     remark = f"the first {_FIRST} and the last {_LAST} of {len(changes)}" if many else ""
-    heads = ("t / s", "kind", "what", "energy lost / J", "work of motions / J", "impulse / N·s", "")
+    energy = _unit("J")
+    heads = ("t / s", "kind", "what", f"energy lost / {energy}", f"work of motions / {energy}", f"impulse / {_unit('N*s')}", "")
     return Table("Mode changes", heads, rows, remark, "across", alike=(1, 2))
 
 
 def _peaks(run: Run) -> Table:
     peaks = run.peaks
     couples, known = any(peak.couple is not None for peak in peaks), all(peak.determinate for peak in peaks)
-    heads = ["", "on", "force / N", "at t / s", "Fx / N", "Fy / N", *["couple / N·m", "at t / s"] * couples, *[""] * (not known)]
+    force, couple = _unit("N"), _unit("N*m")
+    heads = ["", "on", f"force / {force}", "at t / s", f"Fx / {force}", f"Fy / {force}"]
+    heads += [f"couple / {couple}", "at t / s"] * couples + [""] * (not known)
     rows = []
     for p in peaks:
-        figures = map(_figure, (p.size, p.t, p.Fx, p.Fy, *((p.couple, p.t_couple) if couples else ())))
+        told = [(p.size, "N"), (p.t, "s"), (p.Fx, "N"), (p.Fy, "N"), *[(p.couple, "N*m"), (p.t_couple, "s")] * couples]
+        figures = (_figure(value, unit=unit) for value, unit in told)
         rows.append([p.joint, p.body, *figures, *["" if p.determinate else "indeterminate"] * (not known)])
     remark = "Forces as they act on the body named, in the fixed axes, when the force is largest."
     return Table("Peak reactions", heads, rows, remark, "across")
