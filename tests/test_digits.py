@@ -269,6 +269,24 @@ def test_an_instant_of_a_motion_is_told_with_how_far_that_is_known(tmp_path):
     assert data["digits"]["none_from"] is None and data["digits"]["until"]["6"] is None
 
 
+@pytest.mark.parametrize("g", [9.81, 9.7, 10, 3.7])
+@pytest.mark.parametrize("side", ["--before", "--after"])
+def test_how_far_an_impact_is_known_does_not_hang_on_which_of_two_runs_comes_to_it_first(tmp_path, side, g):
+    (tmp_path / "m.yaml").write_text(f"""
+freebody: 1
+gravity: {g}
+bodies: {{long: {{shape: rod, length: 1, mass: 1}}, short: {{shape: rod, length: 0.6, mass: 1}}}}
+joints:
+  O: {{type: hinge, of: [ground.O, long.start], coordinate: {{name: th, zero: down}}}}
+  C: {{type: hinge, of: [ground.O, short.start], coordinate: {{name: ph, zero: down}}}}
+initial: {{th: -1, ph: 0, at_rest: true}}
+stops: {{hit: {{of: ph - th, least: 0, restitution: 0.5}}}}
+run: {{until: 2}}
+""")
+    told = CliRunner().invoke(cli.app, ["solve", str(tmp_path / "m.yaml"), side, "hit"]).output
+    assert "The motion until then holds to" in told and "no digit" not in told
+
+
 @pytest.mark.parametrize("file", ["fbd.svg", "page.md", "page.tex", "page.html", "page.txt", "page.json"])
 def test_what_is_drawn_and_printed_of_an_instant_tells_how_far_that_is_known(tmp_path, monkeypatch, file):
     monkeypatch.chdir(tmp_path)

@@ -57,6 +57,7 @@ def obtained(path: Path) -> Run:
     return Run.load(path) if path.suffix in FORMATS else simulated(path)
 
 
+_FURTHER = 1e-3  # of the time: instants that lie further apart hold to no more than three digits
 _RANGE = re.compile(r"\s*(.+?)\s*=\s*(.+?)\s*\.\.\s*(.+?)\s*")
 
 
@@ -96,8 +97,9 @@ def time_of(mechanism: Mechanism, asked: Mapping[str, str]) -> float:
 
 
 def leading_to(mechanism: Mechanism, t: float) -> Accuracy | None:
-    """How far the motion is known that leads to a time, s; None at a start."""
-    return mechanism.simulate(t).accuracy if t > 0 else None
+    """How far the motion is known that leads to a time, s; None at a start. It is followed a little further, so that what happens just
+    then happens at the other tolerance, too."""
+    return mechanism.simulate(t * (1 + _FURTHER)).accuracy if t > 0 else None
 
 
 def how_far(known: Accuracy | None) -> str:
