@@ -61,6 +61,28 @@ class Mechanism:
         ``events`` [names], ``freedom`` {count, joints_count}, ``notes`` [str: what is modelled, ignored, assumed]."""
 
     def bind(self, values: dict[str, float]) -> Array: ...
+    def bind_rows(self, names: list[str], columns: Array) -> Array:
+        """Parameters (members, np), those of the names given in columns (members, k)."""
+
+    def runs_in_lanes(self) -> bool: ...
+    def batch(
+        self,
+        states: Sequence[Array],
+        span: Sequence[float],
+        times: Array,
+        threads: int,
+        method: str,
+        rtol: float,
+        step: float | None,
+        max_step: float | None,
+        route: str,
+        impacts: str,
+        painleve: str,
+        max_steps: int = 1_000_000,
+    ) -> tuple[Array, list[tuple[Any, bool, float, str, str]]]:
+        """Of p (members or 1, np), q and u (members, n): the states (members, nt, 2 n) and how each motion ended: name, whether that
+        is as asked, when, a sentence, the item that it is about."""
+
     def assemble(
         self,
         p: Array,

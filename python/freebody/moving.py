@@ -14,12 +14,14 @@ from freebody.model.errors import ModelFileError, Problem
 from freebody.model.start import many_turns, quantity
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
     from freebody.core import FreeBodies, State
     from freebody.impact.applied_impulse import AppliedImpulse
     from freebody.impact.impacts import Impact
     from freebody.model.builder import Builder
+    from freebody.run.batch import Given
     from freebody.run.sampling import Times
     from freebody.run.simulation import Progress, Run
     from freebody.solve.instant import Instant
@@ -128,6 +130,38 @@ class Moving:
         stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
         with self.core_errors():
             return follow(stage, stage.run(state, notes))
+
+    @asking
+    def batch(
+        self: Builder,
+        q0: Given | None = None,
+        u0: Given | None = None,
+        p: Mapping[str, Any] | None = None,
+        until: float | str | None = None,
+        *,
+        t_eval: Times | None = None,
+        threads: int | None = None,
+        t: float = 0.0,
+        **settings: Any,
+    ) -> xarray.Dataset:
+        """Many motions, each as ``simulate`` makes it: with its own coordinates ``q0`` and rates ``u0`` at the start, and its own
+        parameters ``p``.
+
+        Each of the three is by name an array (members,) in SI, or one value for all, which may be a quantity; ``q0`` and ``u0`` may be arrays
+        (members, n) in the order of the coordinates. What they do not name is as in the model. ``settings`` are those of ``simulate``.
+        The answer, an ``xarray.Dataset``, holds ``q`` and ``u`` (member, time, coordinate) at the times ``t_eval`` or ``every``, by default
+        101 of them, and of each member ``outcome``, ``ok``, ``end`` (s) and ``sentence``; what comes after the end of a motion is NaN.
+
+        ``method="rk4"`` with a ``step`` (s) carries trees side by side in lanes; all else is made motion by motion. Both run on all ``threads``,
+        and have the same bits on any number of them, in any order. Raises ``ModelFileError`` for arrays that do not fit together,
+        and ``MotionError`` for a member that has no start.
+        """
+        from freebody.run.batch import Members, batch
+
+        words = {field.name for field in fields(Settings)}
+        changes = {name: settings.pop(name) for name in settings.keys() - words}
+        with self.core_errors():
+            return batch(Members(self, q0, u0, p, changes), self.run_plan(until, settings), t, t_eval, threads)
 
     def check_equilibrium(self: Builder, state: State) -> None:
         """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""

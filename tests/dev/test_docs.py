@@ -18,7 +18,7 @@ FREEBODY = Path(sys.executable).with_name("freebody")
 QUICK = sorted(path for path in DOCS.glob("*.md") if path.name != "derivations.md")
 """All but the table of pages, whose lines tests/equations/derivation/test_pages.py holds."""
 PRINTED = [path for path in (ROOT / "README.md", *sorted(DOCS.glob("*.md"))) if "```console" in path.read_text(encoding="utf-8")]
-ALONE = ("README.md", "docs/first_minutes.md")
+ALONE = ("README.md", "docs/first_minutes.md", "docs/batch.md")
 """Pages whose Python needs nothing that is said elsewhere."""
 
 

@@ -1,5 +1,6 @@
 //! Python bindings: a method forwards, or it is wrong. `python/freebody/core/` is all that speaks with them.
 
+mod batch;
 mod data;
 mod errors;
 mod evaluator;

@@ -1,5 +1,6 @@
 //! A compiled mechanism.
 
+use crate::batch::{self, Made, Rows};
 use crate::data::{array, data, plain};
 use crate::errors;
 use crate::instant::solution;
@@ -99,6 +100,21 @@ impl Mechanism {
     fn bind<'py>(&self, py: Python<'py>, values: Named) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let p = self.0.names().parameters(&values).map_err(errors::model)?;
         Ok(PyArray1::from_vec(py, p))
+    }
+
+    /// The parameters of many, in rows: those that are named have the columns given.
+    fn bind_rows<'py>(
+        &self,
+        py: Python<'py>,
+        names: Vec<String>,
+        columns: numpy::PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
+        let (compiled, columns, mut rows) = (self.0.names(), columns.as_array(), vec![]);
+        for (member, values) in columns.outer_iter().enumerate() {
+            let named = names.iter().cloned().zip(values.iter().copied()).collect();
+            rows.extend(compiled.parameters(&named).map_err(|e| batch::of_member(member, e))?);
+        }
+        array(py, rows, [columns.nrows(), compiled.mechanism.parameters.len()])
     }
 
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
@@ -256,6 +272,34 @@ impl Mechanism {
             Some(error) => Err(error),
             None => Ok(Trajectory { of: self.0.clone(), run: run.map_err(errors::motion)? }),
         }
+    }
+
+    /// Whether a batch by `rk4` runs side by side.
+    fn runs_in_lanes(&self) -> bool {
+        freebody::batch::fits_lanes(&self.0.mechanism())
+    }
+
+    #[pyo3(signature = (states, span, times, threads, method, rtol, step, max_step, route, impacts, painleve, max_steps=1_000_000))]
+    #[allow(clippy::too_many_arguments)]
+    fn batch<'py>(
+        &self,
+        py: Python<'py>,
+        states: Rows<'py>,
+        span: [f64; 2],
+        times: Array<'py>,
+        threads: usize,
+        method: &str,
+        rtol: f64,
+        step: Option<f64>,
+        max_step: Option<f64>,
+        route: &str,
+        impacts: &str,
+        painleve: &str,
+        max_steps: usize,
+    ) -> PyResult<Made<'py>> {
+        let options = Options { rtol, first_step: step, max_step: max_step.unwrap_or(f64::INFINITY), max_steps };
+        let settings = Settings::named([method, route, impacts, painleve], options).map_err(errors::model)?;
+        batch::batch(py, &self.0.mechanism(), &states, span, &times, &settings, threads)
     }
 }
 

@@ -7,6 +7,7 @@
 
 pub mod algebra;
 pub mod assembly;
+pub mod batch;
 pub mod benchmark;
 pub mod bound_values;
 pub mod builder;

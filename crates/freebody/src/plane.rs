@@ -27,6 +27,7 @@ impl<S: Scalar> Vec2<S> {
         vec2(self.x.value(), self.y.value())
     }
     /// The zero vector.
+    #[inline(always)]
     pub fn zero() -> Self {
         vec2(S::zero(), S::zero())
     }
@@ -111,6 +112,7 @@ impl<S: Scalar> Turn<S> {
         Turn { angle, cos, sin }
     }
     /// No turn.
+    #[inline(always)]
     pub fn none() -> Self {
         Turn { angle: S::zero(), cos: S::one(), sin: S::zero() }
     }
@@ -158,6 +160,7 @@ pub struct Twist<S = f64> {
 
 impl<S: Scalar> Twist<S> {
     /// No motion.
+    #[inline(always)]
     pub fn zero() -> Self {
         Twist { v: Vec2::zero(), w: S::zero() }
     }

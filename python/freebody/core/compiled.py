@@ -13,8 +13,9 @@ import numpy as np
 from freebody import _core
 
 from .cards import methods
+from .errors import OutcomeKind
 from .free_bodies import FreeBodies
-from .motion import Trajectory
+from .motion import Outcome, Trajectory
 from .solution import RowDerivatives, Solution, SymbolicAnswers
 from .state import Array, State
 
@@ -117,6 +118,26 @@ class CompiledModel:
     def bind(self, values: Mapping[str, float] | None = None) -> Array:
         """All parameters (np,), those named in ``values`` overruled. Raises ``ModelError`` for numbers that cannot be."""
         return self.mechanism.bind(dict(values or {}))
+
+    def bind_rows(self, columns: Mapping[str, Array]) -> Array:
+        """The parameters (members, np) of many, those named in ``columns`` (members,) overruled. Raises ``ModelError``, which names the
+        member."""
+        return self.mechanism.bind_rows(list(columns), np.column_stack(list(columns.values())))
+
+    @property
+    def runs_in_lanes(self) -> bool:
+        """Whether ``batch`` makes its motions by ``rk4`` side by side: it is a tree, and nothing switches, happens or is looked up."""
+        return self.mechanism.runs_in_lanes()
+
+    def batch(
+        self, p: Array, q: Array, u: Array, t: float, until: float, times: Array, threads: int, **settings: Any
+    ) -> tuple[Array, list[Outcome]]:
+        """The motions from many states, in rows of ``q``, ``u`` and ``p`` (or one row of ``p`` for all): coordinates and rates (members,
+        nt, 2 n) at ``times``, NaN after the end of a motion, and how each ended. ``settings`` as in ``simulate``. Each has the same bits
+        on any number of ``threads``, and whatever stands beside it."""
+        rows = [np.ascontiguousarray(each) for each in (p, q, u)]
+        states, endings = self.mechanism.batch(rows, [t, until], times, threads, **settings)
+        return states, [Outcome(OutcomeKind(name), *ending) for name, *ending in endings]
 
     def assemble(
         self,

@@ -7,6 +7,7 @@ use crate::plane::{vec2, Vec2, Wrench};
 use crate::scalar::Scalar;
 
 /// From the joint origin of each body to its mass centre, fixed axes.
+#[inline(always)]
 pub fn centre_arms<S: Scalar>(at: StateView<'_, S>, out: &mut [Vec2<S>]) {
     for (i, arm) in out.iter_mut().enumerate() {
         *arm = at.centre_arm(i);
@@ -14,6 +15,7 @@ pub fn centre_arms<S: Scalar>(at: StateView<'_, S>, out: &mut [Vec2<S>]) {
 }
 
 /// The loads of gravity and of all forces on each body, at its joint origin.
+#[inline(always)]
 pub fn loads<S: Scalar>(at: StateView<'_, S>, arms: &[Vec2<S>], out: &mut [Wrench<S>]) {
     for (i, load) in out.iter_mut().enumerate() {
         *load = Wrench::force(at.n.gravity * at.n.mass[i], arms[i]);
@@ -51,7 +53,8 @@ pub fn pulled<'a, S: Scalar>(
 /// The load of a unit pull on a body; none where what pulls with no force has no direction, as a spring without length.
 fn direction<S: Scalar>(at: StateView<'_, S>, gauge_force: &GaugeForce, body: usize, value: S) -> Wrench<S> {
     let along = gradient(at, &gauge_force.gauge, body);
-    match value.value() != 0.0 || along.parts().iter().all(|x| x.value().is_finite()) {
+    // Of lanes that differ the one without a direction is not finite, and so its load.
+    match value.any(|value| value != 0.0) || (along.f.x + along.f.y + along.m).any(f64::is_finite) {
         true => along,
         false => Wrench::zero(),
     }

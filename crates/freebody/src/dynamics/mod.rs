@@ -35,6 +35,7 @@ mod rows;
 mod scales;
 mod solved_view;
 mod term_scales;
+mod tree_motion;
 mod unloaded;
 
 pub use contact_forces::compliant_force;
@@ -56,6 +57,7 @@ pub use rows::{
 };
 pub use solved_view::SolvedView;
 pub use term_scales::TermScales;
+pub use tree_motion::TreeMotion;
 
 use crate::bound_values::BoundValues;
 pub use crate::error::DynamicsError;
@@ -195,7 +197,7 @@ impl<'m> Workspace<'m> {
                 lambda: vec![],
                 joint_wrenches: vec![Wrench::zero(); bodies],
             },
-            articulated_body: Default::default(),
+            articulated_body: articulated_body::ArticulatedBody::new(),
             dense: Default::default(),
             sparse: None,
             many_loops: false,
@@ -339,7 +341,7 @@ impl<'m> Workspace<'m> {
                     &self.loads,
                     &mut s.nu_dot,
                     &mut s.bodies,
-                    &mut s.joint_wrenches,
+                    |i, wrench| s.joint_wrenches[i] = wrench,
                 )
             }
             Route::Minimal => self.solve_minimal(),

@@ -52,23 +52,23 @@ pub fn add_multipliers<S: Scalar>(rows: &[Row<S>], multipliers: &[S], loads: &mu
 
 /// Mass, first and second moment of a body, or of several that move as one, about its joint origin.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Inertia {
-    pub mass: f64,
-    pub moment: Vec2,
-    pub turn: f64,
+pub(super) struct Inertia<S = f64> {
+    pub mass: S,
+    pub moment: Vec2<S>,
+    pub turn: S,
 }
 
-impl Inertia {
+impl<S: Scalar> Inertia<S> {
     /// That of a body whose mass centre is at `arm` from its joint origin; a particle does not resist turning.
     #[inline(always)]
-    pub fn of(at: StateView<'_>, body: usize, arm: Vec2) -> Self {
+    pub fn of(at: StateView<'_, S>, body: usize, arm: Vec2<S>) -> Self {
         let mass = at.n.mass[body];
-        let turn = if at.m.bodies[body].particle { 0.0 } else { at.n.inertia[body] + mass * arm.dot(arm) };
+        let turn = if at.m.bodies[body].particle { S::zero() } else { at.n.inertia[body] + mass * arm.dot(arm) };
         Inertia { mass, moment: arm * mass, turn }
     }
 
     /// The momentum of a motion, at the joint origin.
-    pub fn momentum(&self, motion: Twist) -> Wrench {
+    pub fn momentum(&self, motion: Twist<S>) -> Wrench<S> {
         let f = motion.v * self.mass + self.moment.perp() * motion.w;
         Wrench { f, m: self.moment.cross(motion.v) + self.turn * motion.w }
     }

@@ -167,6 +167,16 @@ impl<L> Expr<L> {
         self.variables().next().is_none()
     }
 
+    /// Whether it is the same operations whatever the values of its leaves.
+    pub fn is_uniform(&self) -> bool {
+        self.all().all(|op| match op {
+            Op::Constant(_) | Op::Variable(_) | Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) | Op::Divide(..) => true,
+            Op::Negate(_) | Op::Whole(..) | Op::Atan2(..) | Op::Rate(_) | Op::Accel(_) => true,
+            Op::Apply(function, _) => !matches!(function, Function::Sinh | Function::Tanh),
+            _ => false,
+        })
+    }
+
     /// Its operations, then those inside its time derivatives.
     pub(super) fn all(&self) -> Box<dyn Iterator<Item = &Op<L>> + '_> {
         Box::new(self.ops.iter().chain(self.ops.iter().filter_map(Op::inner).flat_map(Expr::all)))

@@ -34,7 +34,7 @@ impl Trajectory {
     }
 
     /// How it ended, with the names of the model.
-    fn sentence(&self, m: &Mechanism, reported: &[ModelExpr]) -> String {
+    pub fn sentence(&self, m: &Mechanism, reported: &[ModelExpr]) -> String {
         let ending = match &self.outcome {
             Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
             Outcome::Chatter { index } => format!(

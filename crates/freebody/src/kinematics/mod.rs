@@ -55,6 +55,7 @@ impl<S: Scalar> Kinematics<S> {
     }
 
     /// Goes through the tree from ground to the leaves, at coordinates `q` and rates `u`.
+    #[inline(always)]
     pub fn forward_kinematics(&mut self, m: &Mechanism, n: &BoundValues<S>, q: &[S], u: &[S]) {
         for body in 1..m.bodies.len() {
             let Some(tree_joint) = m.bodies[body].tree_joint else { continue };
@@ -67,7 +68,7 @@ impl<S: Scalar> Kinematics<S> {
     }
 
     /// A body on a plain hinge between body axes: the general case, written short.
-    #[inline]
+    #[inline(always)]
     fn place_child_by_hinge(
         &mut self,
         n: &BoundValues<S>,
@@ -131,6 +132,7 @@ impl<S: Scalar> Kinematics<S> {
     }
 
     /// The user's accelerations from the bodies' accelerations (of the joint origins) and the joints' own `nu_dot`.
+    #[inline(always)]
     pub fn user_rates(&self, m: &Mechanism, n: &BoundValues<S>, bodies: &[Twist<S>], nu: &[S], out: &mut [S]) {
         for (body, hinge) in m.bodies.iter().zip(&n.hinges) {
             let Some(b) = body.tree_joint else { continue };

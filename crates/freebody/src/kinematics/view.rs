@@ -151,6 +151,7 @@ impl<'a, S: Scalar> StateView<'a, S> {
         self.m.forces.iter().enumerate().filter(|(f, _)| mode.has(Part::Force(*f)))
     }
     /// From the joint origin of a body to its mass centre, fixed axes.
+    #[inline(always)]
     pub fn centre_arm(&self, body: usize) -> Vec2<S> {
         self.k.pose[body].turn.apply(self.n.centre[body])
     }

@@ -1,43 +1,45 @@
 //! The motion between the steps.
 
+use crate::scalar::Scalar;
+
 /// The solution over one step.
 ///
 /// Every dense output here is the cubic Hermite interpolant plus θ²(1−θ)² times a polynomial,
 /// written as in HNW I, II.6: with θ = (t−t0)/(t1−t0),
 /// y = y0 + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Segment {
+pub struct Segment<S = f64> {
     /// Time at which the step starts.
     pub t0: f64,
     /// Time at which it ends; less than `t0` when the run goes backward.
     pub t1: f64,
-    y0: Vec<f64>,
-    y1: Vec<f64>,
+    y0: Vec<S>,
+    y1: Vec<S>,
     /// F₁, F₂, … one after the other; F₀ = y1 − y0.
-    bends: Vec<f64>,
+    bends: Vec<S>,
 }
 
-impl Segment {
+impl<S: Scalar> Segment<S> {
     /// The cubic with the values `y0`, `y1` and the slopes `slope0`, `slope1` (dy/dt) at its ends.
-    pub(super) fn hermite((t0, y0, slope0): (f64, &[f64], &[f64]), (t1, y1, slope1): (f64, &[f64], &[f64])) -> Self {
+    pub(super) fn hermite((t0, y0, slope0): (f64, &[S], &[S]), (t1, y1, slope1): (f64, &[S], &[S])) -> Self {
         let (n, h) = (y0.len(), t1 - t0);
-        let mut bends = vec![0.0; 2 * n];
+        let mut bends = vec![S::zero(); 2 * n];
         for i in 0..n {
             let rise = y1[i] - y0[i];
-            bends[i] = h * slope0[i] - rise;
-            bends[n + i] = 2.0 * rise - h * (slope0[i] + slope1[i]);
+            bends[i] = slope0[i].scale(h) - rise;
+            bends[n + i] = rise.scale(2.0) - (slope0[i] + slope1[i]).scale(h);
         }
         Self { t0, t1, y0: y0.to_vec(), y1: y1.to_vec(), bends }
     }
 
     /// Adds the next F, replacing those beyond `index` (F₃ has index 3).
-    pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = f64>) {
+    pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = S>) {
         self.bends.truncate((index - 1) * self.y0.len());
         self.bends.extend(values);
     }
 
     /// Writes the state at time `t`; exact at both ends.
-    pub fn at(&self, t: f64, y: &mut [f64]) {
+    pub fn at(&self, t: f64, y: &mut [S]) {
         if t == self.t1 {
             y.copy_from_slice(&self.y1);
             return;
@@ -45,12 +47,12 @@ impl Segment {
         let theta = (t - self.t0) / (self.t1 - self.t0);
         let n = self.y0.len();
         for (i, value) in y.iter_mut().enumerate() {
-            let mut sum = 0.0;
+            let mut sum = S::zero();
             for k in (0..self.bends.len() / n).rev() {
                 let factor = if k % 2 == 0 { 1.0 - theta } else { theta };
-                sum = factor * (sum + self.bends[k * n + i]);
+                sum = (sum + self.bends[k * n + i]).scale(factor);
             }
-            *value = self.y0[i] + theta * (self.y1[i] - self.y0[i] + sum);
+            *value = self.y0[i] + (self.y1[i] - self.y0[i] + sum).scale(theta);
         }
     }
 
@@ -62,18 +64,18 @@ impl Segment {
     /// Part `k` of how far component `i` goes from the middle of the step at most: it goes there by the sum of all parts, each
     /// times a factor from −1 to 1 that is the same for all components. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to
     /// below twice its value 2⁻ᵃ⁻ᵇ at the middle.
-    pub fn part(&self, k: usize, i: usize) -> f64 {
+    pub fn part(&self, k: usize, i: usize) -> S {
         let full = if k == 0 { self.y1[i] - self.y0[i] } else { self.bends[(k - 1) * self.y0.len() + i] };
-        full / f64::from(2_u32 << k)
+        full.scale(1.0 / f64::from(2_u32 << k))
     }
 
     /// State at the start of the step.
-    pub fn start(&self) -> &[f64] {
+    pub fn start(&self) -> &[S] {
         &self.y0
     }
 
     /// State at the end of the step.
-    pub fn end(&self) -> &[f64] {
+    pub fn end(&self) -> &[S] {
         &self.y1
     }
 

@@ -3,7 +3,7 @@
 use super::dense::Segment;
 use super::method::{Counted, Failure, Point, Stepper};
 use super::norm::{measure, Norm};
-use crate::scalar::real;
+use crate::scalar::{real, Scalar};
 
 /// Weight of the second error estimate (HNW I, II.10).
 const TEMPERING: f64 = 0.1;
@@ -83,8 +83,13 @@ impl Explicit {
 }
 
 /// Σ aⱼ kⱼ for component `i`.
-fn combine(a: &[f64], k: &[Vec<f64>], i: usize) -> f64 {
-    a.iter().zip(k).map(|(a, k)| a * k[i]).sum()
+#[inline(always)]
+pub(super) fn combine<S: Scalar>(a: &[f64], k: &[Vec<S>], i: usize) -> S {
+    let mut sum = k[0][i].scale(a[0]);
+    for (&a, k) in a[1..].iter().zip(&k[1..]) {
+        sum += k[i].scale(a);
+    }
+    sum
 }
 
 impl Stepper for Explicit {

@@ -12,6 +12,7 @@ mod events;
 mod explicit;
 mod gauss6;
 mod linear;
+mod march;
 mod method;
 mod norm;
 mod outcome;
@@ -28,6 +29,7 @@ mod tsit5;
 
 pub use dense::{Segment, Trajectory};
 pub use events::{Kind, Unresolved};
+pub use march::{march, Span};
 pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options, TIGHTEST};

@@ -16,7 +16,7 @@ pub(super) const METHOD: Method = Method {
     stepper: |n| Explicit::boxed(&TABLE, n),
 };
 
-static TABLE: Table = Table {
+pub(super) static TABLE: Table = Table {
     c: &[0.5, 0.5, 1.0],
     a: &[&[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]],
     b: &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],

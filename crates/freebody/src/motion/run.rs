@@ -227,11 +227,7 @@ impl<'a> Runner<'a> {
 
     /// End of the next step: the end of the run when it is in reach.
     fn target(&self) -> f64 {
-        let h = self.step_across();
-        match (self.t_end - self.now.t).abs() <= LAST * h.abs() {
-            true => self.t_end,
-            false => self.now.t + h,
-        }
+        end_of_step(self.now.t, self.t_end, self.step_across())
     }
 
     /// The step that the pace asks for, or where a blind spot comes near one that takes it, or the next step, into its
@@ -314,6 +310,15 @@ impl<'a> Runner<'a> {
 
     fn finish(self, outcome: Outcome) -> Run {
         Run { outcome, t: self.now.t, y: self.now.y, evaluations: self.system.evaluations, ..self.run }
+    }
+}
+
+/// End of a step of length `h` from `t`: the end of the run when it is in reach.
+#[inline(always)]
+pub(super) fn end_of_step(t: f64, t_end: f64, h: f64) -> f64 {
+    match (t_end - t).abs() <= LAST * h.abs() {
+        true => t_end,
+        false => t + h,
     }
 }
 

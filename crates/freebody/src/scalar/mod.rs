@@ -1,6 +1,6 @@
 //! The number. Every formula of mechanics is written once over [`Scalar`] and read as
-//! `f64` (values), [`Dual`] (exact gradients), [`Jet`] (exact time derivatives), [`Ball`] (bounds) or, in
-//! `algebra`, as a symbol (equations).
+//! `f64` (values), [`Lanes`] (the values of several mechanisms at once), [`Dual`] (exact gradients),
+//! [`Jet`] (exact time derivatives), [`Ball`] (bounds) or, in `algebra`, as a symbol (equations).
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -9,11 +9,13 @@ mod ball;
 #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds, the quotient rule subtracts")]
 mod dual;
 mod jet;
+mod lanes;
 pub mod real;
 
 pub use ball::Ball;
 pub use dual::Dual;
 pub use jet::Jet;
+pub use lanes::{Lanes, LANES};
 
 /// What a formula of mechanics may do with a number.
 ///
@@ -51,6 +53,10 @@ pub trait Scalar:
     }
     /// The plain value, without derivatives; decisions (pivots, branches, modes) read this.
     fn value(self) -> f64;
+    /// Whether something holds of a plain value in it: of any of them, where it has several.
+    fn any(self, holds: impl Fn(f64) -> bool) -> bool {
+        holds(self.value())
+    }
     /// `a` where `mask`, else `b`.
     fn select(mask: bool, a: Self, b: Self) -> Self {
         if mask {

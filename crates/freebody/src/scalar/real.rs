@@ -2,6 +2,8 @@
 //! are our own; the others are those of the crate `libm` (after FreeBSD's msun), where the platform's differ in the
 //! last place.
 
+use super::{Lanes, Scalar, LANES};
+
 /// Up to here the quadrant is below 2²⁰, so its products with the 33-bit parts of π/2 are exact.
 const CAREFUL_ABOVE: f64 = 1.0e6;
 /// Adding and subtracting 1.5·2⁵² rounds to the nearest integer and leaves it in the low bits.
@@ -19,9 +21,38 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() > CAREFUL_ABOVE {
         return careful(x);
     }
-    let (quadrant, hi, lo) = reduce(x);
-    let (s, c) = (kernel_sin(hi, lo).to_bits(), kernel_cos(hi, lo).to_bits());
-    // Odd quadrants swap the two; done on bits, for a branch here would be a coin toss.
+    let (shifted, s, c) = within_quadrant(x);
+    into_quadrant(shifted, s, c)
+}
+
+/// The same side by side: each to the same bits as alone.
+#[inline(always)]
+pub(super) fn sin_cos_lanes(x: Lanes) -> (Lanes, Lanes) {
+    let (mut sin, mut cos) = (x, x);
+    if x.any(|x| x.abs() > CAREFUL_ABOVE) {
+        for i in 0..LANES {
+            (sin.0[i], cos.0[i]) = sin_cos(x.0[i]);
+        }
+        return (sin, cos);
+    }
+    let (shifted, s, c) = within_quadrant(x);
+    for i in 0..LANES {
+        (sin.0[i], cos.0[i]) = into_quadrant(shifted.0[i], s.0[i], c.0[i]);
+    }
+    (sin, cos)
+}
+
+/// Sine and cosine of what is left of an angle by whole quarter turns, and their number in the low bits.
+#[inline(always)]
+fn within_quadrant<S: Scalar>(x: S) -> (S, S, S) {
+    let (shifted, hi, lo) = reduce(x);
+    (shifted, kernel_sin(hi, lo), kernel_cos(hi, lo))
+}
+
+/// Odd quadrants swap the two; done on bits, for a branch here would be a coin toss.
+#[inline(always)]
+fn into_quadrant(shifted: f64, s: f64, c: f64) -> (f64, f64) {
+    let (quadrant, s, c) = (shifted.to_bits(), s.to_bits(), c.to_bits());
     let swap = (s ^ c) & (quadrant & 1).wrapping_neg();
     let sign = |quadrant: u64| (quadrant & 2) << 62;
     (f64::from_bits(s ^ swap ^ sign(quadrant)), f64::from_bits(c ^ swap ^ sign(quadrant + 1)))
@@ -84,24 +115,24 @@ pub fn powi(base: f64, n: i32) -> f64 {
     }
 }
 
-/// The quadrant (modulo 4 in its low bits) and x − quadrant·π/2 as an unevaluated sum.
+/// The quadrant (modulo 4 in the low bits of a number) and x − quadrant·π/2 as an unevaluated sum.
 #[inline(always)]
-fn reduce(x: f64) -> (u64, f64, f64) {
-    let shifted = x * std::f64::consts::FRAC_2_PI + ROUNDER;
-    let n = shifted - ROUNDER;
-    let first = x - n * HALF_PI[0];
+fn reduce<S: Scalar>(x: S) -> (S, S, S) {
+    let shifted = x.scale(std::f64::consts::FRAC_2_PI) + S::of(ROUNDER);
+    let n = shifted - S::of(ROUNDER);
+    let first = x - n.scale(HALF_PI[0]);
     // Where the second part is the larger of the two, the difference is exact: no error to collect.
-    let part = n * HALF_PI[1];
+    let part = n.scale(HALF_PI[1]);
     let second = first - part;
-    let rest = n * HALF_PI[2];
+    let rest = n.scale(HALF_PI[2]);
     let hi = second - rest;
-    (shifted.to_bits(), hi, ((second - hi) - rest) + ((first - second) - part))
+    (shifted, hi, ((second - hi) - rest) + ((first - second) - part))
 }
 
 /// sin(x + y) for |x| ≤ π/4 and y a rounding error of x.
 #[inline(always)]
-fn kernel_sin(x: f64, y: f64) -> f64 {
-    const S: [f64; 6] = [
+fn kernel_sin<S: Scalar>(x: S, y: S) -> S {
+    const C: [f64; 6] = [
         -0.166_666_666_666_666_32,
         0.008_333_333_333_322_49,
         -0.000_198_412_698_298_579_5,
@@ -111,12 +142,12 @@ fn kernel_sin(x: f64, y: f64) -> f64 {
     ];
     let z = x * x;
     // Subtracted, not added, so that −0 stays −0.
-    x - ((0.5 * z * y - y) - z * x * even(z, S))
+    x - ((z.scale(0.5) * y - y) - z * x * even(z, C))
 }
 
 /// cos(x + y) for |x| ≤ π/4 and y a rounding error of x.
 #[inline(always)]
-fn kernel_cos(x: f64, y: f64) -> f64 {
+fn kernel_cos<S: Scalar>(x: S, y: S) -> S {
     const C: [f64; 6] = [
         0.041_666_666_666_666_6,
         -0.001_388_888_888_887_411,
@@ -126,16 +157,17 @@ fn kernel_cos(x: f64, y: f64) -> f64 {
         -1.135_964_755_778_819_5e-11,
     ];
     let z = x * x;
-    let half = 0.5 * z;
-    let top = 1.0 - half;
-    top + (z * z * even(z, C) + (((1.0 - top) - half) - x * y))
+    let half = z.scale(0.5);
+    let top = S::one() - half;
+    top + (z * z * even(z, C) + (((S::one() - top) - half) - x * y))
 }
 
 /// A polynomial in z by Estrin's rule: half the waiting of Horner's.
 #[inline(always)]
-fn even(z: f64, c: [f64; 6]) -> f64 {
+fn even<S: Scalar>(z: S, c: [f64; 6]) -> S {
     let w = z * z;
-    (c[0] + z * c[1] + w * (c[2] + z * c[3])) + w * w * (c[4] + z * c[5])
+    let line = |i: usize| S::of(c[i]) + z.scale(c[i + 1]);
+    (line(0) + w * line(2)) + w * w * line(4)
 }
 
 #[cfg(test)]

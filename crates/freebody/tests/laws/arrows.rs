@@ -20,7 +20,7 @@ const LAYERS: &[&[&str]] = &[
     &["compile"],
     &["dynamics"],
     &["assembly", "metadata", "free_bodies", "hybrid"],
-    &["initial", "symbolic"],
+    &["batch", "initial", "symbolic"],
 ];
 
 #[test]

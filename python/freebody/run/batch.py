@@ -1,0 +1,187 @@
+"""Many motions of one mechanism, as one table."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from freebody.core import Array, Settings
+from freebody.model.errors import ModelFileError
+from freebody.model.start import Start
+
+from .sampling import MAX_FIGURES, Times
+from .storage import need
+
+if TYPE_CHECKING:
+    import xarray
+
+    from freebody.model.builder import Builder
+
+Given = Mapping[str, ArrayLike | str] | ArrayLike
+"""By name a value for each member, or one for all, which may be a quantity like ``"90 deg"``; or an array (members, coordinates)."""
+SHOWN = 101
+"""Times that are kept where none are asked for."""
+
+
+class Members:
+    """What distinguishes the members: columns (members,) by name in SI, of coordinates, rates and parameters; and what is the same for
+    all, in the words of a start."""
+
+    def __init__(
+        self, model: Builder, q0: Given | None, u0: Given | None, p: Mapping[str, Any] | None, changes: Mapping[str, Any]
+    ) -> None:
+        self.model = model
+        self.count: int | None = None
+        self._first = ""
+        self.same: dict[str, Any] = dict(changes)
+        self.q, same_q = self._columns("q0", q0)
+        self.u, same_u = self._columns("u0", u0)
+        self.p, same_p = self._columns("p", p)
+        self.same |= same_q | same_p | ({"rates": dict(changes.get("rates", {})) | same_u} if same_u else {})
+
+    def _columns(self, what: str, given: Any) -> tuple[dict[str, Array], dict[str, Any]]:
+        """Those with a value for each member, and those with one for all."""
+        if given is None:
+            return {}, {}
+        if not isinstance(given, Mapping):
+            given = self._by_name(what, np.asarray(given, float))
+        columns, same = {}, {}
+        for name, values in given.items():
+            label = f"{what}[{name!r}]"
+            if isinstance(values, str) or np.ndim(values) == 0:
+                same[name] = values if isinstance(values, str) else float(values)
+                continue
+            column = np.asarray(values, float)
+            if column.ndim != 1:
+                raise self.error(f"{label} has the shape {column.shape}", "give one value for each member: the shape (members,)")
+            if not np.isfinite(column).all():
+                member = int(np.flatnonzero(~np.isfinite(column))[0])
+                raise self.error(f"{label} is {column[member]} for member {member}", "every member needs finite numbers")
+            self._counted(len(column), label)
+            columns[name] = column
+        return columns, same
+
+    def _by_name(self, what: str, rows: Array) -> dict[str, Array]:
+        names = self.model.compile().coordinate_names
+        if what == "p" or rows.ndim != 2 or rows.shape[1] != len(names):
+            hint = "give columns by name, like {'phi': …}"
+            if what != "p":
+                hint += f", or the shape (members, {len(names)}), in the order {', '.join(names)}"
+            raise self.error(f"{what} has the shape {rows.shape}", hint)
+        return dict(zip(names, rows.T, strict=True))
+
+    def _counted(self, count: int, label: str) -> None:
+        if self.count is None:
+            self.count, self._first = count, label
+        if count != self.count:
+            raise self.error(f"{label} has {count} values, {self._first} has {self.count}", "give each member one value of each")
+
+    def error(self, what: str, hint: str) -> ModelFileError:
+        return self.model.error((), what, hint)
+
+    def states(self, t: float) -> tuple[Array, Array, Array]:
+        """Parameters, coordinates and rates at the start, in rows; one row of parameters where they are the same for all."""
+        if self.count is None:
+            raise self.error(
+                "nothing tells the members apart", "give an array of a coordinate in q0, of a rate in u0 or of a parameter in p"
+            )
+        if self.count == 0:
+            raise self.error(f"{self._first} is empty", "give at least one member")
+        core = self.model.compile()
+        if not (core.runs_in_lanes and _is_plain(self.model.lowered().start)):
+            return self._assembled(t)
+        state, _ = self.model.start(t=t, **self.same)
+        unknown = [*(self.q.keys() | self.u.keys()) - set(core.coordinate_names)]
+        if unknown:
+            self.model.start(t=t, **dict.fromkeys(unknown, 0.0))
+        q, u = (np.tile(row, (self.count, 1)) for row in (state.q, state.u))
+        for rows, columns in ((q, self.q), (u, self.u)):
+            for name, column in columns.items():
+                rows[:, core.coordinate_names.index(name)] = column
+        if not self.p:
+            return state.p[None, :], q, u
+        named = {
+            each["name"]: value
+            for each, value in zip(core.metadata["parameters"], state.p, strict=True)
+            if each["name"] in self.same
+        }
+        columns = {name: np.full(self.count, value) for name, value in named.items()} | self.p
+        return core.bind_rows(columns), q, u
+
+    def _assembled(self, t: float) -> tuple[Array, Array, Array]:
+        """Each for itself."""
+        states = []
+        for i in range(self.count or 0):
+            of_member = {name: float(column[i]) for name, column in (self.q | self.p).items()}
+            rates = dict(self.same.get("rates", {})) | {name: float(column[i]) for name, column in self.u.items()}
+            states.append(self.model.start(t=t, **self.same | of_member | ({"rates": rates} if rates else {}))[0])
+        p, q, u = (np.array([getattr(state, name) for state in states]) for name in ("p", "q", "u"))
+        return p, q, u
+
+
+def _is_plain(start: Start) -> bool:
+    """Whether it is the same whatever the parameters."""
+    stated = [*start.fixed.values(), *start.guess.values(), *start.rates.values()]
+    return not (start.points or start.branch) and all(isinstance(number, (int, float)) for number in stated)
+
+
+def batch(members: Members, settings: Settings, t: float, t_eval: Times | None, threads: int | None) -> xarray.Dataset:
+    """The motions of all members."""
+    xarray = need("xarray")
+    until = settings.until
+    assert until is not None
+    model, core = members.model, members.model.compile()
+    if handed := model.lowered().hand_over:
+        raise model.error(
+            ("events", next(iter(handed))), "the motion continues with another model", "simulate each member by itself"
+        )
+    p, q, u = members.states(t)
+    times = _times(settings, t, t_eval)
+    if q.size * 2 * len(times) > MAX_FIGURES:
+        what = f"{len(times)} times of {len(q)} members make {q.size * 2 * len(times):.3g} figures; at most {MAX_FIGURES:.0e} are kept"
+        raise members.error(what, "ask for fewer times by t_eval or every")
+    if outside := [time for time in times if not t <= time <= until]:
+        raise members.error(f"t_eval has the time {outside[0]:g} s", f"the motions go from {t:g} s to {until:g} s")
+    chosen = {name: value for name, value in asdict(settings).items() if name not in ("until", "every")}
+    states, endings = core.batch(p, q, u, t, until, times, threads or _cores(), **chosen)
+    n, along = q.shape[1], ("member", "time", "coordinate")
+    data = xarray.Dataset(
+        {
+            "q": (along, states[:, :, :n], {"long_name": "coordinates, m or rad"}),
+            "u": (along, states[:, :, n:], {"long_name": "rates of the coordinates, m/s or rad/s"}),
+            "outcome": (
+                "member",
+                np.array([each.name.value for each in endings]),
+                {"long_name": "how the motion ended; NaN after that"},
+            ),
+            "ok": ("member", np.array([each.ok for each in endings]), {"long_name": "whether it ended as was asked"}),
+            "end": ("member", np.array([each.t for each in endings]), {"units": "s", "long_name": "when it ended"}),
+            "sentence": ("member", np.array([each.sentence for each in endings]), {"long_name": "how it ended, in a sentence"}),
+        },
+        {"member": np.arange(len(q)), "time": ("time", times, {"units": "s"}), "coordinate": core.coordinate_names},
+        {"title": core.name, "method": settings.method},
+    )
+    if members.p:
+        data["p"] = (("member", "parameter"), np.column_stack(list(members.p.values())), {"long_name": "parameters, SI"})
+        data = data.assign_coords(parameter=list(members.p))
+    return data
+
+
+def _times(settings: Settings, t: float, t_eval: Times | None) -> Array:
+    assert settings.until is not None
+    if t_eval is not None:
+        return np.unique(np.asarray(t_eval, float))
+    if settings.every is None:
+        return np.linspace(t, settings.until, SHOWN)
+    grid = t + settings.every * np.arange(np.floor((settings.until - t) / settings.every * (1 + 1e-12)) + 1)
+    return np.unique(np.append(np.minimum(grid, settings.until), settings.until))
+
+
+def _cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
