@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import Evaluator, ModelError, MotionError, Settings
 from freebody.model.answers import fault, numbers
-from freebody.model.builder import asking
 from freebody.model.errors import ModelFileError, Problem
 from freebody.model.start import many_turns, quantity
 
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
 class Moving:
     """The part of ``Mechanism`` that solves, simulates and draws it."""
 
-    @asking
     def start(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> tuple[State, list[str]]:
         """The assembled state that ``initial`` describes (the model's own by default), with ``changes`` in the same words,
         and what is worth saying about the assembly. Raises ``ModelFileError`` and ``MotionError``."""
@@ -41,7 +39,6 @@ class Moving:
             state, notes = self.compile().assemble(p, t, **given)
         return state, [*turns, *notes]
 
-    @asking
     def moment(
         self: Builder,
         at: float | str | None = None,
@@ -61,7 +58,6 @@ class Moving:
         with self.core_errors():
             return state_of(self, state, self.source(), at, before, after), notes
 
-    @asking
     def solve(
         self: Builder, route: str = "minimal", initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any
     ) -> Instant:
@@ -74,9 +70,8 @@ class Moving:
 
         state, notes = self.moment(initial=initial, t=t, **changes)
         with self.core_errors():
-            return Instant(replace(self.compile(), notes=tuple(notes)), state, route)
+            return Instant(self.compile().with_notes(notes), state, route)
 
-    @asking
     def evaluator(self: Builder, **parameters: Any) -> Evaluator:
         """What gives accelerations and all reactions at one state after another, as arrays and with nothing made in between: for
         inner loops. ``at = m.evaluator(); a, r = at(q, u)`` has as many numbers as ``at.coordinates`` and ``at.reactions`` have names;
@@ -84,7 +79,6 @@ class Moving:
         p = self.initial_state(parameters)["p"]
         return Evaluator(self.compile().spec, p)
 
-    @asking
     def free_bodies(self: Builder, initial: Mapping[str, Any] | None = None, t: float = 0.0, **changes: Any) -> FreeBodies:
         """Every load on every body at one instant, by default the start; ``changes`` as in ``solve``."""
         state, _ = self.moment(initial=initial, t=t, **changes)
@@ -100,7 +94,6 @@ class Moving:
         with self.core_errors():
             return opening(self, state, self.source(notes))
 
-    @asking
     def simulate(
         self: Builder,
         until: float | str | None = None,

@@ -1,19 +1,22 @@
 //! One solved instant as arrays by name; `freebody.core.Solution` says what they are.
 
 use crate::data::{array, plain};
-use freebody::dynamics::{Freedom, Instant};
+use crate::errors;
+use freebody::dynamics::{Instant, Route, Workspace};
 use freebody::mechanism::{DriveKind, Mechanism};
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-pub fn solution<'py>(
-    py: Python<'py>,
-    m: &Mechanism,
-    solved: &Instant,
-    freedom: &Freedom,
-) -> PyResult<Bound<'py, PyDict>> {
-    let (order, joints): (_, Vec<usize>) = (m.listed_bodies(), m.listed_joints().collect());
-    let by_body = |rows: &[[f64; 3]]| array(py, order.iter().flat_map(|&b| rows[b - 1]).collect(), [order.len(), 3]);
+/// Values of each body, in the order of the model.
+fn by_body<'py>(py: Python<'py>, m: &Mechanism, rows: &[[f64; 3]]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let order = m.listed_bodies();
+    array(py, order.iter().flat_map(|&b| rows[b - 1]).collect(), [order.len(), 3])
+}
+
+/// What is asked for at every instant.
+pub fn solution<'py>(py: Python<'py>, m: &Mechanism, solved: &Instant) -> PyResult<Bound<'py, PyDict>> {
+    let joints: Vec<usize> = m.listed_joints().collect();
     let loads = joints.iter().map(|&joint| &solved.joints[joint]);
     let least: Vec<f64> = loads.flat_map(|l| [l.force.x, l.force.y, l.couple]).collect();
     let determinate: Vec<bool> = joints.iter().flat_map(|&joint| solved.determinate[joint]).collect();
@@ -32,8 +35,7 @@ pub fn solution<'py>(
     };
     let answer = PyDict::new(py);
     answer.set_item("accelerations", array(py, solved.accelerations.clone(), [solved.accelerations.len()])?)?;
-    answer.set_item("body_accelerations", by_body(&solved.bodies)?)?;
-    answer.set_item("body_residuals", by_body(&solved.residuals)?)?;
+    answer.set_item("body_accelerations", by_body(py, m, &solved.bodies)?)?;
     answer.set_item("reactions", array(py, least.iter().zip(&determinate).map(known).collect(), [joints, 3])?)?;
     answer.set_item("least_reactions", array(py, least, [joints, 3])?)?;
     answer.set_item("determinate", array(py, determinate, [joints, 3])?)?;
@@ -41,9 +43,18 @@ pub fn solution<'py>(
     answer.set_item("motions", drives(DriveKind::Motion)?)?;
     answer.set_item("couplings", drives(DriveKind::Coupling)?)?;
     answer.set_item("locks", drives(DriveKind::Lock)?)?;
-    answer.set_item("residual", solved.residual)?;
-    answer.set_item("sizes", (solved.sizes.load, solved.sizes.acceleration))?;
     answer.set_item("limits", plain(py, &solved.contacts())?)?;
-    answer.set_item("rank", plain(py, &solved.rank(freedom))?)?;
+    Ok(answer)
+}
+
+/// How well it balances, and its rank: what takes longer than the solution.
+pub fn balances<'py>(py: Python<'py>, mut workspace: Workspace<'_>, route: Route) -> PyResult<Bound<'py, PyDict>> {
+    let solved = workspace.instant(route).map_err(errors::motion)?;
+    let found = workspace.balances();
+    let answer = PyDict::new(py);
+    answer.set_item("body_residuals", by_body(py, workspace.m, &found.residuals)?)?;
+    answer.set_item("residual", found.residual)?;
+    answer.set_item("sizes", (found.sizes.load, found.sizes.acceleration))?;
+    answer.set_item("rank", plain(py, &solved.rank(&workspace.freedom()))?)?;
     Ok(answer)
 }

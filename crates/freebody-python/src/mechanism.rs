@@ -3,7 +3,7 @@
 use crate::batch::{self, Made, Rows};
 use crate::data::{array, data, plain};
 use crate::errors;
-use crate::instant::solution;
+use crate::instant::{balances, solution};
 use crate::trajectory::Trajectory;
 use freebody::assembly::{assemble, Closed};
 use freebody::builder::chosen;
@@ -17,6 +17,7 @@ use freebody::motion::Options;
 use freebody::symbolic::{answer, Query, Setting};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
 use std::collections::BTreeMap;
 use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
@@ -49,7 +50,11 @@ impl Shared {
 
 /// A compiled model: topology without numbers.
 #[pyclass(frozen)]
-pub struct Mechanism(Arc<Shared>);
+pub struct Mechanism {
+    of: Arc<Shared>,
+    /// What it says of itself, once that was asked for.
+    described: PyOnceLock<Py<PyAny>>,
+}
 
 type Array<'py> = PyReadonlyArray1<'py, f64>;
 type Named = BTreeMap<String, f64>;
@@ -90,15 +95,16 @@ impl Mechanism {
             errors::ModelError::new_err((String::new(), format!("the model data cannot be read: {e}"), ""))
         })?;
         let compiled = Compiled::new(&spec).map_err(errors::model)?;
-        Ok(Mechanism(Arc::new(Shared(RwLock::new(compiled)))))
+        Ok(Mechanism { of: Arc::new(Shared(RwLock::new(compiled))), described: PyOnceLock::new() })
     }
 
     fn describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        plain(py, &freebody::metadata::metadata(&self.0.mechanism()))
+        let made = || PyResult::Ok(plain(py, &freebody::metadata::metadata(&self.of.mechanism()))?.unbind());
+        Ok(self.described.get_or_try_init(py, made)?.bind(py).clone())
     }
 
     fn bind<'py>(&self, py: Python<'py>, values: Named) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let p = self.0.names().parameters(&values).map_err(errors::model)?;
+        let p = self.of.names().parameters(&values).map_err(errors::model)?;
         Ok(PyArray1::from_vec(py, p))
     }
 
@@ -135,8 +141,8 @@ impl Mechanism {
             |(p, t, q, ..): State| PyResult::Ok(Closed { p: p.as_slice()?.to_vec(), t, q: q.as_slice()?.to_vec() });
         let from = from.map(closed).transpose()?;
         let asked = Initial { fixed, guess, rates, points, branch, from };
-        let wish = self.0.names().wish(&asked).map_err(errors::model)?;
-        let m = self.0.mechanism();
+        let wish = self.of.names().wish(&asked).map_err(errors::model)?;
+        let m = self.of.mechanism();
         m.check_state(p.as_slice()?, t, &wish.start, &wish.start_rates).map_err(errors::motion)?;
         let mode = past.as_ref().map(|past| &past.mode);
         let mut workspace = Workspace::in_mode(&m, p.as_slice()?, mode).map_err(errors::motion)?;
@@ -146,15 +152,20 @@ impl Mechanism {
     }
 
     fn instant<'py>(&self, py: Python<'py>, state: State<'py>, route: &str) -> PyResult<Bound<'py, PyDict>> {
-        let m = self.0.mechanism();
+        let m = self.of.mechanism();
         let route = self::route(route)?;
         let mut workspace = placed(&m, &state)?;
         let solved = workspace.instant(route).map_err(errors::motion)?;
-        solution(py, &m, &solved, &workspace.freedom())
+        solution(py, &m, &solved)
+    }
+
+    fn balances<'py>(&self, py: Python<'py>, state: State<'py>, route: &str) -> PyResult<Bound<'py, PyDict>> {
+        let m = self.of.mechanism();
+        balances(py, placed(&m, &state)?, self::route(route)?)
     }
 
     fn free_bodies<'py>(&self, py: Python<'py>, state: State<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let m = self.0.mechanism();
+        let m = self.of.mechanism();
         let mut workspace = placed(&m, &state)?;
         plain(py, &freebody::free_bodies::free_bodies(&mut workspace).map_err(errors::motion)?)
     }
@@ -166,7 +177,7 @@ impl Mechanism {
         setting: &Bound<'_, PyAny>,
         questions: &Bound<'_, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let m = self.0.mechanism();
+        let m = self.of.mechanism();
         let mut workspace = placed(&m, &state)?;
         let (setting, questions) = self::questions(setting, questions)?;
         plain(py, &answer(&mut workspace, &setting, &questions).map_err(errors::motion)?)
@@ -178,8 +189,8 @@ impl Mechanism {
         texts: Vec<String>,
         state: State<'py>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let laws = self.0.observables(&texts)?;
-        let m = self.0.mechanism();
+        let laws = self.of.observables(&texts)?;
+        let m = self.of.mechanism();
         let mut workspace = placed(&m, &state)?;
         let laws: Vec<&ModelExpr> = laws.iter().collect();
         let works = works(&workspace, &state);
@@ -192,8 +203,8 @@ impl Mechanism {
         texts: Vec<String>,
         state: State<'py>,
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
-        let laws = self.0.observables(&texts)?;
-        let m = self.0.mechanism();
+        let laws = self.of.observables(&texts)?;
+        let m = self.of.mechanism();
         let mut workspace = placed(&m, &state)?;
         let laws: Vec<&ModelExpr> = laws.iter().collect();
         let (works, along) = (works(&workspace, &state), workspace.unit_directions());
@@ -204,7 +215,7 @@ impl Mechanism {
     /// Each closing row: its name, whether it keeps something from sliding, derivatives of its value and of its rate.
     #[allow(clippy::type_complexity)]
     fn row_derivatives(&self, state: State<'_>) -> PyResult<Vec<(String, bool, Option<Vec<f64>>, Option<Vec<f64>>)>> {
-        let m = self.0.mechanism();
+        let m = self.of.mechanism();
         let mut workspace = placed(&m, &state)?;
         let along = workspace.unit_directions();
         let rows = workspace.row_derivatives(&along).map_err(errors::motion)?;
@@ -213,7 +224,7 @@ impl Mechanism {
     }
 
     fn points<'py>(&self, py: Python<'py>, p: Array<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let m = self.0.mechanism();
+        let m = self.of.mechanism();
         m.check_parameters(p.as_slice()?).map_err(errors::motion)?;
         plain(py, &freebody::metadata::places(&m, &m.bind(p.as_slice()?)))
     }
@@ -224,7 +235,7 @@ impl Mechanism {
         p: Array<'py>,
         q: Array<'py>,
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
-        let (m, p, q) = (self.0.mechanism(), p.as_slice()?, q.as_slice()?);
+        let (m, p, q) = (self.of.mechanism(), p.as_slice()?, q.as_slice()?);
         m.check_state(p, 0.0, q, &vec![0.0; m.freedom()]).map_err(errors::motion)?;
         array(py, freebody::hybrid::mass_matrix(&m, p, q), [m.freedom(), m.freedom()])
     }
@@ -251,7 +262,7 @@ impl Mechanism {
         let (p, t, q, u, past) = state;
         let mode = past.map(|past| past.mode.clone());
         let (p, q, u) = (p.as_slice()?.to_vec(), q.as_slice()?.to_vec(), u.as_slice()?.to_vec());
-        let of = self.0.clone();
+        let of = self.of.clone();
         let mut error = None;
         let run = py.detach(|| {
             let m = of.mechanism();
@@ -270,7 +281,7 @@ impl Mechanism {
         });
         match error {
             Some(error) => Err(error),
-            None => Ok(Trajectory { of: self.0.clone(), run: run.map_err(errors::motion)? }),
+            None => Ok(Trajectory { of: self.of.clone(), run: run.map_err(errors::motion)? }),
         }
     }
 

@@ -60,11 +60,13 @@ pub fn metadata(m: &Mechanism) -> Value {
 }
 
 fn bodies(m: &Mechanism, n: &BoundValues) -> Vec<Value> {
+    // The first site of every body is its origin.
+    let mut origins = vec![0; m.bodies.len()];
+    m.sites.iter().enumerate().rev().for_each(|(site, s)| origins[s.body] = site);
     let entry = |&i: &usize| {
         let body = &m.bodies[i];
         // The mass centre is kept from the pin; tell it in the body's own frame.
-        let origin = m.sites.iter().position(|s| s.body == i).expect("every body has its origin as a site");
-        let centre = n.centre[i] - n.arms[origin];
+        let centre = n.centre[i] - n.arms[origins[i]];
         json!({
             "name": body.name, "particle": body.particle, "mass": n.mass[i],
             "inertia": if body.particle { 0.0 } else { n.inertia[i] }, "centre": [centre.x, centre.y],

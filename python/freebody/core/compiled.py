@@ -95,9 +95,13 @@ class CompiledModel:
         """From the core's terms. Raises ``ModelError``."""
         return cls(_core.Mechanism(spec), spec)
 
-    @cached_property
+    def with_notes(self, notes: Sequence[str]) -> CompiledModel:
+        """The same mechanism with these notes."""
+        return replace(self, notes=tuple(notes)) if notes or self.notes else self
+
+    @property
     def metadata(self) -> dict[str, Any]:
-        """What the core says of the mechanism: bodies, coordinates, joints and so on."""
+        """What the core says of the mechanism: bodies, coordinates, joints and so on; always the same object."""
         return self.mechanism.describe()
 
     @cached_property
@@ -185,7 +189,9 @@ class CompiledModel:
 
     def instant(self, state: State, route: str = "minimal") -> Solution:
         """Accelerations and all reactions by ``minimal``, ``newton_euler`` or ``constraints``."""
-        return Solution.read(self.mechanism.instant(state.arrays, route), self.metadata)
+        p, t, q, u, history = state.arrays
+        asked = (p.copy(), t, q.copy(), u.copy(), history)  # that of which it is judged later, whatever becomes of the arrays
+        return Solution.read(self.mechanism.instant(asked, route), self.metadata, lambda: self.mechanism.balances(asked, route))
 
     def free_bodies(self, state: State) -> FreeBodies:
         """All that acts on each body."""

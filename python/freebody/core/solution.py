@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -91,6 +92,24 @@ class Rank:
 
 
 @dataclass(frozen=True)
+class Balances:
+    """How well a solved instant balances, and what its rank is."""
+
+    body_residuals: Array
+    """(nb, 3) what is left of the momentum balance: N, N, N·m."""
+    residual: float
+    """Largest momentum-balance residual of a body, relative to the largest term."""
+    sizes: tuple[float, float]
+    """Largest force (N) and acceleration (m/s²) among the terms that balance."""
+    rank: Rank
+
+    @classmethod
+    def read(cls, data: dict[str, Any]) -> Balances:
+        """As the core gives it."""
+        return cls(**data | {"rank": Rank(**data["rank"])})
+
+
+@dataclass(frozen=True)
 class Solution:
     """An instant, solved, as arrays: for n coordinates, nb bodies and nj joints in the order of the model."""
 
@@ -98,8 +117,6 @@ class Solution:
     """(n,) of the coordinates."""
     body_accelerations: Array
     """(nb, 3) ax, ay of the mass centre, α."""
-    body_residuals: Array
-    """(nb, 3) what is left of the momentum balance: N, N, N·m."""
     reactions: Array
     """(nj, 3) Fx, Fy on the second body at the joint's point, couple M; NaN where indeterminate."""
     least_reactions: Array
@@ -114,18 +131,24 @@ class Solution:
     """The same of each coupling."""
     locks: dict[str, float]
     """The same of each lock in place."""
-    residual: float
-    """Largest momentum-balance residual of a body, relative to the largest term."""
-    sizes: tuple[float, float]
-    """Largest force (N) and acceleration (m/s²) among the terms that balance."""
     limits: dict[str, Limit]
     """What every contact, string and stop does, by name."""
-    rank: Rank
+    judged: Callable[[], dict[str, Any]] = field(repr=False)
+    """What the core says of how well it balances."""
 
     @classmethod
-    def read(cls, data: dict[str, Any], metadata: Mapping[str, Any]) -> Solution:
-        """As the core gives it."""
-        return cls(**data | {"limits": limits_of(data["limits"], metadata), "rank": Rank(**data["rank"])})
+    def read(cls, data: dict[str, Any], metadata: Mapping[str, Any], judged: Callable[[], dict[str, Any]]) -> Solution:
+        """As the core gives it; ``judged`` asks it for more, which takes longer than the solution."""
+        return cls(**data | {"limits": limits_of(data["limits"], metadata)}, judged=judged)
+
+    @cached_property
+    def balances(self) -> Balances:
+        """How well it balances, found when first asked for."""
+        return Balances.read(self.judged())
+
+    residual = property(lambda self: self.balances.residual)
+    sizes = property(lambda self: self.balances.sizes)
+    rank = property(lambda self: self.balances.rank)
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Iterator, Mapping, MutableMapping, Sequence
 from dataclasses import replace
-from functools import wraps
 from pathlib import Path as FilePath
-from typing import Any, TypeVar
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -14,6 +13,7 @@ from freebody.core import CompiledModel, ReportItem, Settings
 
 from . import file, reading, schema
 from .answers import fault, numbers, timed
+from .edition import Edition
 from .errors import ModelFileError, ModelProblem, Path, Problem
 from .handles import Body, Element, Expression, Ground
 from .lower import Lowered, lower
@@ -22,8 +22,6 @@ from .names import spell, suggestion
 from .scope import Folder
 from .source import Source, SourceLocations, called, caller
 from .start import Assembly, Start, initial_state, parameter_values
-
-Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 def plain(value: Any) -> Any:
@@ -93,8 +91,7 @@ class Builder:
         self.ground = Ground(self, "ground", ("O",))
         self._locations, self._file, self._text = SourceLocations(), None, ""
         self._opened: dict[FilePath, Builder] = {}
-        self._lowered: tuple[str, Lowered] | None = None
-        self._unchanged = False
+        self._lowered: tuple[object, str, Lowered] | None = None
         self._locations.note(())
         for section, value in (("name", name or None), ("gravity", gravity)):
             if value is not None:
@@ -294,15 +291,14 @@ class Builder:
                 raise self.error((section, name), f"`{name}` is used twice in {section}", "give one of them another name")
             self._locations.note((section, name))
         # Validated alone, so that making many items takes linear time.
-        old[name] = getattr(self.validated({section: {name: plain(value)}}, (section, name)), section)[name]
+        made = getattr(self.validated({section: {name: plain(value)}}, (section, name)), section)[name]
         self.model.model_fields_set.add(section)
-        self._lowered = None
+        old[name] = made
 
     def _assign(self, section: str, value: Any, note: bool = True) -> None:
         if note:
             self._locations.note((section,))
         setattr(self.model, section, getattr(self.validated({section: plain(value)}, (section,)), section))
-        self._lowered = None
 
     def validated(self, data: dict[str, Any], path: Path) -> schema.Model:
         """A model of that data alone. Raises ``ModelFileError``."""
@@ -324,19 +320,20 @@ class Builder:
     def noted(self, path: Path) -> None:
         """Remembers that the item was made by the call that is being executed."""
         self._locations.note(path)
-        self._lowered = None
 
     # -- what others make of it
 
     def lowered(self) -> Lowered:
         """The model in the core's terms; made again only when the model has changed. Raises ``ModelFileError`` with all that is
         wrong."""
-        if self._lowered and self._unchanged:
-            return self._lowered[1]
-        key = self.model.model_dump_json(by_alias=True, exclude_unset=True)
-        if self._lowered is None or self._lowered[0] != key:
-            self._lowered = (key, lower(self.model, self._locations, self._file, self.others))
-        return self._lowered[1]
+        known, edition = self._lowered, Edition.now
+        if known is None or known[0] is not edition:
+            self.model.take_up()
+            text = self.model.model_dump_json(by_alias=True, exclude_unset=True)
+            same = known is not None and known[1] == text
+            made = known[2] if same else lower(self.model, self._locations, self._file, self.others)
+            known = self._lowered = (edition, text, made)
+        return known[2]
 
     def compile(self) -> CompiledModel:
         """The compiled model. Raises ``ModelFileError``."""
@@ -348,7 +345,7 @@ class Builder:
         if lowered.source is None:
             model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
             lowered.source = replace(lowered.compiled, model=model, report=tuple(self.report_items()), plots=tuple(lowered.plots))
-        return replace(lowered.source, notes=tuple(notes))
+        return lowered.source.with_notes(notes)
 
     def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:
         """Arguments for ``compile().assemble``: the section ``initial`` (or ``initial`` in its place) with ``changes``. What is guessed
@@ -379,23 +376,6 @@ class Builder:
 
     def _values(self, parameters: Mapping[str, float] | None) -> Mapping[str, float]:
         return parameter_values(self.compile(), self.compile().bind({})) if parameters is None else parameters
-
-
-def asking(call: Call) -> Call:
-    """Of a call that changes nothing in the model: whether it has changed is looked at once, when the call begins."""
-
-    @wraps(call)
-    def asked(self: Builder, *args: Any, **words: Any) -> Any:
-        if self._unchanged:
-            return call(self, *args, **words)
-        self.lowered()
-        self._unchanged = True
-        try:
-            return call(self, *args, **words)
-        finally:
-            self._unchanged = False
-
-    return asked  # type: ignore[return-value]
 
 
 def _given(words: Mapping[str, Any]) -> dict[str, Any]:

@@ -19,6 +19,7 @@ MAX_ITEMS = 100_000
 MAX_NODES = 4_000_000
 """Names and values of a whole model, written out, parts included."""
 
+_SHIFTED = re.compile(r"\s*([^\W\d]\w*)\s*(?:([+-])\s*(\d{1,9}))?\s*")
 _REPEAT = re.compile(r"\[\s*([^\W\d]\w*)\s*=\s*(.+?)\s*\.\.\s*([^\]]+?)\s*\]")
 _AS_WRITTEN = {("name",), ("freebody",)}
 
@@ -97,7 +98,12 @@ class Expansion:
         return work_out_indices(text, lambda inside: self._index(inside, index))
 
     def _index(self, text: str, index: dict[str, int]) -> int:
-        return int(text) if text.strip().lstrip("-").isdecimal() else self.whole(_with_index(text, index))
+        if text.strip().lstrip("-").isdecimal():
+            return int(text)
+        # What nearly all indices are, `i - 1`; anything else is worked out as an expression.
+        if (found := _SHIFTED.fullmatch(text)) and found[1] in index:
+            return index[found[1]] + int(f"{found[2] or ''}{found[3] or 0}")
+        return self.whole(_with_index(text, index))
 
 
 def repeats(data: Any) -> bool:

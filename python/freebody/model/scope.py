@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import cycle
@@ -106,15 +104,9 @@ class Scope:
         """Notes a problem."""
         self.problems.append(Problem(self.where(path, at_key), what, hint))
 
-    @contextmanager
-    def noting(self, path: Path, at_key: bool = False) -> Iterator[None]:
+    def noting(self, path: Path, at_key: bool = False) -> Noting:
         """Notes the ``ModelProblem`` that is raised within and goes on behind; what only follows from another is not said again."""
-        try:
-            yield
-        except Consequence:
-            pass
-        except ModelProblem as problem:
-            self.complain(path, problem.what, problem.hint, at_key)
+        return Noting(self, path, at_key)
 
     def all(self) -> list[Scope]:
         """This scope and those of all parts, outer ones first."""
@@ -127,6 +119,23 @@ class Scope:
         own = {c.split(".")[0] for name, joint in m.joints.items() for c, _ in coordinate_names(name, joint)}
         welds = {weld for name, event in m.events.items() for weld, _, _ in event.welds(name)}
         return own | welds | {name for section in (*ITEMS, "parts") for name in getattr(m, section)}
+
+
+class Noting:
+    """What notes a ``ModelProblem``; a model asks for so many that each must be cheap."""
+
+    __slots__ = ("at_key", "path", "scope")
+
+    def __init__(self, scope: Scope, path: Path, at_key: bool) -> None:
+        self.scope, self.path, self.at_key = scope, path, at_key
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
+        if isinstance(error, ModelProblem) and not isinstance(error, Consequence):
+            self.scope.complain(self.path, error.what, error.hint, self.at_key)
+        return isinstance(error, ModelProblem)
 
 
 Overruled = dict[str, tuple[float, Dimension | None]]

@@ -22,6 +22,7 @@ from pydantic import (
 )
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from .edition import Edition, watched
 from .names import suggestion
 
 T = TypeVar("T", bound="Section")
@@ -36,9 +37,15 @@ class Section(BaseModel):
     @classmethod
     def _name_unknown_keys(cls: type[T], data: Any, handler: Callable[[Any], T]) -> T:
         try:
-            return handler(data)
+            made = handler(data)
         except ValidationError as error:
             raise ValidationError.from_exception_data(cls.__name__, [cls._with_hint(e) for e in error.errors()]) from None
+        made.__dict__.update({name: watched(value) for name, value in made.__dict__.items() if type(value) in (dict, list)})
+        object.__setattr__(made, "__pydantic_extra__", watched(made.__pydantic_extra__))
+        return made
+
+    __setattr__ = Edition.changing(BaseModel.__setattr__)
+    __delattr__ = Edition.changing(BaseModel.__delattr__)
 
     @classmethod
     def words(cls) -> list[str]:
@@ -71,7 +78,21 @@ class Section(BaseModel):
 
     def written(self) -> dict[str, Any]:
         """The plain data of what was given, with the keys of the language."""
+        self.take_up()
         return self.model_dump(by_alias=True, exclude_unset=True)
+
+    def take_up(self) -> None:
+        """What was left out and has been filled since counts as given."""
+        for name, value in self.__dict__.items():
+            if isinstance(value, (dict, list)):
+                if value and name not in self.model_fields_set and value != type(self).model_fields[name].default:
+                    self.model_fields_set.add(name)
+                inside = value.values() if isinstance(value, dict) else value
+            else:
+                inside = (value,)
+            for each in inside:
+                if isinstance(each, Section):
+                    each.take_up()
 
 
 def refuse(what: str, hint: str = "") -> PydanticCustomError:

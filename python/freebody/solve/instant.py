@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
@@ -154,8 +155,6 @@ class Instant(PlainText):
         self.core = core
         self._metadata = core.metadata
         self._solved = solved = core.instant(state, route)
-        self.absent = {*solved.released, *(c["name"] for c in _named(core) if c["joint"] in solved.released)}
-        """Names of the joints that are not in place, and of their coordinates."""
         self.limits = solved.limits
         """What every contact, string and stop does, by name."""
         self.motions = solved.motions
@@ -164,18 +163,39 @@ class Instant(PlainText):
         """Force (N) or torque (N·m) that each coupling passes, along what it holds at 0."""
         self.locks = solved.locks
         """Force (N) or torque (N·m) along what each lock in place holds, named ``lock theta``."""
-        self.residual = float(solved.residual)
-        """Largest momentum-balance residual of a body, relative to its largest term."""
-        self.sizes = solved.sizes
-        """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
-        self.freedom = solved.rank.freedom
-        """Degrees of freedom, by rank."""
-        self.explanation = solved.rank.explanation
-        """How the degrees of freedom come about, and what is redundant, in words."""
-        self.self_stress = solved.rank.self_stress
-        """In words, each way in which the parts could be pre-stressed."""
+
+    @cached_property
+    def absent(self) -> set[str]:
+        """Names of the joints that are not in place, and of their coordinates."""
+        released = self._solved.released
+        return {*released, *(c["name"] for c in _named(self.core) if c["joint"] in released)}
 
     @property
+    def residual(self) -> float:
+        """Largest momentum-balance residual of a body, relative to its largest term."""
+        return float(self._solved.residual)
+
+    @property
+    def sizes(self) -> tuple[float, float]:
+        """Largest force (N) and acceleration (m/s²) among the terms that balance: what round-off is relative to."""
+        return self._solved.sizes
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom, by rank."""
+        return self._solved.rank.freedom
+
+    @property
+    def explanation(self) -> str:
+        """How the degrees of freedom come about, and what is redundant, in words."""
+        return self._solved.rank.explanation
+
+    @property
+    def self_stress(self) -> list[str]:
+        """In words, each way in which the parts could be pre-stressed."""
+        return self._solved.rank.self_stress
+
+    @cached_property
     def accelerations(self) -> dict[str, float]:
         """Second time derivatives of the coordinates by name, m/s² or rad/s²."""
         return dict(zip(self.core.coordinate_names, self._solved.accelerations.tolist(), strict=True))
@@ -187,13 +207,13 @@ class Instant(PlainText):
         values = self._values([text for name in names for text in (quote(name), f"accel({quote(name)})")])
         return {name: tuple(pair) for name, pair in zip(names, values.reshape(-1, 2).tolist(), strict=True)}
 
-    @property
+    @cached_property
     def bodies(self) -> dict[str, tuple[float, float, float]]:
         """Acceleration ax, ay of the mass centre (m/s²) and angular acceleration (rad/s²) by body."""
         names = (b["name"] for b in self._metadata["bodies"])
         return {name: tuple(row) for name, row in zip(names, self._solved.body_accelerations.tolist(), strict=True)}
 
-    @property
+    @cached_property
     def reactions(self) -> Reactions:
         """Reaction of every joint, on its second body unless ``.on(body)`` says otherwise."""
         solved = self._solved
@@ -231,7 +251,7 @@ class Instant(PlainText):
     def residuals(self) -> dict[str, tuple[float, float, float]]:
         """The residual of each body's momentum balance: N, N, N·m."""
         names = (b["name"] for b in self._metadata["bodies"])
-        return {name: tuple(row) for name, row in zip(names, self._solved.body_residuals.tolist(), strict=True)}
+        return {name: tuple(row) for name, row in zip(names, self._solved.balances.body_residuals.tolist(), strict=True)}
 
     def free_bodies(self) -> FreeBodies:
         """Every load on every body, and what it gives their mass centres."""

@@ -68,13 +68,14 @@ def table(
 
     Figures come in SI, that of their head or else of their row under ``unit``, and are shown in the units that are chosen."""
     from rich import box
-    from rich.table import Table
     from rich.text import Text
+
+    from freebody.solve.long_tables import LongTable
 
     rows = list(rows)
     filled = [i for i in range(len(heads)) if not rows or any(row[i] not in ("", None) for row in rows)]
     heads, rows = [heads[i] for i in filled], [[row[i] for i in filled] for row in rows]
-    made = Table(title=Text(title, "bold") if title else None, title_justify="left", box=box.SIMPLE_HEAD, show_edge=edge)
+    made = LongTable(title=Text(title, "bold") if title else None, title_justify="left", box=box.SIMPLE_HEAD, show_edge=edge)
     heads, rows = _in_user_units(heads, rows)
     stated = [[figure(cell) if isinstance(cell, float) else "" if cell is None else cell for cell in row] for row in rows]
     for i, head in enumerate(heads):

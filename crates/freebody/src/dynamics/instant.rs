@@ -33,16 +33,21 @@ pub struct Instant {
     pub joints_in_place: Vec<usize>,
     /// The couplings, motions and locks in place.
     pub drives_in_place: Vec<usize>,
+    /// Ways in which joints can load each other, in words.
+    pub self_stress: Vec<String>,
+    /// What each contact, stop and string does.
+    pub contacts: Vec<ContactLoad>,
+}
+
+/// How well the bodies of a solved instant balance.
+#[derive(Clone, Debug)]
+pub struct Balances {
     /// What is left of the momentum balance of each body, N, N, N·m.
     pub residuals: Vec<[f64; 3]>,
     /// The largest of them relative to the largest load.
     pub residual: f64,
     /// How large the terms are of which accelerations and reactions are made.
     pub sizes: TermScales,
-    /// Ways in which joints can load each other, in words.
-    pub self_stress: Vec<String>,
-    /// What each contact, stop and string does.
-    pub contacts: Vec<ContactLoad>,
 }
 
 /// What a contact, stop or string does.
@@ -104,10 +109,6 @@ impl Workspace<'_> {
         let (joints, drives) = (self.solved_view().joint_loads(), self.solved_view().drive_forces());
         let joints_in_place = (0..self.m.joints.len()).filter(|&j| self.at().mode.has(self.m.part_of(j))).collect();
         let drives_in_place = self.at().drives().map(|(drive, _)| drive).collect();
-        let (residuals, sizes) = (self.residuals(), self.term_scales());
-        let length = self.length;
-        let size = |r: &[f64; 3]| r[0].abs().max(r[1].abs()).max(r[2].abs() / length);
-        let residual = residuals.iter().map(size).fold(0.0, f64::max) / sizes.load;
         let bodies = (1..self.m.bodies.len())
             .map(|i| {
                 let a = self.centre_acceleration(i);
@@ -128,11 +129,16 @@ impl Workspace<'_> {
             drives_determinate,
             joints_in_place,
             drives_in_place,
-            residuals,
-            residual,
-            sizes,
             self_stress,
         })
+    }
+
+    /// How well the bodies balance in the last solution.
+    pub fn balances(&self) -> Balances {
+        let (residuals, sizes) = (self.residuals(), self.term_scales());
+        let size = |r: &[f64; 3]| r[0].abs().max(r[1].abs()).max(r[2].abs() / self.length);
+        let residual = residuals.iter().map(size).fold(0.0, f64::max) / sizes.load;
+        Balances { residuals, residual, sizes }
     }
 }
 

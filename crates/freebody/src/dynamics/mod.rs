@@ -44,7 +44,7 @@ pub use derivatives::{Direction, RowDerivatives};
 pub use energy::{kinetic, potential};
 pub use evaluator::reaction_names;
 pub use impact::ImpactSolution;
-pub use instant::{ContactLoad, Instant};
+pub use instant::{Balances, ContactLoad, Instant};
 pub use loads::{add_force, force_power, force_value, plate_load, pulled, pushed, unaccounted_power};
 pub use maximal::{constraint_rows, joint_place};
 pub use momentum::{add_multipliers, inertia_wrench, momentum, momentum_rate, residual};
