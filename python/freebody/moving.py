@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +24,25 @@ if TYPE_CHECKING:
     from freebody.run.simulation import Progress, Run
     from freebody.solve.instant import Instant
     from freebody.views.diagram import Diagram
+
+
+_SETTINGS = {field.name for field in fields(Settings)}
+
+
+class Placing:
+    """What gives errors of the core a place in a model."""
+
+    __slots__ = ("mechanism",)
+
+    def __init__(self, mechanism: Builder) -> None:
+        self.mechanism = mechanism
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, MotionError) and error.path:
+            error.where = self.mechanism.lowered().where(error.path)
 
 
 class Moving:
@@ -113,8 +131,7 @@ class Moving:
         """
         from freebody.run.model_sequence import Stage, follow
 
-        words = {field.name for field in fields(Settings)}
-        changes = {name: settings.pop(name) for name in settings.keys() - words}
+        changes = {name: settings.pop(name) for name in settings.keys() - _SETTINGS}
         state, notes = self.start(initial, t, **changes)
         if initial is None and not changes and self.lowered().start.equilibrium:
             self.check_equilibrium(state)
@@ -124,7 +141,6 @@ class Moving:
         with self.core_errors():
             return follow(stage, stage.run(state, notes))
 
-    @asking
     def batch(
         self: Builder,
         q0: Given | None = None,
@@ -166,15 +182,9 @@ class Moving:
             hint = "look for a load that nothing carries, or leave `equilibrium` out"
             raise self.wrong(("initial", "equilibrium"), f"the start is no equilibrium: {stated}", hint)
 
-    @contextmanager
-    def core_errors(self: Builder) -> Iterator[None]:
+    def core_errors(self: Builder) -> Placing:
         """Gives a ``MotionError`` about an item of the model the place ``where`` it stands."""
-        try:
-            yield
-        except MotionError as error:
-            if error.path:
-                error.where = self.lowered().where(error.path)
-            raise
+        return Placing(self)
 
     def drawing(self: Builder, ax: Axes | None = None, layers: Sequence[str] | None = None) -> Axes:
         """A labelled drawing of the mechanism at the start."""

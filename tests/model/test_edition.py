@@ -2,6 +2,7 @@
 
 import threading
 
+import numpy as np
 import pytest
 
 from freebody import Mechanism
@@ -98,3 +99,20 @@ def test_what_is_said_later_of_an_instant_is_said_of_its_state():
     told = at_once.sizes
     state.u[:] = 100.0
     assert later.sizes == told != core.instant(state).sizes
+
+
+def test_a_run_takes_changes_by_keyword_as_an_instant_does():
+    m, changed = Mechanism.loads(TEXT), Mechanism.loads(TEXT)
+    changed.parameters["l"] = "2 m"
+    run, anew = m.simulate(0.05, l="2 m", theta=0.3, rtol=1e-8), changed.simulate(0.05, theta=0.3, rtol=1e-8)
+    assert run.settings.rtol == 1e-8
+    assert np.array_equal(run.q, anew.q)
+    assert m.solve(l="2 m", theta=0.3).accelerations == changed.solve(theta=0.3).accelerations
+    assert m.solve().accelerations == Mechanism.loads(TEXT).solve().accelerations != changed.solve().accelerations
+
+
+def test_output_times_are_those_that_were_asked_for():
+    asked = [0.0, 0.01]
+    run = Mechanism.loads(TEXT).simulate(0.02, t_eval=asked)
+    asked.append(0.02)
+    assert run.t.tolist() == [0.0, 0.01]

@@ -31,6 +31,8 @@ pub struct Evaluator {
     #[pyo3(get)]
     parameters: Vec<String>,
     p: Vec<f64>,
+    /// Accelerations and reactions of the last state, which are handed out as copies.
+    found: [Vec<f64>; 2],
 }
 
 type Array<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
@@ -50,10 +52,11 @@ impl Evaluator {
         let compiled = Compiled::new(&spec).map_err(errors::model)?;
         let (m, p) = (&compiled.mechanism, numbers(&p).into_owned());
         m.check_parameters(&p).map_err(errors::motion)?;
-        let coordinates = (0..m.freedom()).map(|i| m.coordinate(i).name.clone()).collect();
+        let coordinates: Vec<String> = (0..m.freedom()).map(|i| m.coordinate(i).name.clone()).collect();
         let (reactions, parameters) = (reaction_names(m), m.parameters.iter().map(|p| p.name.clone()).collect());
         let owned = Owned::new(compiled, |compiled| Workspace::new(&compiled.mechanism, &p));
-        Ok(Evaluator { owned, coordinates, reactions, parameters, p })
+        let found = [vec![0.0; coordinates.len()], vec![0.0; reactions.len()]];
+        Ok(Evaluator { owned, coordinates, reactions, parameters, p, found })
     }
 
     /// Accelerations (n,) of the coordinates, m/s² or rad/s², and reactions (k,), N and N·m, at coordinates `q` (n,), rates `u` (n,), all
@@ -71,13 +74,12 @@ impl Evaluator {
         p: Option<Array<'py>>,
         t: f64,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
-        let (mut accelerations, mut reactions) = (vec![0.0; self.coordinates.len()], vec![0.0; self.reactions.len()]);
+        let [accelerations, reactions] = &mut self.found;
         let (q, u) = (numbers(&q), numbers(&u));
         let p = p.as_ref().map_or(Cow::Borrowed(&self.p[..]), numbers);
-        let mut asked = |workspace: &mut Workspace<'_>| {
-            workspace.evaluate_at(&p, t, [&*q, &*u], &mut accelerations, &mut reactions)
-        };
+        let mut asked =
+            |workspace: &mut Workspace<'_>| workspace.evaluate_at(&p, t, [&*q, &*u], accelerations, reactions);
         self.owned.with_dependent_mut(|_, workspace| asked(workspace)).map_err(errors::motion)?;
-        Ok((PyArray1::from_vec(py, accelerations), PyArray1::from_vec(py, reactions)))
+        Ok((PyArray1::from_slice(py, &self.found[0]), PyArray1::from_slice(py, &self.found[1])))
     }
 }

@@ -115,7 +115,7 @@ impl Mechanism {
         names: Vec<String>,
         columns: numpy::PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, numpy::PyArray2<f64>>> {
-        let (compiled, columns, mut rows) = (self.0.names(), columns.as_array(), vec![]);
+        let (compiled, columns, mut rows) = (self.of.names(), columns.as_array(), vec![]);
         for (member, values) in columns.outer_iter().enumerate() {
             let named = names.iter().cloned().zip(values.iter().copied()).collect();
             rows.extend(compiled.parameters(&named).map_err(|e| batch::of_member(member, e))?);
@@ -287,7 +287,7 @@ impl Mechanism {
 
     /// Whether a batch by `rk4` runs side by side.
     fn runs_in_lanes(&self) -> bool {
-        freebody::batch::fits_lanes(&self.0.mechanism())
+        freebody::batch::fits_lanes(&self.of.mechanism())
     }
 
     #[pyo3(signature = (states, span, times, threads, method, rtol, step, max_step, route, impacts, painleve, max_steps=1_000_000))]
@@ -310,7 +310,7 @@ impl Mechanism {
     ) -> PyResult<Made<'py>> {
         let options = Options { rtol, first_step: step, max_step: max_step.unwrap_or(f64::INFINITY), max_steps };
         let settings = Settings::named([method, route, impacts, painleve], options).map_err(errors::model)?;
-        batch::batch(py, &self.0.mechanism(), &states, span, &times, &settings, threads)
+        batch::batch(py, &self.of.mechanism(), &states, span, &times, &settings, threads)
     }
 }
 

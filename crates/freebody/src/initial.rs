@@ -8,7 +8,7 @@ use crate::expr::spell;
 use crate::gauges::ModelExpr;
 use crate::mechanism::Mechanism;
 use serde_json::{json, Value};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// A coordinate is as guessed if it differs by less, m or rad: it is printed with nine decimals.
 const AS_GUESSED: f64 = 1e-9;
@@ -67,6 +67,7 @@ impl Compiled {
         let placed = self.read(places.map(|(text, x)| (text.clone(), text, x)).collect())?;
         let m = &self.mechanism;
         let names: Vec<&String> = (0..m.freedom()).map(|i| &m.coordinate(i).name).collect();
+        let own: HashSet<&String> = names.iter().copied().collect();
         let known = |i: usize| asked.from.as_ref().map_or(0.0, |from| from.q[i]);
         let value = |(i, name): (usize, &&String)| {
             asked.fixed.get(*name).or_else(|| asked.guess.get(*name)).copied().unwrap_or_else(|| known(i))
@@ -75,7 +76,7 @@ impl Compiled {
             start: names.iter().enumerate().map(value).collect(),
             start_rates: names.iter().map(|name| *asked.rates.get(*name).unwrap_or(&0.0)).collect(),
             held: held.into_iter().chain(placed).collect(),
-            near: near.into_iter().filter(|(name, ..)| !names.contains(&name)).collect(),
+            near: near.into_iter().filter(|(name, ..)| !own.contains(name)).collect(),
             held_rates,
             branch,
             free: names.iter().map(|name| !asked.fixed.contains_key(*name)).collect(),

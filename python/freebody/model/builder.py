@@ -364,7 +364,9 @@ class Builder:
 
     def run_numbers(self, parameters: Mapping[str, float] | None = None) -> Settings:
         """The settings of ``run`` as numbers, for these parameters (the model's by default)."""
-        found = Settings(**numbers(self.lowered().run, self._values(parameters)))
+        given = self.lowered().run
+        values = self._values(parameters) if any(isinstance(value, str) for value in given.values()) else {}
+        found = Settings(**numbers(given, values))
         if wrong := fault(found):
             raise self.wrong(("run", wrong[0]), *wrong[1:])
         return found

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -70,9 +70,10 @@ def simulate(
     """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
     if settings.every or t_eval is not None:
         check_size(len(columns_of(source, ())), settings, start.t, t_eval)
-    options = {key: value for key, value in asdict(settings).items() if key != "every"}
+    options = {key: value for key, value in vars(settings).items() if key != "every"}
     trajectory = source.simulate(start, progress=progress, max_steps=max_steps, **options)
-    return Run(source, start, settings, trajectory, output_times(trajectory, settings.every, t_eval))
+    later = partial(output_times, trajectory, settings.every)
+    return Run(source, start, settings, trajectory, later if t_eval is None else output_times(trajectory, t_eval=t_eval))
 
 
 @dataclass(eq=False, repr=False)
@@ -87,7 +88,7 @@ class Run(PlainText):
     start: State
     settings: Settings
     motion: Motion
-    t: Array
+    grid: Array | Callable[[], Array]
     next: Run | None = None
     previous: Run | None = None
     resume: Callable[[Run, Settings], Run] | None = None
@@ -115,6 +116,11 @@ class Run(PlainText):
     def _ipython_key_completions_(self) -> list[str]:
         """What is offered for ``run[…]``, of all that may stand there: its columns and the paths of points."""
         return ["t", *(column.name for column in self.columns), *self.points]
+
+    @cached_property
+    def t(self) -> Array:
+        """The output times (nt,), s; made when they are first asked for."""
+        return self.grid() if callable(self.grid) else self.grid
 
     # What happened
 
@@ -404,7 +410,7 @@ class Run(PlainText):
 
     def at(self, times: Times) -> Run:
         """The same run on other output times."""
-        other = replace(self, t=np.ascontiguousarray(times, float))
+        other = replace(self, grid=np.ascontiguousarray(times, float))
         if "accuracy" in vars(self):
             other.accuracy = self.accuracy
         return other

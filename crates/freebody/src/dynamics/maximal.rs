@@ -8,7 +8,8 @@ use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::Joint;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Jet, Scalar};
-use crate::solve::{Factor, Lu, Matrix, Pattern};
+use crate::solve::{Factor, Lu, Matrix, Orthogonal, Pattern};
+use std::collections::HashMap;
 
 /// Memory of the sparse solution: one group of rows for each joint or drive that has any.
 pub struct Sparse {
@@ -122,25 +123,55 @@ impl Workspace<'_> {
         vec![mass, 0.0, h.x, 0.0, mass, h.y, h.x, h.y, turn]
     }
 
-    /// The least motion ν (in the metric of the masses) that changes the closing rows by `asked`, in their order.
-    pub(super) fn sparse_correction(&mut self, asked: &[f64]) -> Result<Vec<f64>, DynamicsError> {
+    /// The least motion ν (in the metric of the masses) that changes the present rows by `asked`, in their order; the last of them
+    /// may be `targets`, of no joint and no drive.
+    pub(super) fn sparse_correction(&mut self, asked: &[f64], targets: &[Row]) -> Result<Vec<f64>, DynamicsError> {
         let rows = self.all_rows();
         let starts = self.body_starts();
         let n = starts[starts.len() - 1];
+        let known: HashMap<Source, f64> = self.rows.iter().map(|row| row.source).zip(asked.iter().copied()).collect();
         let mut rhs = vec![0.0; n];
-        let closing = |row: &Row| match row.source {
-            Source::Joint(j, r) => self.rows.iter().position(|c| c.source == Source::Joint(j, r)),
-            drive => self.rows.iter().position(|c| c.source == drive),
-        };
-        rhs.extend(rows.iter().map(|row| closing(row).map_or(0.0, |i| asked[i])));
+        rhs.extend(rows.iter().map(|row| known.get(&row.source).copied().unwrap_or(0.0)));
         let mut x = vec![0.0; rhs.len()];
         self.solve_sparse(&rows, &rhs, &mut x)?;
+        if !targets.is_empty() {
+            let last = &asked[asked.len() - targets.len()..];
+            self.meet(targets, last, &starts, &mut x).ok_or(DynamicsError::NoUniqueMotion)?;
+        }
         let mut moved = vec![Twist::zero(); self.m.bodies.len()];
         for i in 1..self.m.bodies.len() {
             let part = &x[starts[i - 1]..starts[i]];
             moved[i] = Twist { v: vec2(part[0], part[1]), w: part.get(2).copied().unwrap_or(0.0) };
         }
         Ok(self.joint_motion(&moved, false))
+    }
+
+    /// Adds to a solution of the last factored equations what makes it change `targets` by `asked`, by the responses to their multipliers;
+    /// none where these depend on each other or on the loops.
+    fn meet(&self, targets: &[Row], asked: &[f64], starts: &[usize], x: &mut [f64]) -> Option<()> {
+        let unknowns = x.len();
+        let load = |row: &Row| {
+            let mut load = vec![0.0; unknowns];
+            for (body, wrench) in &row.motion {
+                let range = starts[body - 1]..starts[*body];
+                load[range].iter_mut().zip(wrench.parts()).for_each(|(sum, part)| *sum += part);
+            }
+            load
+        };
+        let along = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let loads: Vec<Vec<f64>> = targets.iter().map(load).collect();
+        let mut responses = vec![vec![0.0; unknowns]; loads.len()];
+        for (load, response) in loads.iter().zip(&mut responses) {
+            self.sparse.as_ref()?.factor.solve(load, response).ok()?;
+        }
+        let split = Orthogonal::factor(&Matrix::from_fn(loads.len(), loads.len(), |i, j| along(&loads[i], &responses[j])));
+        let left: Vec<f64> = loads.iter().zip(asked).map(|(load, asked)| asked - along(load, x)).collect();
+        let mut multipliers = vec![0.0; loads.len()];
+        split.add_solution(&left, &mut multipliers);
+        for (response, multiplier) in responses.iter().zip(multipliers) {
+            x.iter_mut().zip(response).for_each(|(x, r)| *x += multiplier * r);
+        }
+        (split.rank().rank == loads.len()).then_some(())
     }
 
     fn solve_sparse(&mut self, rows: &[Row], rhs: &[f64], x: &mut [f64]) -> Result<(), DynamicsError> {
@@ -266,15 +297,16 @@ impl Workspace<'_> {
 
     /// Closing rows in the order of the closures, then of the drives, as the other routes have them.
     fn order_rows(&mut self) {
+        let closures: HashMap<usize, usize> = self.m.closures.iter().enumerate().map(|(i, &joint)| (joint, i)).collect();
         let place = |row: &Row| match row.source {
-            Source::Joint(j, r) => (0, self.m.closures.iter().position(|&c| c == j).unwrap_or(0), r),
+            Source::Joint(j, r) => (0, closures.get(&j).copied().unwrap_or(0), r),
             Source::Drive(d) => (1, d, 0),
             Source::Gap(l) => (2, l, 0),
             Source::Friction(l) => (2, l, 1),
             Source::JointFriction(r) => (3, r, 0),
         };
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
-        order.sort_by_key(|&i| place(&self.rows[i]));
+        order.sort_by_cached_key(|&i| place(&self.rows[i]));
         self.rows = order.iter().map(|&i| self.rows[i].clone()).collect();
         self.solved.lambda = order.iter().map(|&i| self.solved.lambda[i]).collect();
     }

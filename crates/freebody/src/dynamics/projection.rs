@@ -146,7 +146,7 @@ impl Workspace<'_> {
     /// coordinates where a free motion has no mass.
     fn correction(&mut self, asked: &[f64], present: &[bool]) -> Result<Vec<f64>, DynamicsError> {
         if self.many_loops && present.iter().all(|&p| p) {
-            return self.sparse_correction(asked);
+            return self.sparse_correction(asked, &[]);
         }
         let mut keep = present.iter();
         self.rows.retain(|_| *keep.next().expect("one for each row"));
@@ -180,16 +180,25 @@ impl Workspace<'_> {
         self.move_to(t, q, u);
         self.update_rows();
         let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
-        self.rows.extend(targets);
+        self.rows.extend(targets.iter().cloned());
         let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
         if asked.iter().all(|&rate| rate == 0.0) {
             return Ok(());
         }
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
-        let dense = std::mem::replace(&mut self.many_loops, false);
-        let step = self.correction(&asked, &present);
-        self.many_loops = dense;
-        let step = self.rates_of(&step?);
+        super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
+        let sparse = self.many_loops && present.iter().all(|&p| p);
+        let step = match sparse.then(|| self.sparse_correction(&asked, &targets)) {
+            Some(Ok(step)) => step,
+            // Ranks decide where loops depend on each other, or on what is asked for.
+            _ => {
+                let sparse = std::mem::replace(&mut self.many_loops, false);
+                let step = self.correction(&asked, &present);
+                self.many_loops = sparse;
+                step?
+            }
+        };
+        let step = self.rates_of(&step);
         u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
         Ok(())
     }

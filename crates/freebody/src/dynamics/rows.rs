@@ -16,7 +16,7 @@ use crate::scalar::{Dual, Jet, Scalar};
 pub type BodyWrenches<S> = Vec<(usize, Wrench<S>)>;
 
 /// Where a row comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Source {
     /// Row `1` (of the card) of joint `0`.
     Joint(usize, usize),
