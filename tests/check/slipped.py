@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -25,6 +26,8 @@ WEIGHTS = {
     "twice": 1.0,
     "arm": 1.0,
     "derivative": 1.0,
+    "other body": 2.0,
+    "square": 1.0,
 }
 """How often each slip is made, beside the others: as students make them."""
 _NUMBERS = {
@@ -199,6 +202,8 @@ def _derivatives(of: _Text) -> Iterator[str]:
             yield of.at(place, place + 5, r"\dot")
         elif isinstance(node, Sym) and node.dots == 1 and of.said(node).endswith("'"):
             yield of.put(node, of.said(node) + "'")
+        elif isinstance(node, Sym) and "\u0308" in (marked := unicodedata.normalize("NFD", of.said(node))):
+            yield of.put(node, unicodedata.normalize("NFC", marked.replace("\u0308", "\u0307")))
 
 
 def _lost_factors(of: _Text) -> Iterator[str]:
@@ -206,6 +211,22 @@ def _lost_factors(of: _Text) -> Iterator[str]:
         for factor in node.factors:
             if isinstance(factor, Sym) and factor in of.vocabulary.parameters and factor.span[1]:
                 yield _cut(of, factor)
+
+
+def _other_bodies(of: _Text) -> Iterator[str]:
+    """The mass, length or rate of another body, of which the equation speaks, too."""
+    for node in of.parts():
+        if isinstance(node, Sym) and of.said(node) == node.name and not says_a_figure(of.equation):
+            there = [other for other in of.vocabulary.alike(node) if other in symbols_in(of.equation)]
+            yield from (of.put(node, other.name) for other in there)
+
+
+def _squares(of: _Text) -> Iterator[str]:
+    """A length or a rate squared that is not."""
+    bases = [n.base for n in walk(of.equation) if isinstance(n, Pow)]
+    for node in of.parts():
+        if isinstance(node, Sym) and (of.vocabulary.parameters.get(node) == LENGTH or node.dots == 1):
+            yield from () if any(node is base for base in bases) else (of.at(node.span[1], node.span[1], "^2"),)
 
 
 _SLIPS = {
@@ -219,4 +240,6 @@ _SLIPS = {
     "twice": _twice,
     "arm": _arms,
     "derivative": _derivatives,
+    "other body": _other_bodies,
+    "square": _squares,
 }

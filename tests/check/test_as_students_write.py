@@ -42,7 +42,56 @@ joints:
   elbow: {type: hinge, of: [first.B, second.start], coordinate: φ}
 initial: {θ: 0.5, φ: 0.2, at_rest: true}
 """
-MODELS = {"rod": ROD, "block": BLOCK, "two": TWO}
+# a uniform rod let go level, θ clockwise from there
+LEVEL = """
+freebody: 1
+parameters: {m: 2 kg, L: 1 m, g: 9.81 m/s^2}
+gravity: g
+bodies: {rod: {shape: rod, length: L, mass: m}}
+joints: {O: {type: hinge, of: [ground.O, rod.start], coordinate: {name: θ, sense: clockwise}}}
+initial: {θ: 0, at_rest: true}
+"""
+# a collar that slides on a turning bar
+COLLAR = """
+freebody: 1
+parameters: {m: 1 kg, J: 0.2 kg*m^2, k: 60 N/m, d: 0.25 m, Q: 2 N*m}
+gravity: none
+bodies: {bar: {mass: 0, inertia: J, lines: {rail: {through: origin, angle: 0}}}, collar: {shape: particle, mass: m}}
+joints:
+  axle: {type: hinge, of: [ground.O, bar.origin], coordinate: θ}
+  rail: {type: slot, point: collar.centre, along: bar.rail, coordinate: r}
+forces:
+  spring: {type: spring, along: r, stiffness: k, rest_length: d}
+  motor: {type: torque, on: bar, from: ground, value: Q}
+initial: {θ: 0, r: 0.4 m, rates: {θ: 2, r: 0.3 m/s}}
+"""
+# two drums that roll on each other
+GEARS = """
+freebody: 1
+parameters: {M: 6 N*m, r1: 0.1 m, r2: 0.25 m, I1: 0.01 kg*m^2, I2: 0.2 kg*m^2}
+gravity: none
+ground: {points: {B: [r1 + r2, 0]}}
+bodies: {small: {mass: 0, inertia: I1}, large: {mass: 0, inertia: I2}}
+joints:
+  A: {type: hinge, of: [ground.O, small.origin], coordinate: φ1}
+  C: {type: hinge, of: [ground.B, large.origin], coordinate: {name: φ2, sense: clockwise}}
+  teeth: {type: gear, of: [small.origin, large.origin], radii: [r1, r2]}
+forces: {motor: {type: torque, on: small, from: ground, value: M}}
+initial: {φ1: 0, φ2: 0, at_rest: true}
+"""
+# a bar that a lump of clay strikes and sticks to
+STRUCK = """
+freebody: 1
+parameters: {M: 4 kg, m: 0.5 kg, L: 1 m, b: 0.7 m, v: 12 m/s, g: 9.81 m/s^2}
+gravity: g
+bodies: {bar: {shape: rod, length: L, mass: M}, clay: {shape: particle, mass: m}}
+joints:
+  O: {type: hinge, of: [ground.O, bar.start], coordinate: {name: θ, zero: down}}
+  flight: {type: free, of: [ground.O, clay.centre], coordinates: [x, y]}
+events: {hit: {at: start, then: {weld: [bar, clay]}}}
+initial: {θ: 0, x: 0, y: -b, rates: {θ: 0, x: v, y: 0}}
+"""
+MODELS = {"rod": ROD, "block": BLOCK, "two": TWO, "level": LEVEL, "collar": COLLAR, "gears": GEARS, "struck": STRUCK}
 
 SAID = {
     "rod": [
@@ -112,6 +161,52 @@ SAID = {
         ("α = θ''", None),  # of which rod?
         ("I_O θ'' k = 0", W),  # k is no vector whose size is meant
         ("I_O = 1/3 m L²", T),
+    ],
+    "level": [
+        (r"\omega^2 = \frac{3 g}{L}\sin\theta", T),
+        (r"\omega^2 = \frac{3 g}{2L}\sin\theta", W),
+        (r"T_1 + U_{1-2} = T_2 \Rightarrow 0 + m g \frac{L}{2}\sin\theta = \frac12\left(\frac13 m L^2\right)\omega^2", T),
+        ("T_1 + V_1 = T_2 + V_2: 0 + 0 = 1/6 m L² ω² − m g (L/2) sin θ", T),
+        ("T_1 + V_1 = T_2 + V_2: 0 + 0 = 1/6 m L² ω² + m g (L/2) sin θ", W),
+        ("I_O α = r_G × m g: I_O α = m g (L/2) cos θ", T),
+        (r"\circlearrowright\!+\ \Sigma M_O = I_O\alpha:\quad mg\tfrac{L}{2}\cos\theta = \tfrac13 mL^2\ddot\theta", T),
+        (r"at \theta = 0^+:\quad \alpha = \tfrac{3g}{2L}", T),
+        ("at t = 0+: O_y = m g/4", T),
+        ("at t = 0+: O_y = m g/2", W),
+        ("at the bottom (θ = 90°): O_y = 5/2 m g", T),
+        ("at the bottom (θ = 90°): O_y = 3/2 m g", W),
+        (r"a_n = \frac{L}{2}\omega^2,\quad a_t = \frac{L}{2}\alpha", T),
+        ("ω_max = √(3 g/L)", T),
+        (r"\omega_{\max}^2 = 3g/(2L)", W),
+        ("when θ = 90°: L ω = sqrt(3 g L) for the free end", T),
+        ("½ I_O ω² = m g (L/2) sin θ (from rest)", T),
+        ("L ω = -√(3 g L sin θ)", W),
+        ("I_e = ⅓ m L²: I_e α = ½ m g L cos θ", T),
+        ("I_e = ½ m L²: I_e α = ½ m g L cos θ", W),
+    ],
+    "collar": [
+        ("a_r = r̈ − r θ̇²", T),
+        ("a_r = r̈ + r θ̇²", W),
+        (r"a_\theta = r\ddot\theta + 2\dot r\dot\theta", T),
+        (r"a_\theta = r\ddot\theta + \dot r\dot\theta", W),
+        ("½ J ω² + ½ m (r'² + r² ω²) + ½ k (r − d)² = const + Q θ", T),
+        ("½ J ω² + ½ m (r'² + r² ω²) + ½ k (r − d)² = const − Q θ", W),
+        ("(J + m r²) ω = ∫(Q) dt + (J + m r_0²) ω_0", T),
+    ],
+    "gears": [
+        ("φ1'/φ2' = r2/r1 = n", T),
+        ("φ1'/φ2' = r1/r2 = n", W),
+        ("I_e = I1 + I2/n² with n = r2/r1: I_e φ1'' = M", T),
+        ("M φ1 = ½ I1 ω_1² + ½ I2 ω_2²", T),
+        ("M φ1 = ½ I1 ω_1² + I2 ω_2²", W),
+        ("Δω_1 = M t/(I1 + I2 r1²/r2²)", T),
+    ],
+    "struck": [
+        ("(H_O)_1 = (H_O)_2, just after the hit: m v b = (⅓ M L² + m b²) θ'", T),
+        ("for small θ: ω_n² = (½ M L + m b) g/(⅓ M L² + m b²)", T),
+        ("for small θ: ω_n² = (½ M L + m b) g/(⅓ M L²)", W),
+        ("½ (⅓ M L² + m b²)(θ̇² − θ̇₀²) = −(½ M L + m b) g (1 − cos θ)", T),
+        ("cos θ_max = 1 − (⅓ M L² + m b²) θ̇_0²/((M L + 2 m b) g)", T),
     ],
 }  # fmt: skip
 

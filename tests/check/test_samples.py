@@ -51,7 +51,7 @@ def _driven(name: str) -> Checker:
         ("drive.work = drive.value*q", T),
         ("W = 0", W),
         ("2 W = drive.value*q", W),
-        ("energy() = drive.value*q", IF),
+        ("energy() = drive.value*q", T),
         ("only if from the start: energy() = drive.value*q", T),
         ("at start: W = 0", T),
     ],

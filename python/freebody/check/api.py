@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
+from functools import cached_property
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.tree import Add, Cross, Dot, walk
+from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Node, Quotient, Sym, walk
 
 from .budget import Budget
 from .case import Case, StatementSymbols
@@ -23,6 +24,7 @@ from .claims import claimed
 from .families import ALL, Family, NoMotion
 from .language.dimensions import misfit
 from .language.statements import Program, symbols_in
+from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
@@ -35,6 +37,8 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
 _PATIENT = 10.0  # s, within which an event is waited for where the model does not say how long it runs
+_ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
+"""Words that say of something that it happens."""
 _STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
@@ -92,6 +96,25 @@ class Checker:
         ``hypothesis``: the motions of which it is said. Without ``correcting`` it is only judged, which is quicker where it is wrong.
         Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
+        try:
+            return self._checked(text, letters, hypothesis, correcting)
+        except StatementError:
+            if found := self._without_laws(text, letters, hypothesis, correcting):
+                return found
+            raise
+
+    def _without_laws(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
+        """The verdict where what cannot be read begins with a law, and says something behind it; where both can be read, about both."""
+        for other, law in without_laws(text):
+            with suppress(StatementError):
+                found = self.check(other, letters, *how)
+                if law or found.kind is not Kind.DIMENSIONS:
+                    passed = (f"`{law}` is read as a law that comes before, and not judged.",) if law else ()
+                    return replace(found, text=text.strip(), notes=(*found.notes, *passed))
+        return None
+
+    def _checked(self, text: str, letters: Declared | None, hypothesis: Family | None, correcting: bool) -> Verdict:
+        """The verdict of ``check`` about a text as it stands."""
         if broken := re.search("[\ud800-\udfff]", text):  # half of a character, as a damaged file has it
             shown = text.encode(errors="replace").decode()
             raise StatementError("this is no character", broken.span(), "write it again", shown)
@@ -152,11 +175,22 @@ class Checker:
         what = ", ".join({**events, **parts}) or "nothing does"
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
 
+    @cached_property
+    def only_impact(self) -> str | None:
+        """What one impact is at, where that is all that happens on the model's own run, and nothing at its start."""
+        if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
+            return None
+        run, _ = self.moment("end")
+        later = [change for change in run.changes if change.t > run.t[0]]
+        parts = {change.of[:1] for change in later}
+        return later[0].of[0] if len(parts) == 1 and later[0].kind == "impact" else None
+
     def event_called(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
         there: ``the lowest point``, ``the clutch grips``."""
         said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
         found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or _alike(e["name"], word) for word in said)]
+        found = found or (self.sampler.spec["events"] if _ENDS.search(words) else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
 
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
@@ -168,9 +202,20 @@ class Checker:
         program = known.read(text)
         if sized := self._sized(program, known):
             yield sized, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in sized)
+        if rooted := self._rooted(program, known):
+            yield rooted, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in rooted)
         turned = {name: said for name, said in known.senses.items() if name in known.assumed}
         if turned and any(n.name in turned for n in symbols_in(program)):
             yield turned, False, tuple(f"Here {name} is read clockwise: {said}." for name, said in turned.items())
+
+    def _rooted(self, program: Program, known: Symbols) -> dict[str, str]:
+        """The sizes of letters that are said to be a root: v = √(2 g h)."""
+        pairs = [pair for line in program.equations for pair in ((line.left, line.right), (line.right, line.left))]
+        found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and _is_root(other)]
+        meanings = {name: known.meanings[name] for name in found if name in known.meanings}
+        return {
+            name: f"abs({m.texts[0]})" for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")
+        }
 
     def _sized(self, program: Program, known: Symbols) -> dict[str, str]:
         """The sizes of the letters of vectors that a statement about nothing else compares, each side one term: a_B = 2 a_A. One with a
@@ -197,6 +242,12 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
+
+
+def _is_root(node: Node) -> bool:
+    """Whether a root stands in it as a factor."""
+    factors = node.factors if isinstance(node, Mul) else (node.top,) if isinstance(node, Quotient) else (node,)
+    return any(isinstance(factor, Fn) and factor.name == "sqrt" for factor in factors)
 
 
 def _alike(name: str, word: str) -> bool:

@@ -94,10 +94,27 @@ class AskedModel:
         return replace(self._run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
 
     @cached_property
+    def starts_to_move(self) -> bool:
+        """Whether it is at rest at its moment, and every coordinate of it moves soon after."""
+        soon = self._run(self.own, 0.1 / self.rate).end
+        before, after = (np.abs(state.u) / (self.rate * self.sizes) for state in (self.own, soon))
+        return bool(np.all(before <= _AT_REST) and np.all(after > _AT_REST))
+
+    @cached_property
     def restricted(self) -> bool:
         """Whether limits, joint friction, events at the start or the moment decide what moves, so that states lie near that."""
         named = [event.get("opening") for event in self.spec["events"]] + [joint.get("friction") for joint in self.spec["joints"]]
         return bool(self.moment) or any(named) or not all(x.is_open for x in self.core.instant(self.first).limits.values())
+
+    @cached_property
+    def is_held(self) -> bool:
+        """Whether friction of joints or a limit that is closed decides what moves."""
+        rough = any(joint.get("friction") for joint in self.spec["joints"])
+        return rough or not all(x.is_open for x in self.core.instant(self.own if self.moment else self.first).limits.values())
+
+    def at_moment_with(self, values: Mapping[str, float]) -> State:
+        """The state at the moment with other parameters. Raises ``MotionError`` and ``ModelProblem``."""
+        return self._at_moment(self._started(values))
 
     @cached_property
     def _puts_in_place(self) -> bool:

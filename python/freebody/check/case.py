@@ -27,7 +27,7 @@ from .language.statements import Equation, Program, inlined, symbols_in
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
 from .symbols import Symbols
-from .user_symbols import Meaning
+from .user_symbols import LARGEST, LEAST, Meaning
 from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
@@ -46,6 +46,8 @@ _BRACKETS = re.compile(r"^\(((?:[\w.\[\]]|'[^']+')+)\)$")
 _ADMISSIBLE = 24  # states at which no balance holds
 _KINEMATIC = 1e-8  # what is left there of an equation that is none
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
+_FEWER = 16  # states, where each takes long
+_EXTREME = re.compile(rf"⟦(?:{LARGEST}|{LEAST}): ")
 _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
 
@@ -87,6 +89,10 @@ class StatementSymbols:
         one = self.symbols.meanings.get(symbol.name)
         return one is not None and (one.kind == "reaction" or any(_SOLVED.search(text) for text in one.needed(symbol.dots)))
 
+    def is_answer(self, symbol: Sym) -> bool:
+        """Whether a figure may be the answer to what it is: an acceleration, a force, what a vibration has or is largest."""
+        return self.solved(symbol) or self._one(symbol).kind in ("vibration", "initial")
+
     def limit(self, symbol: Sym) -> str | None:
         """The contact, string or stop of which a symbol reads something."""
         owners = (text.rpartition(".")[0] for text in self.texts(symbol))
@@ -97,6 +103,11 @@ class StatementSymbols:
         """Whether it reads works, or where a motion started, which a state has only as one of a motion from the start."""
         read = [self._one(n) for n in self.required]
         return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
+
+    @property
+    def asks_extremes(self) -> bool:
+        """Whether it reads what is largest or least on a motion, which takes long to find."""
+        return any(_EXTREME.search(text) for n in self.required for text in self._one(n).texts)
 
     def speaks_of_start(self, equation: Equation) -> bool:
         """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
@@ -251,7 +262,7 @@ class Case:
 
     def samples(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Samples:
         """True states of a family. Raises ``NoMotion``."""
-        return self.sampler.samples(family or self.hypothesis, count, fresh)
+        return self.sampler.samples(family or self.hypothesis, min(count, _FEWER) if self.meaning.asks_extremes else count, fresh)
 
     def values(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Mapping[str, Array]:
         """The symbols on true states of a family. Raises ``NoMotion``."""

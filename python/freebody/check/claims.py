@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import State
+from freebody.core import State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
 from freebody.solve.perturbed_states import independent
@@ -27,6 +28,7 @@ from .families import ALL, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
+from .motion_sampler import touching
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 from .wording import as_claim, with_condition_first
@@ -45,6 +47,8 @@ _FEWEST = 8  # places at which they have to be
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
     given, claim = _defined(with_condition_first(text))
+    if (found := _JUST.match(claim)) and (happening := checker.only_impact):
+        claim = f"{found[1]} {happening}:{claim[found.end() :]}"
     claim = as_claim(claim)
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
@@ -139,7 +143,7 @@ def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Ver
     """``ΔT + ΔV = 0``: a sum that stays the same, each term of it a change."""
     alone = _CHANGED.fullmatch(left.strip()) and not _CHANGE.search(right) and right.strip() != "0"
     if alone or "∫" in left + right or r"\int" in left + right:
-        since = (_CHANGED.sub(r"(\1 - \1_0)", side) for side in (left, right))
+        since = (_CHANGED.sub(r"(\1 - \1(0))", side) for side in (left, right))
         return checker.check(" = ".join(since), declared)
     case = _reading(checker, declared, f"({_CHANGE.sub('', left)}) - ({_CHANGE.sub('', right)})")
     (equation,), changes = case.equations, _CHANGE.findall(left + right)
@@ -155,7 +159,7 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
     if not under.ok:
         return under
     always = checker.check(statement, declared, correcting=False)
-    if always.ok:
+    if always.ok and not always.assumption:
         return replace(always, kind=Kind.WRONG, reason=f"it holds without `{condition}`, too")
     reason = f"holds where {condition}; broken without it"
     return Verdict(Kind.TRUE, statement, reason, condition, evidence=always.evidence)
@@ -235,16 +239,24 @@ def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
 
 
 def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples, str]:
-    """States along the motion that goes on from a true state, to its first change if that is asked for or rates never jump on it, as
-    where something lifts off; and what changes on it."""
+    """States along the motion that goes on from a true state, to its first change if that is asked for, or no impact comes on it that belongs
+    to the model's own motion; and what changes on it."""
     sampler = checker.sampler
     motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
     change = next((each for each in motion.changes if each.t > state.t), None)
-    until_change |= change is not None and all(each.before is None for each in motion.changes if each.t > state.t)
+    until_change |= change is not None and not _happens(checker, change.of, motion, state.t)
     ends = sampler.staying(motion, state.t, change.t if change and until_change else motion.end.t)
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
-    return Samples(sampler.core, [motion.state(t) for t in times.tolist()]), stated
+    states = [motion.state(t) for t in times.tolist()]
+    same = takewhile(lambda each: stated or touching(each) == touching(states[0]), states)  # until a cord is unwound
+    return Samples(sampler.core, [*same]), stated
+
+
+def _happens(checker: Checker, parts: Sequence[str], motion: Trajectory, begins: float) -> bool:
+    """Whether rates jump on a motion, by something of parts that changes on the model's own run, too."""
+    jumps = any(each.before is not None for each in motion.changes if each.t > begins)
+    return jumps and any({*each.of} & {*parts} for each in checker.moment("end")[0].changes if each.t > 0)
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
@@ -337,11 +349,13 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
     return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(found, there))
 
 
+_JUST = re.compile(r"((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
+"""Of what happens, where only one thing does."""
 _FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
-_CHANGED = re.compile(r"(?:Δ|\\Delta)\s*([A-Za-z])")
+_CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?\w+)?)")
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",

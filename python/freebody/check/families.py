@@ -12,8 +12,8 @@ from freebody.core import CompiledModel, State
 from freebody.model.names import unquote
 from freebody.run.records import Array, quote
 
-from .integrals import summed
-from .user_symbols import LOAD, OF_START, SUMMED
+from .integrals import extreme, summed
+from .user_symbols import LARGEST, LEAST, LOAD, OF_START, SUMMED
 
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 
@@ -79,9 +79,10 @@ class Samples:
     def _row(self, k: int, texts: Sequence[str]) -> Array:
         """Expressions, loads and what is asked of the start, in one state."""
         state, start = self.states[k], self.starts[k] if self.starts else None
-        of_start = {text: at_start(text, self.core, start) for text in texts if OF_START.search(text)} if start else {}
+        since = state.t - start.t if start else 0.0
+        of_start = {text: at_start(text, self.core, start, since) for text in texts if OF_START.search(text)} if start else {}
         read = {text: of_start.get(text, text) for text in texts}
-        plain = [text for text, of in read.items() if not of.startswith((LOAD, SUMMED)) and not OF_START.search(of)]
+        plain = [t for t, of in read.items() if not (of.startswith((LOAD, SUMMED)) or OF_START.search(of) or "(nan)" in of)]
         found = self.core.evaluate([read[text] for text in plain], state)
         if len(plain) == len(texts):
             return found
@@ -112,9 +113,15 @@ class Samples:
         return self.weighed
 
 
-def at_start(text: str, core: CompiledModel, start: State) -> str:
-    """An expression with numbers for what is asked of the start of the motion."""
-    return OF_START.sub(lambda found: f"({float(core.evaluate([found[1]], start)[0])!r})", text)
+def at_start(text: str, core: CompiledModel, start: State, since: float = 0.0) -> str:
+    """An expression with numbers for what is asked of the start of the motion, which is ``since`` seconds ago."""
+
+    def value(of: str) -> float:
+        if of.startswith((f"{LARGEST}: ", f"{LEAST}: ")):
+            return extreme(of, core, start, since) if since else float("nan")
+        return float(core.evaluate([of], start)[0])
+
+    return OF_START.sub(lambda found: f"({value(found[1])!r})", text)
 
 
 # -- reactions that the balances leave open

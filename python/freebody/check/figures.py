@@ -47,6 +47,12 @@ def says_a_figure(equation: Equation) -> bool:
     return any(id(figure) in alone for figure in figures(equation))
 
 
+def says_a_measure(equation: Equation) -> bool:
+    """Whether one side is a measured figure alone, as in a = 2.91 m/s²."""
+    sides = ((equation.left, equation.right), (equation.right, equation.left))
+    return any(not symbols_in(side) and symbols_in(other) and says_a_figure(Equation(other, side)) for side, other in sides)
+
+
 def _alone(equation: Equation) -> list[Node]:
     """The terms beside which no symbol stands."""
     return [term for row in rows(equation) for term in terms(row) if _DIRECTIONS.issuperset(symbols_in(term))]

@@ -1,4 +1,5 @@
-"""What an integral in a statement means: of a function of its own variable a number, else over the motion from its start to now."""
+"""What an integral in a statement means: of a function of its own variable a number, else over the motion from its start to now; and what is
+largest on that."""
 
 from __future__ import annotations
 
@@ -14,12 +15,15 @@ from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Num, Sym
 
 from .language.statements import Integral, symbols_in
-from .user_symbols import SUMMED, Masses, Meaning, Values
+from .user_symbols import LARGEST, SUMMED, Masses, Meaning, Values
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _PANELS = 12
 _EXACT = 1e-13  # tolerance of the motion along which is summed up
 _SAME = 1e-9  # by how much two places may differ, relative
+_DOUBLED = 10  # times that a motion is followed twice as long, until something on it has had its largest value
+_LOOKS, _FINER, _NEARLY = 129, 4, 0.03
+"""Times at which it is looked for, how often again between two, and what part of its changes it may lack where it is looked for first."""
 _ENDS = ("1", "2", "f", "e")
 """Indices of the moment at which a stretch ends."""
 
@@ -95,3 +99,37 @@ def summed(text: str, core: CompiledModel, start: State, state: State) -> float:
     times = (edges[:-1, None] + half * (1 + _NODES)).ravel()
     values = motion.evaluate([of, f"rate({by})"] if by != "t" else [of, "1"], times)
     return float(np.sum((half * _WEIGHTS).ravel() * values[:, 0] * values[:, 1]))
+
+
+def extreme(text: str, core: CompiledModel, start: State, typical: float) -> float:
+    """The largest value on the motion from a start, or the least, before anything switches; NaN where it goes on to grow. ``typical``: a time
+    of the motion, in s."""
+    word, of = text.split(": ", 1)
+    sign = 1.0 if word == LARGEST else -1.0
+    for doubled in range(2, _DOUBLED):
+        motion = core.simulate(start, start.t + typical * 2**doubled, rtol=_EXACT, max_steps=5000)
+        ends = min([motion.end.t, *(change.t for change in motion.changes if change.t > start.t)])
+        times, most = np.linspace(start.t, ends, _LOOKS), -np.inf
+        values = sign * motion.evaluate([of], times)[:, 0]
+        near = int(np.argmax(values >= values.max() - _NEARLY * np.ptp(values)))
+        place = near + int(np.argmax(values[near : near + _LOOKS // 8]))
+        if place <= _LOOKS // 4 and np.ptp(values) > 0 and (place or _has_returned(values)):  # it has fallen long since
+            highest = float(values.max())
+            for _ in range(_FINER):
+                step = times[1] - times[0]
+                times = np.linspace(max(times[place] - step, start.t), times[place] + step, _LOOKS)
+                found = sign * motion.evaluate([of], times)[:, 0]
+                place, most = int(np.argmax(found)), float(found.max())
+            if most >= highest - _SAME * np.ptp(values):
+                return sign * most
+        if ends < motion.end.t:
+            break
+    return float("nan")
+
+
+def _has_returned(values: Array) -> bool:
+    """Whether what is largest where it begins has come near that again and left it, or has settled."""
+    least = values[0] - _NEARLY * np.ptp(values)
+    gone = values[int(np.argmax(values < least)) :]
+    back = gone[int(np.argmax(gone >= least)) :] if (gone >= least).any() else gone[:0]
+    return bool((back < least).any() or np.ptp(values[len(values) // 2 :]) <= values[0] - least)

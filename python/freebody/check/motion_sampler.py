@@ -46,11 +46,13 @@ _STEP = 1e-6  # of central differences, relative to the size of a coordinate
 _EXACT = 1e-13  # tolerance of runs whose course matters
 _SHARE, _MOST, _FEWER = 0.1, 0.4, 16
 """Of the time for a statement: when fewer samples are enough, and when no more are looked for."""
+_SHORT_LOOP = 4  # coordinates, up to which a loop is taken far
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
 _LONG = 12.0  # of the time typical of the model: where within that something vanishes on a run it is found
 _LONGER = 0.3, 2.0, _LONG  # such runs one after the other: most of what vanishes does so soon
+_LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
 """Times at which it is looked for between two, how often again, and how near they may come."""
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
@@ -165,7 +167,9 @@ class MotionSampler(AskedModel):
 
     def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         """A random state of the start's assembly and side, none of whose limits is closed."""
-        turn = math.pi / 2 if self.loops else math.pi  # farther on many ways of a loop end in a singular position
+        turn = (
+            math.pi / 2 * min(1.0, _SHORT_LOOP / len(self.names)) if self.loops else math.pi
+        )  # farther many ways of a loop end singular
         move = np.array([turn if c["dimension"] == "rad" else self.length for c in self.coordinates])
         place = self.first.q + move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
@@ -307,7 +311,7 @@ class MotionSampler(AskedModel):
         start = self._at_moment(
             self._started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
-        long = family.late or (_LONG if family.vanishing else rng.uniform(0.05, 0.3))
+        long = family.late or (_LONG if family.vanishing else _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random())
         motion = self._run(start, long / self.rate, _EXACT)
         ends = min([motion.end.t, *(change.t for change in motion.changes if change.t > start.t)])
         if family.late and ends < start.t + 0.99 * long / self.rate:
@@ -329,14 +333,14 @@ class MotionSampler(AskedModel):
     def _sampled(self, found: State) -> State | None:
         """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge."""
         if self.restricted:
-            if not _touching(found) <= _touching(self.own) or changes_side(self.core, self._squares, self.own.q, found):
+            if not touching(found) <= touching(self.own) or changes_side(self.core, self._squares, self.own.q, found):
                 return None
             if not same_mode(self.core.free_bodies(found), self._loads):
                 return None
         return found if self.core.instant(found).residual < _BALANCED else None
 
 
-def _touching(state: State) -> set[tuple[int, int]]:
+def touching(state: State) -> set[tuple[int, int]]:
     """What touches or is taut in a state, and on which of its features."""
     return set(state.history.touching() if state.history else ())
 

@@ -71,6 +71,8 @@ class _True:
 
 def nearest(case: Case, equation: Equation) -> Nearest | None:
     """The nearest true equation; None where none holds an unknown of the statement."""
+    if not case.budget.lasts(_PART):
+        return None
     try:
         state = case.samples().states[0]
     except NoMotion:

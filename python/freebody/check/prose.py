@@ -17,7 +17,7 @@ from .language.tokens import CALLS
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
 _FROM_REST = re.compile(
     rf"(?:\b(?:if|when|after)\s+)?(?:\b(?:it|they|(?:the )?\w+)\s+(?:is|was|are|were)\s+|\b(?:it|they)\s+|\bbeing\s+)?"
-    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\bfrom rest(?=\s*\Z)",
+    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\(from rest\)|\bfrom rest(?=\s*\Z)",
     re.IGNORECASE,
 )
 _REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")
@@ -77,7 +77,17 @@ _CALLED = re.compile(
     rf"(?m)(?:(?<=^)|(?<=[,;:]\s))\s*(?:the\s+)?(initial\s+)?((?:(?:{_NOUN}|the)\s+)+)(?=\\?[^\s=<>]+\s*[=<>])", re.I
 )
 """``the natural period T = …``."""
-_SPACES = re.compile(r"(?<!\\)\\[,;:!>]")
+_SPACES = re.compile(r"(?<!\\)\\[,;:!> ]")
+_SIDE_OF_ZERO = re.compile(r"(=\s*0)\s*(?:\^?\s*\{?\s*\+\s*\}?|⁺)(?=\s*(?:[:,)]|\\q?quad|\Z))")
+"""``t = 0⁺``, just after."""
+_EXTREME = re.compile(r"_\{?\s*(?:\\(?:mathrm|text|rm|mathsf)\s*)?\{?\s*\\?(max|min)(?![A-Za-z])\s*\}{0,2}")
+"""``θ_max``, ``N_{\\max}``, ``v_{\\text{max}}``."""
+_LIMITLESS = re.compile(r"(?:∫|\\int)(?!\s*(?:\\limits\s*)?[_^₀-₉])(?=[^=;\n]*\bd\s*t\b)(\s*)")
+"""An integral over time without limits is one from the start."""
+_OF_WHAT = re.compile(r"(?<=[\w)}²³])\s+(?:for|of) the [a-z]+(?: [a-z]+)*\s*\Z")
+"""``… for the free end``."""
+_THEN = re.compile(r"(?m)^(\s*(?:if|when)\b[^:\n]*?),?\s+then\s+(?=[^:\n]*[=<>≈≤≥])")
+_JUST_IT = re.compile(r"\b((?:just|immediately)\s+(?:after|before))\s+(?:it|that|this)\b[:,]?\s+")
 _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
 """A condition that begins a sentence."""
 _FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
@@ -126,7 +136,11 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", text))
-    said = _CAPITAL.sub(lambda found: found[0].lower(), said)
+    said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
+    said = _EXTREME.sub(r"_{\1}", said)
+    said = _LIMITLESS.sub(lambda found: f"∫_0^t{found[1]}", said)
+    said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
+    said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _REST_AT.sub(r"\1, \2_0 = \3", _FROM_REST.sub("if the start is at rest", said))
     said = _THESE_NUMBERS.sub("if with these numbers", said)
     said = _REMARK.sub("", said)

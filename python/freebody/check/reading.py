@@ -22,7 +22,7 @@ from .language.parser import parse
 from .language.sizes import with_sizes
 from .language.spelling import spell as written
 from .language.statements import Directed, Equation, Integral, Program, symbols_in
-from .user_symbols import INITIAL, Meaning
+from .user_symbols import INITIAL, LARGEST, LEAST, Meaning
 from .usual_names import ENERGIES
 
 if TYPE_CHECKING:
@@ -33,6 +33,9 @@ _DAMPED = re.compile(r"\\?(omega|[ωTfτ])_(?:d(?!\w)|\{d\})")
 _OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])")
 _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
+_ASKED = re.compile(r"(.+?)(0|\(0\)|(?<=_)max|(?<=_)min)")
+_MOMENTS = {"max": f"{LARGEST}: ", "min": f"{LEAST}: "}
+"""What is asked of a motion by an index."""
 _WORD = 3
 """Letters of a name from which on one that is nearly another is a slip of the pen: T1 is none of T, lenght is length."""
 _ARROWS = {"→": (1, "i"), "←": (-1, "i"), "↑": (1, "j"), "↓": (-1, "j")}
@@ -180,19 +183,20 @@ class Reading:
         self.known.assumed[name] = f"the {meaning.texts[0]} of small vibrations about {self.known.vibration.place}"  # type: ignore[union-attr]
 
     def _initial(self, program: Program) -> dict[str, str]:
-        """Of symbols with the index 0 what is asked: θ₀, v₀, θ(0), of anything that has a meaning without it."""
+        """Of symbols with the index 0, max or min what is asked: θ₀, v₀, θ(0), N_max, of anything that has a meaning without it."""
         known = {
             **{folded(name): name for name in self.known.meanings},
             **{folded(name): said for name, said in ENERGIES.items()},
         }
         found = {}
-        unknown = [n.name for n in self._unknown(program) if (not n.dots and n.name.endswith("0")) or n.name.endswith("(0)")]
-        for name in dict.fromkeys(unknown):
-            base = known.get(folded(name.removesuffix("(0)") if name.endswith(")") else name[:-1].rstrip("_")))
+        for name in dict.fromkeys(n.name for n in self._unknown(program)):
+            if not (asked := _ASKED.fullmatch(name)):
+                continue
+            base = known.get(folded(asked[1].rstrip("_")))
             if base in self.known.meanings and self.known.meanings[base].is_vector:
                 base = "hypot({}, {})".format(*self.known.meanings[base].texts[:2])
             if base:
-                found[name] = INITIAL + base
+                found[name] = f"{_MOMENTS.get(asked[2], INITIAL)}{base}"
         return found
 
     def _add(self, found: Mapping[str, str], program: Program, assumed: bool = False) -> None:

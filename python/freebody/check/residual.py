@@ -195,14 +195,14 @@ def _scalar(value: Array) -> Array:
     return value[:, 2] if value.ndim == 2 else value
 
 
-def unreached(equation: Equation, values: Mapping[str, Array]) -> list[Node]:
-    """The terms that stay so small beside the others that this says nothing about them."""
+def unreached(equation: Equation, values: Mapping[str, Array], often: int = OFTEN) -> list[Node]:
+    """The terms that stay so small beside the others that this says nothing about them, but on ``often`` samples."""
     found = terms(equation, expand=True)
     found = found if len(found) <= _MANY else terms(equation)
     size = _length(magnitude(equation.left, values)) + _length(magnitude(equation.right, values))
     with np.errstate(all="ignore"):
         reach = [np.nan_to_num(_length(np.abs(sampled(term, values))) / size) for term in found]
-    needed = min(OFTEN, len(size) // 2 or 1)
+    needed = min(often, len(size) // 2 or 1)
     return [term for term, share in zip(found, reach, strict=True) if np.sum(share >= REACH) < needed]
 
 

@@ -291,7 +291,7 @@ class Symbols:
 
     @cached_property
     def usual(self) -> dict[str, str]:
-        own = {name: m.texts[0] for name, m in self.meanings.items() if name in self.declared and len(m.texts) == 1}
+        own = {name: m.texts[0] for name, m in self.meanings.items() if name in self.own and len(m.texts) == 1}
         return usual(self.spec, self.metadata, own)
 
     def spelt(self, name: str) -> Meaning | None:

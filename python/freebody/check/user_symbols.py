@@ -96,6 +96,8 @@ _FORCE = re.compile(r"force on (.+?)(?: along ([xy]))?")
 _INERTIA = re.compile(rf"(inertia|radius of gyration) of (.+) about {_POINT}")
 INITIAL = "at the start: "
 """How a declaration begins of what something is where the motion starts."""
+LARGEST, LEAST = "the largest", "the least"
+"""How one begins of what a quantity has along the motion from the start."""
 OF_START = re.compile("⟦(.+?)⟧")
 """A part of a text whose value where the motion starts is asked."""
 SUMMED = "summed up: "
@@ -124,6 +126,10 @@ class Reader:
         if phrase.startswith(INITIAL):
             text, dimension = self.measured(phrase.removeprefix(INITIAL))
             return Meaning("initial", (f"⟦{text}⟧",), dimension)
+        for word in (LARGEST, LEAST):
+            if phrase.startswith(f"{word}: "):
+                text, dimension = self.measured(phrase.removeprefix(f"{word}: "))
+                return Meaning("initial", (f"⟦{word}: {text}⟧",), dimension)
         if phrase.startswith(LOAD):
             return Meaning("reaction", (phrase,), FORCE)
         phrases = {_PLACE: self.place, _DIRECTION: self.direction, _JOINT: self.reaction}

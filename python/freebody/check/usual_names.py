@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import permutations
 from typing import Any
 
@@ -23,16 +23,18 @@ Points = Mapping[str, tuple[str, str]]
 def usual(spec: Mapping[str, Any], metadata: Mapping[str, Any], declared: Mapping[str, str]) -> dict[str, str]:
     """Letters with what they mean in a model, as a declaration; only those that can mean but one thing. ``declared`` are expressions of
     a person's own symbols: ω is the rate of turning to the α that is one of them."""
-    points, rigid = _points(spec), [body["name"] for body in spec["bodies"] if not body["particle"]]
+    points, rigid = _points(spec, declared), [body["name"] for body in spec["bodies"] if not body["particle"]]
     turns = spell(metadata["coordinates"][0]["name"]) if len(metadata["coordinates"]) == 1 else ""
-    found = [*_partners(declared), *_of_points(points, turns)]
+    found = [*_partners(declared), *_of_points(points, turns), *_of_hinge(spec, rigid)]
     found += [(f"ΣF_{axis}", f"force on all along {axis}") for axis in "xy"]
     found += [pair for body in rigid for pair in _of_body(spec, body, points, alone=len(rigid) == 1)]
-    found += [*_of_coordinates(metadata)]
+    found += [*_of_coordinates(spec, metadata)]
     found += [(f"T_{name}", f"{spell(name)}.tension") for name in (each["name"] for each in spec["strings"])]
     if len(spec["bodies"]) == 1:
         centre = f"{spell(spec['bodies'][0]['name'])}.G"
         found += [("v", f"velocity of {centre}"), ("a", f"acceleration of {centre}")]
+        found += [(f"a_{part}", dict(found)[f"a_G{part}"]) for part in "nt" if f"a_G{part}" in dict(found)]
+    found += [*_polar(spec)]
     return dict(reversed(found))  # what comes first stays
 
 
@@ -56,8 +58,9 @@ def _partners(declared: Mapping[str, str]) -> Iterator[tuple[str, str]]:
             yield other, re.sub(rf"\b({'|'.join(words)})(?=\()", lambda found, words=words: words[found[1]], declared[one])
 
 
-def _points(spec: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
-    """Body and name of each point that has a letter, its own, its body's, or that of the joint there; G of the only body."""
+def _points(spec: Mapping[str, Any], declared: Mapping[str, str]) -> dict[str, tuple[str, str]]:
+    """Body and name of each point that has a letter, its own, its body's, or that of the joint there; G of the only body, or of that of
+    which a person's own symbols read it."""
     named = [(point["body"], point["name"], point["name"].rpartition(".")[2]) for point in spec["points"]]
     named += [(body["name"], f"{spell(body['name'])}.G", body["name"]) for body in spec["bodies"] if body["particle"]]
     joints = [(joint["with"].get("point") or (joint["with"].get("of") or [""])[-1], joint["name"]) for joint in spec["joints"]]
@@ -70,13 +73,25 @@ def _points(spec: Mapping[str, Any]) -> dict[str, tuple[str, str]]:
         for point, letter in joints
         if isinstance(point, str) and "." in point and letter not in held[letter]
     ]
-    if len(spec["bodies"]) == 1:
-        named.append((spec["bodies"][0]["name"], f"{spell(spec['bodies'][0]['name'])}.G", "G"))
+    bodies = [body["name"] for body in spec["bodies"]]
+    centred = [name for name in bodies if any(f"{spell(name)}.G" in said for said in declared.values())] or bodies
+    if len(centred) == 1:
+        named.append((centred[0], f"{spell(centred[0])}.G", "G"))
     letters = [each for each in dict.fromkeys(named) if _LETTER.fullmatch(each[2])]
     moving = {letter for body, _, letter in letters if body != "ground"}
     letters = [each for each in letters if each[0] != "ground" or each[2] not in moving]
     letters += [] if any(letter == "O" for *_, letter in letters) else [("ground", "ground.O", "O")]
     return {letter: (body, point) for body, point, letter in letters if sum(letter == other for *_, other in letters) == 1}
+
+
+def _of_hinge(spec: Mapping[str, Any], rigid: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """ω and α of the only body on a hinge of the ground, in the sense in which its angle grows."""
+    hinges = [joint for joint in spec["joints"] if joint["type"] == "hinge" and joint.get("coordinates")]
+    if len(rigid) == len(hinges) == 1 and "name" in hinges[0]["coordinates"][0]:
+        first, second = (str(of).rpartition(".")[0] for of in hinges[0]["with"]["of"])
+        if (first, second) == ("ground", rigid[0]):
+            name = spell(hinges[0]["coordinates"][0]["name"])
+            yield from (("ω", f"rate({name})"), ("α", f"accel({name})"))
 
 
 def _of_points(points: Points, turns: str) -> Iterator[tuple[str, str]]:
@@ -118,10 +133,34 @@ def _of_body(spec: Mapping[str, Any], body: str, points: Points, alone: bool) ->
         yield "I", f"inertia of {body} about {centres['G']}"
 
 
-def _of_coordinates(metadata: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+def _polar(spec: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """Directions, velocity and acceleration along and across a slot of a turning body, in which the only thing slides: e_r, a_r, a_θ, where
+    r and θ are the coordinates."""
+    hinges = {str(joint["with"]["of"][1]).rpartition(".")[0]: joint for joint in spec["joints"] if joint["type"] == "hinge"}
+    slots = [joint for joint in spec["joints"] if joint["type"] == "slot" and "angle" in joint["with"]["along"]]
+    slots = [joint for joint in slots if str(joint["with"]["along"]["point"]).rpartition(".")[0] in hinges]
+    if len(slots) != 1:
+        return
+    slot, line = slots[0], slots[0]["with"]["along"]
+    body = str(line["point"]).rpartition(".")[0]
+    names = [(hinges[body]["coordinates"] or [{}])[0], (slot["coordinates"] or [{}])[0]]
+    if not all("name" in each for each in names) or len(slot["coordinates"]) != 1:
+        return
+    turn, (across, along) = f"(angle({spell(body)}) + ({line['angle']}))", (each["name"] for each in names)
+    sign = "-" if names[0].get("sense") == -1 else ""
+    directions = {along: (f"cos{turn}", f"sin{turn}"), across: (f"-({sign}sin{turn})", f"{sign}cos{turn}")}
+    point = slot["with"]["point"]
+    for name, (x, y) in directions.items():
+        yield f"e_{name}", f"[{x}, {y}]"
+        yield from ((f"{symbol}_{name}", f"{symbol}x({point})*{x} + {symbol}y({point})*({y})") for symbol in "va")
+
+
+def _of_coordinates(spec: Mapping[str, Any], metadata: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     """Velocity and acceleration along the only length, or the only angle, among the coordinates, and of x₁, φ₂ by their index."""
+    polar = {each.get("name") for joint in spec["joints"] if joint["type"] == "polar" for each in joint["coordinates"]}
     for dimension, symbols in (("m", "va"), ("rad", "ωα")):
         names = [c["name"] for c in metadata["coordinates"] if c["dimension"] == dimension]
+        names = [name for name in names if dimension == "rad" or name not in polar]  # what goes about has more than that
         indices = [(found[1], name) for name in names if (found := re.fullmatch(r"[^\W\d_]+_?(\d+)", name))]
         read = [(symbol, word) for symbol, word in zip(symbols, ("rate", "accel"), strict=True)]
         if len(names) == 1:

@@ -13,13 +13,14 @@ import numpy as np
 from freebody.solve.rich_tables import PlainText
 from freebody.symbolic.errors import StatementError
 
-from .assumptions import FROM_START, assumption, leaves_out, linearised, of_family, tiny
+from .assumptions import FROM_START, OWN_NUMBERS, assumption, leaves_out, linearised, of_family, tiny
 from .case import Case
 from .correction import MOST, SECOND, corrections
 from .families import ALL, NoMotion, Samples
-from .figures import corrected_figures, rounding, says_a_figure
+from .figures import corrected_figures, rounding, says_a_figure, says_a_measure
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
+from .motion_sampler import SAMPLES
 from .nearest import nearest
 from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, sizes, unreached
 from .stated import Correction
@@ -31,6 +32,7 @@ _FAR = 2.0  # size of a correction from which on one is looked for among the bal
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
 _FEW = 0.1  # share of such states
+_GLANCE = 3  # states, on which most of what is wrong shows
 _ROUND_OFF = 1e-9  # of the largest component of an equation: one that stays below is 0
 _DEPENDENT = 1e-8  # singular value, of rows whose largest entry is 1, below which equations depend on each other
 
@@ -256,8 +258,8 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     """Under an assumption that a person would make; else wrong, with its corrections, also where what was left out would be 0 at
     rest or without a part of the model."""
     seen = evidence(found, case.values())
-    if from_start := _from_start(case, equation):
-        return from_start
+    if plainly := _from_start(case, equation) or _as_figures(case, equation):
+        return plainly
     if case.sampler.rolls_in_loop and _stays(case, equation):
         what = "the angles of what rolls are measured from a place where both sides are equal"
         return Verdict(
@@ -291,13 +293,27 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
 
 
 def _from_start(case: Case, equation: Equation) -> Verdict | None:
-    """That it is true of motions from the start of the model, where its letters are of these; else None."""
-    since = replace(case, hypothesis=replace(case.hypothesis, since="start"), known={})
-    said = case.hypothesis == ALL and not says_a_figure(equation) and case.meaning.speaks_of_start(equation)
-    if not said or not of_family(case, equation, since.hypothesis):
+    """That it is true of motions from the start of the model, where its letters are of these, or where that is at rest and everything moves
+    from there, so that a term which is left out is 0; else None."""
+    given = case.hypothesis
+    since = replace(case, hypothesis=replace(given, since="start"), known={})
+    said = replace(given, vanishing=()) == ALL and not says_a_figure(equation)
+    if said and not case.meaning.speaks_of_start(equation):
+        said = case.sampler.starts_to_move and of_family(case, equation, since.hypothesis, _GLANCE)
+    if not said or not of_family(case, equation, since.hypothesis, SAMPLES):
         return None
     verdict = judged_one(since, equation)
     return replace(verdict, assumption=FROM_START) if verdict.ok else None
+
+
+def _as_figures(case: Case, equation: Equation) -> Verdict | None:
+    """That a measure alone on its side, ``a = 2.91 m/s²``, is that of the model's own numbers; else None."""
+    own = replace(case.hypothesis, numbers=True, zeros=False)
+    said = case.hypothesis == ALL and says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(equation)))
+    if not said or not of_family(case, equation, own):
+        return None
+    verdict = judged_one(replace(case, hypothesis=own, known={}), equation)
+    return replace(verdict, assumption=OWN_NUMBERS) if verdict.ok else None
 
 
 def _stays(case: Case, equation: Equation) -> bool:

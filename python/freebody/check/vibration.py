@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import Array, ModelError, MotionError, State
+from freebody.model.errors import ModelProblem
 from freebody.stability.equilibria import equilibria, rest_near
 from freebody.stability.state_space import SingularConfiguration, state_space
 from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
@@ -93,6 +94,16 @@ class Vibration:
         )
         return f"{name} = {round(np.degrees(rest.q[k]), 6) + 0.0:g}°" if is_angle else f"{name} = {round(rest.q[k], 6) + 0.0:g} m"
 
+    @cached_property
+    def _later(self) -> bool:
+        """Whether events have changed what moves."""
+        return self.sampler.restricted
+
+    @staticmethod
+    def _placed(state: State) -> State:
+        """Where a state is, at rest."""
+        return state.at(state.q)
+
     def _places(self, names: Iterable[str]) -> list[float]:
         """The coordinates of rest by their names."""
         return [round(float(self.rest.q[self.sampler.names.index(name)]), 6) for name in names]  # type: ignore[union-attr]
@@ -107,13 +118,15 @@ class Vibration:
         """The place of rest that it swings about with the model's own numbers."""
         sampler, core = self.sampler, self.sampler.core
         try:
-            first = sampler.first.at(sampler.first.q)
-            free = state_space(core, first).free
-            if sampler.restricted or not free or core.metadata["states"]:
+            if core.metadata["states"] or sampler.is_held:
                 return None
-            if len(free) > 1:
+            first = self._placed(sampler.own if self._later else sampler.first)
+            free = state_space(core, first).free
+            if not free:
+                return None
+            if len(free) > 1 or self._later:
                 rest = rest_near(core, first)
-                return rest if rest and len(_squares(state_space(core, rest).a)) else None
+                return rest if rest and _swings(state_space(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
             found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
@@ -142,8 +155,14 @@ class Vibration:
 
     def _linear(self, row: Array) -> Array | None:
         """The matrix of the linear equations at rest with other parameters."""
-        core, rest = self.sampler.core, self.rest
-        p = core.bind(dict(zip(self.parameters, row.tolist(), strict=True)))
+        core, rest, values = self.sampler.core, self.rest, dict(zip(self.parameters, row.tolist(), strict=True))
+        if self._later:
+            try:
+                there = rest_near(core, self._placed(self.sampler.at_moment_with(values)))
+            except (MotionError, ModelError, ModelProblem):
+                return None
+            return a if there and _swings(a := state_space(core, there).a) else None
+        p = core.bind(values)
         for stages in (1, _STAGES):
             state = rest
             for done in np.arange(1, stages + 1) / stages:

@@ -10,7 +10,11 @@ from .language.glyphs import CONDITION
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _BEFORE = re.compile(rf"({_STARTS}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
-_LABELLED = re.compile(rf"\A[^=<>:;,\n]*,\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)")
+_LABELLED = re.compile(rf"\A[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)")
+_NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
+"""``at the bottom (θ = 90°)``."""
+_PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
+"""``T = const + M θ``."""
 _SMALL = re.compile(r"\A\s*(small (?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?)\s*:(?!=)")
 """``small θ:``, without a word before it; a small block is no angle."""
 _BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
@@ -64,6 +68,8 @@ def with_condition_first(text: str) -> str:
     said = _NOTHING.sub(r"\1:", said)
     if said.startswith("limit:"):
         return said
+    if found := _PLUS_CONSTANT.fullmatch(said):
+        return f"constant: {found[1]} {'-' if found[2] == '+' else '+'} ({found[3]})"
     if found := _CONSTANT_FIRST.fullmatch(said):
         return f"constant: {found[1]}"
     if found := _GIVEN.fullmatch(said):
@@ -90,7 +96,7 @@ def as_claim(text: str) -> str:
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
     if not found:
         return text
-    word, said, statement = " ".join(found[1].split()), _plainly(found[2]), found[3]
+    word, said, statement = " ".join(found[1].split()), _NAMED_PLACE.sub(r"\1", _plainly(found[2])), found[3]
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
     parts = [part for part in _PARTS.split(said) if not _SUM.match(part)]
@@ -104,6 +110,8 @@ def as_claim(text: str) -> str:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
     said = "at the start" if is_start else said
     parts = [_condition(part) for part in _PARTS.split(said)]
+    small = {part.removesuffix(" -> 0") for part in parts if part.endswith(" -> 0")}
+    parts = [part for part in parts if part.rstrip("'") == part or part.rstrip("'") not in small]  # so are its rates
     if any("->" in part or part == "small motions" for part in parts):
         inner = re.fullmatch(r"limit:\s*(.+)\s+as\s(.+)", as_claim(statement), re.S)
         statement, parts = (inner[1], [*parts, inner[2]]) if inner else (statement, parts)

@@ -80,6 +80,7 @@ COMMON = (
 """Those that a slip of the pen may mean, and that are read where a symbol has their name."""
 _NO_UNITS = {"c", "pi", "tau", "e", "G", "speed_of_light", "count", "percent", "ppm"}
 
+_FUNCTION_OR_GREEK = re.compile(r"(?:sin|cos|tan|sqrt)\Z|[α-ωϑ-ϖΑ-Ψ](?<!μ)")
 _NUMBER = re.compile(rf"\s*([+-]?\s*{NUMBER})\s*")
 _WORD = r"[^\W\d²³][^\W²³]*|°"
 _PIECE = re.compile(rf"{_WORD}|(?:\^|\*\*)\s*-?\s*\d{{1,2}}(?!\d)|\S")
@@ -114,8 +115,8 @@ def word(text: str) -> Unit | None:
 
 def registered(text: str) -> Unit | None:
     """The unit of one word as the registry knows it."""
-    if text in _NO_UNITS or not (text.isidentifier() or text == "°"):
-        return None
+    if text in _NO_UNITS or _FUNCTION_OR_GREEK.match(text) or not (text.isidentifier() or text == "°"):
+        return None  # without the registry, which takes a second to load
     try:
         unit = _registry().Quantity(Fraction(1), "degree" if text == "°" else text).to_base_units()
     except (AttributeError, TypeError, ValueError, ArithmeticError):

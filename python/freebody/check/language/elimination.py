@@ -18,7 +18,7 @@ class Elimination(Assignment):
 def eliminated(program: Program, unknowns: Iterable[Sym], chains: bool = False) -> Program:
     """The lines, each unknown given by the first line in which it stands once and linearly, and which leaves another line that
     states something of it; those for which there is none stay unknown. With ``chains`` it may also be only what the rest of a chain,
-    P = M ω = dE/dt, is called."""
+    P = M ω = dE/dt or ω₁/ω₂ = r₂/r₁ = n, is called."""
     lines = list(program.lines)
     for unknown in unknowns:
         holding = [i for i, line in enumerate(lines) if unknown in symbols_in(line)]
@@ -29,6 +29,8 @@ def eliminated(program: Program, unknowns: Iterable[Sym], chains: bool = False) 
                 break
         if chains and len(holding) == 1 and _begins_chain(lines, *holding, unknown):
             lines[holding[0]] = Elimination(unknown, lines[holding[0]].right, span=lines[holding[0]].span)
+        elif chains and len(holding) == 1 and _ends_chain(lines, *holding, unknown):
+            lines[holding[0]] = Elimination(unknown, lines[holding[0]].left, span=lines[holding[0]].span)
     whole = replace(program, lines=tuple(lines))
     return whole if whole.equations else program
 
@@ -37,6 +39,12 @@ def _begins_chain(lines: list[Assignment | Equation], i: int, unknown: Sym) -> b
     """Whether a line only says that an unknown is what the next begins with."""
     line, after = lines[i], lines[i + 1] if i + 1 < len(lines) else None
     return isinstance(line, Equation) and line.left == unknown and isinstance(after, Equation) and after.left is line.right
+
+
+def _ends_chain(lines: list[Assignment | Equation], i: int, unknown: Sym) -> bool:
+    """Whether a line only says that an unknown is what the one before ends with: r₂/r₁ = ω₁/ω₂ = n."""
+    line, before = lines[i], lines[i - 1] if i else None
+    return isinstance(line, Equation) and line.right == unknown and isinstance(before, Equation) and before.right is line.left
 
 
 def _solved(line: Equation, unknown: Sym) -> Node | None:

@@ -17,8 +17,9 @@ Rules of reading:
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from functools import lru_cache
 from itertools import dropwhile
+from typing import Any
 
 from freebody.symbolic.differentiate import partial, rate
 from freebody.symbolic.errors import StatementError
@@ -39,11 +40,18 @@ def parse(
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
-    own = tuple(names)
-    known = Names(own, frozenset(constants), units, tight)
+    return _parsed(text, tuple(names), frozenset(constants), units, tight)
+
+
+@lru_cache(maxsize=64)  # one statement is read several times on the way to its verdict
+def _parsed(text: str, own: tuple[str, ...], constants: frozenset[str], units: bool, tight: bool) -> Program:
+    known = _names(own, constants, units, tight)
     try:
-        known = replace(known, known=(*own, *_assigned(tokens(text, known), known)))
-        rows = [Line(row, known, text).line() for row in _lines(tokens(text, known))]
+        row = tokens(text, known)
+        if assigned := _assigned(row, known):
+            known = _names((*own, *assigned), constants, units, tight)
+            row = tokens(text, known)
+        rows = [Line(row, known, text).line() for row in _lines(row)]
         lines = _written_out(_meanings(rows, set(own)), known)
         program = Program((*_rates(lines, known), *lines), text, units, tight, span=(0, len(text)))
     except StatementError as error:
@@ -53,6 +61,12 @@ def parse(
     if not rows:
         raise StatementError("there is no equation", (0, len(text)), "write one, like `m*a = F`", text)
     return program
+
+
+@lru_cache(maxsize=16)
+def _names(*of: Any) -> Names:
+    """Names, whose spellings are found once."""
+    return Names(*of)
 
 
 def parse_expression(text: str, names: Iterable[str] = (), constants: Iterable[str] = ()) -> Node:
