@@ -12,7 +12,8 @@ import pytest
 from freebody.run.peaks import peak_reactions
 from freebody.run.simulation import Run
 from freebody.views.report import report_html, write_report
-from freebody.views.report.series import Curve, _resolved
+from freebody.views.report.data import report_data
+from freebody.views.report.series import Curve, _resolved, plots
 from freebody.views.report.tables import Table, raised
 
 from .models import run_double_pendulum
@@ -77,6 +78,19 @@ def test_the_page_says_it_all(four_bar):
     titles = [plot["title"] for plot in data["plots"]]
     assert {"Coordinates", "Rates", "Accelerations", "Energy", "Reported quantities"} <= set(titles)
     assert len(data["scene"]["t"]) >= 180
+
+
+def test_curves_of_another_run_lie_over_those_of_the_same_name():
+    """At their own times and with their own values; what only one has stays alone."""
+    one, other = run_double_pendulum(until=0.2), run_double_pendulum(until=0.1)
+    alone, [theirs] = report_data(one)["plots"], [plot for plot in plots(other) if plot["title"] == "Coordinates"]
+    for before, plot in zip(alone, report_data(one, {"short": other})["plots"], strict=True):
+        own, added = plot["curves"][: len(before["curves"])], plot["curves"][len(before["curves"]) :]
+        assert own == before["curves"] and [f"{own[each['beside']]['name']} (short)" for each in added] == [
+            each["name"] for each in added
+        ]
+        if plot["title"] == "Coordinates":
+            assert [(each["t"], each["y"]) for each in added] == [(theirs["t"], each["y"]) for each in theirs["curves"]]
 
 
 def test_powers_of_ten_are_raised_and_nothing_else_is_markup():

@@ -213,13 +213,26 @@ def animate(
 def compare(
     a: Annotated[Path, typer.Argument(metavar="A", help="A saved run ({run.storage}) or a model.")],
     b: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
+    report: Annotated[
+        Path | None, typer.Option(help="An HTML report of the first with the curves of the second over it.")
+    ] = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """How far two runs lie apart, column by column."""
     from freebody.cli import show
     from freebody.views.compare import compare as compared
 
-    show.comparison(compared(obtained(a), obtained(b)), as_json)
+    if report:
+        check_writable(report)
+    first, second = obtained(a), obtained(b)
+    show.comparison(compared(first, second), as_json)
+    if report:
+        from freebody.views.report import write_report
+
+        made = write_report(first, report, {b.stem if b.stem != a.stem else "the second": second})
+        if not as_json:
+            written(made)
 
 
 app.command()(systems)

@@ -183,4 +183,7 @@ export interface Curve {
   y: Floats;
   /** The name of what exerts it, of a force. */
   of?: string;
+  /** Of a curve of another run: its own times, and the place of the one that it lies over. */
+  t?: Floats;
+  beside?: number;
 }

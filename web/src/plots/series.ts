@@ -10,14 +10,19 @@ export interface Series {
   unit: string;
   /** The name of what exerts it, of a force. */
   of?: string;
+  /** Of a curve of another run, the place of the one that it lies over. */
+  beside?: number;
   t: ArrayLike<number>;
   y: Float32Array;
 }
 
 export function seriesOf(plot: Plot): Series[] {
   const t = floats(plot.t);
-  return plot.curves.map((curve) => ({ ...curve, unit: plot.unit, t, y: floats(curve.y) }));
+  return plot.curves.map((curve) => ({ ...curve, unit: plot.unit, t: curve.t ? floats(curve.t) : t, y: floats(curve.y) }));
 }
+
+/** By which of the eight colours it is drawn. */
+export const toneOf = (series: Series, place: number): number => (series.beside ?? place) % 8;
 
 /** What its curve stands over, or goes around. */
 export const acrossOf = (plot: Plot, across: NonNullable<Plot["across"]>): Series => ({ ...across, t: floats(plot.t), y: floats(across.y) });

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import base64
 import hashlib
+from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from markupsafe import Markup
@@ -19,13 +21,13 @@ if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
 
-def write_report(run: Run, path: str | Path) -> Path:
-    """Write the report of a run."""
-    return write(path, report_html(run))
+def write_report(run: Run, path: str | Path, beside: Mapping[str, Run] = MappingProxyType({})) -> Path:
+    """Write the report of a run, with the curves of runs ``beside`` it, by name, dashed over its own."""
+    return write(path, report_html(run, beside))
 
 
-def report_html(run: Run) -> str:
-    """The report as one page that needs nothing else and loads nothing.
+def report_html(run: Run, beside: Mapping[str, Run] = MappingProxyType({})) -> str:
+    """The report as one page that needs nothing else and loads nothing; ``beside`` as for ``write_report``.
 
     The page's own policy forbids every script and style but the two it holds, and every address.
     All text of the model is escaped, or reaches the page as data that is only ever shown as text.
@@ -34,7 +36,7 @@ def report_html(run: Run) -> str:
     return template(__package__, "page.html").render(
         policy=f"default-src 'none'; style-src '{_digest(style)}'; script-src '{_digest(script)}'; img-src data:",
         run=run,
-        data=report_data(run),
+        data=report_data(run, beside),
         style=style,
         script=script,
         outcome=tables.outcome(run),

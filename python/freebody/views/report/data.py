@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +13,7 @@ from freebody.model.user_units import shown
 from freebody.views.plots import pretty_unit
 from freebody.views.report.floats import floats
 from freebody.views.report.loads import loads
-from freebody.views.report.series import plots
+from freebody.views.report.series import over_each_other, plots
 from freebody.views.scene import of_run
 from freebody.views.sketch import Cord, Pair, Sketch, Stroke, named_points
 from freebody.views.style import PALETTE
@@ -29,13 +31,13 @@ _UNNAMED = ("origin",)
 """Points that a reader does not ask for."""
 
 
-def report_data(run: Run) -> dict[str, Any]:
-    """All that moves, the plots, and the moments worth knowing."""
+def report_data(run: Run, beside: Mapping[str, Run] = MappingProxyType({})) -> dict[str, Any]:
+    """All that moves, the plots, those of other runs by their names over them, and the moments worth knowing."""
     sketch = of_run(run, frames(run))
     return {
         "scene": _scene(sketch),
         "loads": loads(run, sketch),
-        "plots": plots(run),
+        "plots": over_each_other(plots(run), {name: plots(other) for name, other in beside.items()}),
         "marks": _marks(run),
         "noneFrom": None if run.recorded else run.accuracy.none_from,
         "units": {unit: {"unit": pretty_unit(shown(unit).unit), "size": shown(unit).size} for unit in _UNITS},

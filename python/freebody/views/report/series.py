@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -48,6 +48,21 @@ def plots(run: Run) -> list[dict[str, Any]]:
         _plot("Energy error", "J", finer, [Curve("balance", ledger.balance)]),
     ]
     return made if run.recorded else made + _asked(finer)
+
+
+def over_each_other(own: list[dict[str, Any]], others: Mapping[str, list[dict[str, Any]]]) -> list[dict[str, Any]]:
+    """Plots with the curves of other runs, by their names, beside those of their own that are called alike."""
+    for run, plotted in others.items():
+        alike = {(plot["title"], plot["unit"]): plot for plot in plotted if "across" not in plot}
+        for plot in own:
+            other = alike.get((plot["title"], plot["unit"]), {"curves": []}) if "across" not in plot else {"curves": []}
+            places = {curve["name"]: i for i, curve in enumerate(plot["curves"]) if "beside" not in curve}
+            plot["curves"] += [
+                {"name": f"{curve['name']} ({run})", "y": curve["y"], "t": other["t"], "beside": places[curve["name"]]}
+                for curve in other["curves"]
+                if curve["name"] in places
+            ]
+    return own
 
 
 def _points(run: Run) -> int:
