@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from freebody.impact.impacts import Impact
     from freebody.model.builder import Builder
     from freebody.run.batch import Given
+    from freebody.run.progress import Progress
     from freebody.run.sampling import Times
-    from freebody.run.simulation import Progress, Run
+    from freebody.run.simulation import Run
     from freebody.solve.instant import Instant
     from freebody.views.diagram import Diagram
 
@@ -118,7 +119,7 @@ class Moving:
         *,
         initial: Mapping[str, Any] | None = None,
         t_eval: Times | None = None,
-        progress: Progress | None = None,
+        progress: Progress | bool | None = None,
         t: float = 0.0,
         **settings: Any,
     ) -> Run:
@@ -126,7 +127,8 @@ class Moving:
 
         ``settings`` overrule the section ``run``: ``method``, ``rtol``, ``step``, ``max_step``, ``every``, ``route``,
         ``impacts``, ``painleve``; any others are changes as in ``solve``. ``initial`` replaces the section of that name, but for
-        what is guessed and the branch. ``t_eval`` fixes the output times and never changes the steps. Where an event continues with
+        what is guessed and the branch. ``t_eval`` fixes the output times and never changes the steps. ``progress=True`` shows a bar
+        (tqdm); a function is told the time reached (s), and ends the run by returning False. Where an event continues with
         another model, its run is ``next`` of this one.
         """
         from freebody.run.model_sequence import Stage, follow

@@ -1,12 +1,17 @@
 """What a notebook shows, and what its tab key offers."""
 
+import html
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import freebody as fb
+from freebody.run.progress import told
+from freebody.views import notebook
+from freebody.views.report import report_html
 
 ROOT = Path(__file__).parents[2]
 
@@ -77,3 +82,35 @@ def test_what_is_offered_of_a_mechanism_is_what_is_documented(four_bar):
 
 def test_the_package_has_types():
     assert (Path(fb.__file__).parent / "py.typed").exists()
+
+
+def without(monkeypatch, module):
+    monkeypatch.setitem(sys.modules, module, None)
+    notebook._widget.cache_clear()
+
+
+def test_a_player_is_the_report_in_a_frame_also_without_a_widget(run, monkeypatch):
+    without(monkeypatch, "anywidget")
+    shown = notebook.player(run)._repr_html_()
+    assert html.unescape(re.search('srcdoc="(.*)"></iframe>', shown, re.DOTALL)[1]) == report_html(run)
+
+
+def test_a_widget_shares_its_time(run):
+    pytest.importorskip("anywidget")
+    notebook._widget.cache_clear()
+    player = notebook.player(run, height=400)
+    assert player.page == report_html(run) and player.t == 0 and "postMessage" in str(player._esm)
+    assert {"page", "height", "t"} <= {*player.keys}  # what the browser is told
+    assert "window.parent" in player.page  # and what the page answers with
+
+
+def test_a_bar_follows_a_run(four_bar, monkeypatch, capsys):
+    pytest.importorskip("tqdm")
+    four_bar.simulate(until=0.2, progress=True)
+    assert "0.2 of 0.2 s" in capsys.readouterr().err
+    with told(True, 2.0) as progress:
+        assert progress(0.5) and progress(1.5)
+    assert "2 of 2 s" in capsys.readouterr().err
+    without(monkeypatch, "tqdm.auto")
+    with pytest.raises(ImportError, match="pip install tqdm"):
+        four_bar.simulate(until=0.2, progress=True)

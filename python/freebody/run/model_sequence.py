@@ -8,8 +8,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import CompiledModel, MotionError, OutcomeKind, Settings, State, quote
+from freebody.run.progress import Progress
 from freebody.run.sampling import Times
-from freebody.run.simulation import Progress, Run, simulate
+from freebody.run.simulation import Run, simulate
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -23,7 +24,7 @@ class Stage:
     settings: Settings
     overrules: Mapping[str, Any]
     t_eval: Times | None = None
-    progress: Progress | None = None
+    progress: Progress | bool | None = None
 
     def run(self, state: State, notes: Sequence[str]) -> Run:
         """The motion from a state."""

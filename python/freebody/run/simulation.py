@@ -28,6 +28,7 @@ from freebody.core import (
 from freebody.run import selection, storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
 from freebody.run.peaks import Peak, known_peaks
+from freebody.run.progress import Progress, told
 from freebody.run.records import (
     KINDS,
     Array,
@@ -51,8 +52,6 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-Progress = Callable[[float], bool]
-
 
 MAX_STEPS = 1_000_000
 AS_LONG, SHORT_RUN = 20, 10_000
@@ -64,14 +63,16 @@ def simulate(
     start: State,
     settings: Settings,
     t_eval: Times | None = None,
-    progress: Progress | None = None,
+    progress: Progress | bool | None = None,
     max_steps: int = MAX_STEPS,
 ) -> Run:
-    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps."""
+    """The motion from a state. ``t_eval`` fixes the output times; neither it nor ``every`` changes the steps. ``progress`` is ``True`` for a bar
+    (tqdm), or a function that is told the time reached (s) and ends the run by returning False."""
     if settings.every or t_eval is not None:
         check_size(len(columns_of(source, ())), settings, start.t, t_eval)
     options = {key: value for key, value in vars(settings).items() if key != "every"}
-    trajectory = source.simulate(start, progress=progress, max_steps=max_steps, **options)
+    with told(progress, settings.until) as progress:
+        trajectory = source.simulate(start, progress=progress, max_steps=max_steps, **options)
     later = partial(output_times, trajectory, settings.every)
     return Run(source, start, settings, trajectory, later if t_eval is None else output_times(trajectory, t_eval=t_eval))
 
@@ -396,8 +397,8 @@ class Run(PlainText):
         """The state at the end, enough to continue from."""
         return self.motion.end
 
-    def continue_(self, until: float, progress: Progress | None = None) -> Run:
-        """The motion from the end of this run on, with what is in place then. Works and the ledger start anew.
+    def continue_(self, until: float, progress: Progress | bool | None = None) -> Run:
+        """The motion from the end of this run on, with what is in place then; ``progress`` as in ``simulate``. Works and the ledger start anew.
 
         Raises ``ValueError`` for a run from a file on whose way parts were released or engaged: the file does not hold them.
         """
