@@ -11,6 +11,7 @@ from views.test_front_end import in_browser
 from views.test_site import dead_links
 
 import freebody as fb
+from freebody.equations import generate
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -19,7 +20,16 @@ QUICK = sorted(path for path in DOCS.glob("*.md") if path.name != "derivations.m
 """All but the table of pages, whose lines tests/equations/derivation/test_pages.py holds."""
 PRINTED = [path for path in (ROOT / "README.md", *sorted(DOCS.glob("*.md"))) if "```console" in path.read_text(encoding="utf-8")]
 ALONE = ("README.md", "docs/first_minutes.md", "docs/batch.md")
-"""Pages whose Python needs nothing that is said elsewhere."""
+"""Pages whose Python needs nothing that is said elsewhere, and does not take long."""
+
+
+AMONG = {
+    "docs/python.md": dict,
+    "docs/inverse.md": dict,
+    "docs/check.md": lambda: {"m": fb.load("systems/19.3.17/model.yaml")},
+    "docs/equations.md": lambda: {"m": fb.load("systems/19.3.17/model.yaml"), "generate": generate},
+}
+"""Pages that take up what is said elsewhere, with what that is."""
 
 
 @pytest.mark.parametrize("path", QUICK, ids=lambda path: path.name)
@@ -54,11 +64,17 @@ def test_what_commands_print_is_current(path):
     assert runpy.run_path(str(DOCS / "refresh.py"))["printed"](text, str(FREEBODY)) == text
 
 
-@pytest.mark.parametrize("page", ALONE)
-def test_python_runs(page):
+@pytest.mark.parametrize("page", [*ALONE, *(pytest.param(page, marks=pytest.mark.long) for page in AMONG)])
+def test_python_runs(page, tmp_path, monkeypatch):
+    """Where a newcomer stands: beside the examples and the catalogue, in a folder that can be written."""
+    for name, place in {"examples": "examples", "systems": "systems", "cart_pendulum.yaml": "systems/19.3.17/model.yaml"}.items():
+        (tmp_path / name).symlink_to(ROOT / place)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.syspath_prepend(str(tmp_path))
+    known = {"fb": fb} | AMONG.get(page, dict)()
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
     assert blocks
-    exec("\n".join(blocks), {})
+    exec("\n".join(blocks), known)
 
 
 @pytest.mark.parametrize("page", ["homework", "linkage"])
