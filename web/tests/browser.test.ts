@@ -54,6 +54,8 @@ describe.runIf(folder)("every report", () => {
     expect(await page.locator("body").evaluate((body) => getComputedStyle(body).backgroundColor)).toBe("rgb(255, 255, 255)");
     for (const control of [".play", ".bar", ".view", ".loads"]) expect(await page.locator(control).isVisible()).toBe(false);
     expect(await page.locator("output").isVisible()).toBe(true);
+    const swatch = await page.locator(".swatch.f0").first().evaluate((line) => getComputedStyle(line).borderTopColor);
+    expect(swatch).toBe(await page.locator(".curve.s0").first().evaluate((curve) => getComputedStyle(curve).stroke));
     await page.close();
   });
 });
