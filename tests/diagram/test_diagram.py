@@ -163,6 +163,11 @@ def test_the_list_of_forces_is_printed_and_adds_up():
         assert {load["letter"] for load in stated["loads"]} >= {"C_x", "C_y"}
 
 
+def test_a_scale_bar_says_its_newtons_in_full():
+    """Of 20000 N, that a quarter car's tyre takes at a kerb; it was 2e+04 N."""
+    assert ">20000 N<" in Mechanism.load("systems/GEN-SUSP/one_sided.yaml").diagram(to_scale=True).svg()
+
+
 def test_a_pdf_has_pages(tmp_path):
     """Three bodies of a four-bar stand on one page, all seven of a walker on six, each no higher than the text of a page."""
     for model, pages in (("GEN-FOURBAR/model", 1), ("GEN-STEP/model", 6)):

@@ -126,7 +126,7 @@ def _scale(ax: Axes, per_newton: float, unit: str, corner: Array) -> None:
     ax.plot(*np.array([corner, end]).T, color=INK, lw=1.4)
     for x, y in (corner, end):
         ax.plot([x, x], [y - 3, y + 3], color=INK, lw=1.0)
-    ax.text(end[0] + 6, end[1], f"{newtons:.4g} {unit}", ha="left", va="center", fontsize=9.0, color=INK)
+    ax.text(end[0] + 6, end[1], f"{newtons:g} {unit}", ha="left", va="center", fontsize=9.0, color=INK)
 
 
 def round_below(value: float) -> float:
