@@ -164,7 +164,8 @@ impl Workspace<'_> {
         for (load, response) in loads.iter().zip(&mut responses) {
             self.sparse.as_ref()?.factor.solve(load, response).ok()?;
         }
-        let split = Orthogonal::factor(&Matrix::from_fn(loads.len(), loads.len(), |i, j| along(&loads[i], &responses[j])));
+        let split =
+            Orthogonal::factor(&Matrix::from_fn(loads.len(), loads.len(), |i, j| along(&loads[i], &responses[j])));
         let left: Vec<f64> = loads.iter().zip(asked).map(|(load, asked)| asked - along(load, x)).collect();
         let mut multipliers = vec![0.0; loads.len()];
         split.add_solution(&left, &mut multipliers);
@@ -297,7 +298,8 @@ impl Workspace<'_> {
 
     /// Closing rows in the order of the closures, then of the drives, as the other routes have them.
     fn order_rows(&mut self) {
-        let closures: HashMap<usize, usize> = self.m.closures.iter().enumerate().map(|(i, &joint)| (joint, i)).collect();
+        let closures: HashMap<usize, usize> =
+            self.m.closures.iter().enumerate().map(|(i, &joint)| (joint, i)).collect();
         let place = |row: &Row| match row.source {
             Source::Joint(j, r) => (0, closures.get(&j).copied().unwrap_or(0), r),
             Source::Drive(d) => (1, d, 0),

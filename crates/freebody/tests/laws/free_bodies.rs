@@ -79,18 +79,19 @@ fn what_locks_hold_is_among_the_loads() {
         workspace.move_to(state.t, &state.q, &state.u);
         let label = format!("seed {seed}, {}", bench.label());
         let now = workspace.instant(Route::Minimal).unwrap_or_else(|e| panic!("{label}: {e:?}"));
+        let sizes = workspace.balances().sizes;
         for (word, route) in Route::ALL {
             let other = workspace.instant(*route).unwrap_or_else(|e| panic!("{label}: {word}: {e:?}"));
-            let most = other.sizes.load.max(1.0);
+            let most = workspace.balances().sizes.load.max(1.0);
             assert!((other.drives[lock] - now.drives[lock]).abs() < ROUND_OFF * most, "{label}: {word}");
         }
         let loads = free_bodies(&mut workspace).expect("a solution");
         assert_balanced(&loads, &label);
         let load = loads["loads"].as_array().unwrap().iter().find(|load| load["kind"] == "lock").expect("its load");
-        assert!((size(load) - now.drives[lock]).abs() < ROUND_OFF * now.sizes.load.max(1.0), "{label}: {load}");
+        assert!((size(load) - now.drives[lock]).abs() < ROUND_OFF * sizes.load.max(1.0), "{label}: {load}");
         let locked = m.drives[lock].name.trim_start_matches("lock ").trim_matches('\'');
         if let Some(a) = loads["accelerations"][locked].as_f64() {
-            assert!(a.abs() < ROUND_OFF * now.sizes.acceleration.max(1.0), "{label}: it accelerates with {a:e}");
+            assert!(a.abs() < ROUND_OFF * sizes.acceleration.max(1.0), "{label}: it accelerates with {a:e}");
         }
         held += 1;
     }
