@@ -34,6 +34,7 @@ _TRIES = 40  # for one sample; a four-bar with random bars closes in about one o
 _FEW_TRIES = 16  # where a parameter is far from the model's, and states are rarer or none
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
+_LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
@@ -112,7 +113,7 @@ class MotionSampler(AskedModel):
                     if (made := self._made(rng, self._parameters(rng, family), family)) is not None:
                         found.append(made)
                         break
-        return found if len(found) >= min(_ENOUGH, count) else []
+        return found if len(found) >= min(_LATE_ENOUGH if family.late else _ENOUGH, count) else []
 
     def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State, State | None] | None:
         start = None
