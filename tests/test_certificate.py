@@ -111,9 +111,38 @@ initial: {x: 0, y: 2, turn: 0.3, z: 0.1, rates: {x: 1, y: 0, turn: 2, z: 0.3}}
 def test_the_command_names_the_weakest_link_and_fails_below_what_is_asked():
     asked = ["certify", str(MODELS["examples/new_gun"])]
     done = CliRunner().invoke(cli.app, asked)
-    assert done.exit_code == 0 and "The weakest link is" in done.output
+    assert done.exit_code == 0 and "The weakest link: inverse dynamics, 7.2 digits." in done.output
     assert CliRunner().invoke(cli.app, [*asked, "--digits", "14"]).exit_code == 3
     data = json.loads(CliRunner().invoke(cli.app, [*asked, "--json"]).output)
     known = {route["name"]: route["digits"] for route in data["routes"] if route["digits"] is not None}
     assert data["weakest"] == min(known, key=known.get) and data["ok"]
     assert math.isfinite(sum(known.values())) and len(np.unique(list(known))) == len(data["routes"])
+
+
+THROWN = """
+freebody: 1
+bodies: {stone: {shape: particle, mass: 2 kg}}
+initial: {stone.x: 0, stone.y: 0, rates: {stone.x: 3 m/s, stone.y: 4 m/s}}
+run: {until: 1 s}
+"""
+HELD_TWICE = """
+freebody: 1
+bodies: {beam: {shape: rod, length: 2 m, mass: 3 kg}}
+joints:
+  A: {type: hinge, of: [ground.O, beam.start]}
+  B: {type: hinge, of: [ground.P, beam.end]}
+ground: {points: {P: [2 m, 0]}}
+forces: {push: {type: force, at: beam.centre, x: 0, y: -10 N}}
+run: {until: 1 s}
+"""
+LACKING = {
+    "thrown": (THROWN, {"work": "no forces, no motions"}),
+    "held twice": (HELD_TWICE, dict.fromkeys(("inverse dynamics", "impulse and momentum"), "loads undetermined")),
+}
+
+
+@pytest.mark.parametrize("model", LACKING)
+def test_a_route_without_a_figure_says_what_is_lacking(model):
+    text, known = LACKING[model]
+    routes = Certificate(fb.Mechanism.loads(text).simulate()).own_routes
+    assert {route.name: route.stated for route in routes if math.isnan(route.digits)} == known

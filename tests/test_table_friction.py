@@ -85,3 +85,14 @@ def test_equations_hold_the_friction_of_every_leg():
 def test_at_rest_there_is_no_sliding_friction_and_it_is_said():
     with pytest.raises(fb.MotionError, match="rub"):
         fb.Mechanism.loads(PLATE.replace("theta: 0}", "theta: 0, at_rest: true}")).solve()
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-5, 1e-7, 1e-8, 1e-9, 1e-11, 1e-13])
+@pytest.mark.parametrize(("x", "turn"), [(0.5, 6), (0.5, 20), (0.5, 2), (1.0, 6), (0.1, 12)])
+def test_a_leg_that_comes_to_rest_before_the_others_ends_the_run_by_its_name(x, turn, rtol):
+    """Coulomb friction draws a leg that is slow to no speed in finite time: the plate would go on about it."""
+    done = fb.Mechanism.loads(PLATE).simulate(rates={"x": x, "y": 0.0, "theta": turn}, rtol=rtol)
+    leg = done.outcome.sentence.partition("`rub holds plate.")[2].partition("`")[0]
+    assert done.outcome.name == "StoppedByEvent" and leg in ("leg[1]", "leg[2]", "leg[3]") and done.stats["accepted"] < 1000
+    speeds = [float(done.evaluate(f"hypot(vx(plate.leg[{i}]), vy(plate.leg[{i}]))", [done.outcome.t])[0]) for i in (1, 2, 3)]
+    assert min(speeds) == speeds[int(leg[4]) - 1] == pytest.approx(1e-3 * np.mean(speeds), rel=1e-2)

@@ -240,3 +240,13 @@ def test_what_was_released_acts_no_more():
     before, after = m.diagram("a", before="start").cuts[0], m.diagram("a").cuts[0]
     assert [mark.action.name for mark in before.forces] == ["bar"]
     assert after.forces == []
+
+
+@pytest.mark.parametrize("figures", range(6))
+def test_values_have_the_figures_that_hold(figures):
+    """Of 2 kg · 9.81 m/s² = 19.62 N, and none where no digit holds."""
+    text = "freebody: 1\nbodies: {b: {shape: particle, mass: 2 kg}}\ninitial: {b.x: 0, b.y: 0, at_rest: true}"
+    drawn = Mechanism.loads(text).diagram(to_scale=True, effective=False).with_remark("So far.", figures)
+    value = ("g", "= 2e+01 N", "= 20 N", "= 19.6 N", "= 19.62 N", "= 19.62 N")[figures]
+    [mark] = drawn.cuts[0].forces
+    assert mark.action.sign.plain.endswith(value) and ("=" in mark.action.sign.plain) is bool(figures)

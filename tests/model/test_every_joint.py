@@ -186,3 +186,26 @@ initial: {{θ: 0, x: 0, y: -0.7 m, rates: {{θ: 0, x: 12 m/s, y: 0}}}}
     later, _ = made.moment(at=0.1)
     assert np.hypot(*later.q[1:]) == pytest.approx(0.7, rel=1e-9)
     assert later.q[1] == pytest.approx(0.7 * np.sin(later.q[0]), rel=1e-9)
+
+
+@pytest.mark.parametrize("joint", ["weld", "hinge"])
+def test_a_joint_that_comes_later_in_axes_of_a_particle_is_refused(joint):
+    """They do not turn with the other body: it would be held at the angle at which it was met, or stopped."""
+    text = f"""
+freebody: 1
+bodies:
+  bar: {{shape: rod, length: 1 m, mass: 4 kg}}
+  clay: {{shape: particle, mass: 0.5 kg}}
+joints:
+  O: {{type: hinge, of: [ground.O, bar.start], coordinate: θ}}
+  flight: {{type: free, of: [ground.O, clay.centre], coordinates: [x, y]}}
+  grip: {{type: {joint}, of: [clay.centre, bar.end], engaged: false}}
+events: {{hit: {{at: 0.1 s, then: {{engage: grip}}}}}}
+initial: {{θ: 0, x: 0.7 m, y: 0.1 m, rates: {{θ: 2, x: 0, y: 0}}}}
+"""
+    refused = r"the particle `clay` has none that turn\n(.*\n)*.*`of: \[bar.end, clay.centre\]`"
+    with pytest.raises(fb.ModelFileError, match=refused):
+        fb.Mechanism.loads(text).simulate(until=0.2)
+    turned = fb.Mechanism.loads(text.replace("[clay.centre, bar.end]", "[bar.end, clay.centre]")).simulate(until=1.0)
+    apart = turned.evaluate("sin(atan2(y, x) - θ)", np.array([0.1, 0.5, 1.0]))
+    assert np.ptp(apart) < 1e-9

@@ -12,7 +12,7 @@ from freebody.cli.code import code
 from freebody.cli.equations import equations
 from freebody.cli.find import find
 from freebody.cli.inverse import inverse
-from freebody.cli.models import how_far, leading_to, moment, obtained, opened, simulated, time_of, written
+from freebody.cli.models import figures_of, how_far, leading_to, moment, obtained, opened, simulated, time_of, written
 from freebody.cli.options import After, AsJson, At, Before, Changes, Command, Model, Units, Until
 from freebody.cli.periodic import periodic
 from freebody.cli.stability import stability
@@ -169,7 +169,7 @@ def diagram(
     if as_json:
         print_json([cut | ({"digits": known.to_json()} if known else {}) for cut in drawn.data])
     if output or not as_json:
-        saved = drawn.with_remark(how_far(known)).save(output or Path("fbd.svg"))
+        saved = (drawn.with_remark(how_far(known), figures_of(known)) if known else drawn).save(output or Path("fbd.svg"))
         if not as_json:
             written(saved)
 

@@ -107,6 +107,11 @@ def how_far(known: Accuracy | None) -> str:
     return f"The motion until then {known.sentence}." if known else ""
 
 
+def figures_of(known: Accuracy) -> int:
+    """How many digits of all coordinates and rates hold at the time that the motion leads to."""
+    return int(known.held[-1])
+
+
 def written(*files: Path) -> None:
     """Says which files were made."""
     for path in files:

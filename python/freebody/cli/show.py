@@ -20,7 +20,7 @@ from freebody.solve.rich_tables import table
 
 if TYPE_CHECKING:
     from freebody.core import Change, CompiledModel
-    from freebody.run.certificate import Certificate
+    from freebody.run.certificate import Certificate, Route
     from freebody.run.digits import Accuracy
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant, Reaction
@@ -102,15 +102,22 @@ def certificate(found: Certificate, asked: int, as_json: bool) -> None:
     weakest = found.weakest
     if as_json:
         stated = {"weakest": weakest.name, "asked": asked, "ok": weakest.digits >= asked, "digits": found.run.accuracy.to_json()}
-        print_json({"name": found.run.name, **stated, "routes": [asdict(route) for route in found.routes]})
+        print_json({"name": found.run.name, **stated, "routes": list(map(_route, found.routes))})
         return
     rows = [(each.name, each.stated, each.what) for each in found.routes]
     put(
         _ending(found.run),
         f"The motion {found.run.accuracy.sentence}.\n",
         table("agreement", ["route", "digits", "what is compared"], rows, ["digits"]),
-        f"The weakest link is {weakest.name}, with {weakest.stated} digits.",
+        f"The weakest link: {weakest.name}, {weakest.stated} digits.",
     )
+
+
+def _route(route: Route) -> dict[str, Any]:
+    """A route as data; with what is lacking where it does not apply."""
+    stated = asdict(route)
+    lacking = stated.pop("lacking")
+    return stated | ({"lacking": lacking} if math.isnan(route.digits) else {})
 
 
 def _ending(done: Run) -> Text:

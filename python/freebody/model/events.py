@@ -18,6 +18,8 @@ from .writer import Writer
 _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 _DONE = {"release": "released", "engage": "engaged", "cut": "cut"}
 _SET = ("parameter", "state")
+_KEPT_APART = ("weld", "hinge")
+"""Joints that hold two points as far apart as they are where they are engaged, in axes of the first body."""
 _PARTS = ("joints", "forces", "motions", "contacts", "strings", "stops")
 
 
@@ -34,6 +36,16 @@ def welds(write: Writer) -> None:
             made = {"name": write.prefix + weld, "type": "weld", "with": {"of": of}, "coordinates": [], "engaged": False}
             write.spec["joints"].append(made)
             write.items[f"joints.{made['name']}"] = (write.scope, path)
+
+
+def held_by_a_particle(write: Writer, name: str, joint: Spec) -> None:
+    """Complains of a joint that is engaged later in the axes of a particle, which has none that turn, though the other body has."""
+    turns = {body["name"]: not body["particle"] for body in write.spec["bodies"]}
+    bodies = [point.rpartition(".")[0] for point in joint["with"].get("of", ())] if joint["type"] in _KEPT_APART else []
+    if not joint["engaged"] and [turns.get(body) for body in bodies] == [False, True]:
+        first, second = joint["with"]["of"]
+        what = f"where the two are joined is kept in the axes of the first, but the particle `{bodies[0]}` has none that turn"
+        write.scope.complain(("joints", name, "of"), what, f"name the particle second: `of: [{second}, {first}]`")
 
 
 def events(write: Writer) -> None:

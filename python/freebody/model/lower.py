@@ -216,6 +216,7 @@ def _elements(outlines: Outlines, write: Writer) -> None:
         written = _element(write, ("joints", name), joint, cards.joints()[joint.type]) | _friction(write, name, joint)
         written |= {"coordinates": _coordinates(write, name, joint)}
         spec["joints"].append(written)
+        events.held_by_a_particle(write, name, written)
         guides.ends_and_side(write, name, joint, written)
     for name, force in model.forces.items():
         written = _element(write, ("forces", name), force, cards.forces()[force.type])
@@ -223,7 +224,7 @@ def _elements(outlines: Outlines, write: Writer) -> None:
         if force.type == table_friction.OF_PLATE:
             table_friction.lies(write, outlines, name, force, written)
         if force.type in table_friction.WORDS:
-            table_friction.rest(write, name, written)
+            table_friction.rest(write, name, force, written)
     for name, motion in model.motions.items():
         path: Path = ("motions", name)
         of, dimension = write.expression((*path, "of"), motion.of), write.dimension(motion.of)

@@ -1,4 +1,5 @@
-"""Bodies that slide on a table: with which area they lie on it, and where they come to rest, as the event it comes to."""
+"""Bodies that slide on a table: with which area they lie on it, and where they, or points of them, come to rest, as the events it
+comes to."""
 
 from __future__ import annotations
 
@@ -15,11 +16,19 @@ if TYPE_CHECKING:
 
 OF_PLATE = "plate_friction"
 WORDS = ("table_friction", OF_PLATE)
+HELD = 1e-3
+"""Speed of a point, over the mean of all, below which it stays where it is: its friction is drawn to no speed in finite time."""
 
 
 def resting(name: str) -> str:
     """The event at which the body rests."""
     return f"{name} rests"
+
+
+def holding(name: str, force: elements.Element) -> dict[str, str]:
+    """The events at which one of several points of a body stays where it is while others slide, each with its point."""
+    points = elements.given(force, "points") or [] if force.type != OF_PLATE else []
+    return {f"{name} holds {point}": point for point in points if len(points) > 1}
 
 
 def lies(write: Writer, outlines: Outlines, name: str, force: elements.Element, written: Spec) -> None:
@@ -40,14 +49,18 @@ def lies(write: Writer, outlines: Outlines, name: str, force: elements.Element, 
         written["with"]["area"] = write.circle(path, area)
 
 
-def rest(write: Writer, name: str, written: Spec) -> None:
-    """The event that ends a run where what a force, which has been ``written``, rubs on has all but stopped: what friction at
-    rest holds is not decided."""
-    fields, full = written["with"], write.prefix + resting(name)
-    when = f"{_speed(fields)} - ({fields.get('rest_speed', 1e-10)})"
+def rest(write: Writer, name: str, force: elements.Element, written: Spec) -> None:
+    """The events that end a run where what a force, which has been ``written``, rubs on has all but stopped, or one of its points
+    has: what friction at rest holds is not decided."""
+    fields = written["with"]
+    whens = {resting(name): f"{_speed(fields)} - ({fields.get('rest_speed', 1e-10)})"}
+    for event, point in zip(holding(name, force), fields.get("points", ()), strict=False):
+        whens[event] = f"{_speed({'points': [point]})} - {HELD}*{_speed(fields)}"
     plain = {"direction": -1, "condition": None, "opening": False, "guard": True}
-    write.spec["events"].append({"name": full, "when": when} | plain | {"then": ["stop"]})
-    write.items[f"events.{full}"] = (write.scope, ("forces", name))
+    for event, when in whens.items():
+        full = write.prefix + event
+        write.spec["events"].append({"name": full, "when": when} | plain | {"then": ["stop"]})
+        write.items[f"events.{full}"] = (write.scope, ("forces", name))
 
 
 def _speed(fields: dict[str, Any]) -> str:

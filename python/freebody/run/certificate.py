@@ -30,20 +30,23 @@ FIRST = np.array([-1, 9, -45, 0, 45, -9, 1]) / 60
 SECOND = np.array([2, -27, 270, -490, 270, -27, 2]) / 180
 AREA = np.array([41, 216, 27, 272, 27, 216, 41]) / 140
 NOTHING = 1e-30  # SI: what is less is no motion and no load
+UNDETERMINED = "loads undetermined"
 
 
 @dataclass(frozen=True)
 class Route:
-    """A way to the same figures, how many digits agree (NaN: it does not apply), and what is compared."""
+    """A way to the same figures, how many digits agree (NaN: it does not apply), what is compared, and what is lacking where it
+    does not apply."""
 
     name: str
     digits: float
     what: str
+    lacking: str = "nothing to compare"
 
     @property
     def stated(self) -> str:
-        """The digits in words."""
-        return "–" if math.isnan(self.digits) else f"{self.digits + 0.0:.1f}"
+        """The digits, or why there are none, in words."""
+        return self.lacking if math.isnan(self.digits) else f"{self.digits + 0.0:.1f}"
 
 
 class Stretch:
@@ -125,7 +128,9 @@ class Certificate:
             balances.append(self._inverse(s, max(s.force_size, float(s.mass.max(initial=0.0)) * fast / step)))
         yield Route("three forms", agreement(forms), "accelerations and reactions: minimal, Newton–Euler, constraints")
         yield Route("finite differences", agreement(rates), "velocities and accelerations, and how the bodies move")
-        yield Route("inverse dynamics", agreement(balances), "m a and I α as the bodies move, and the loads on each")
+        yield Route(
+            "inverse dynamics", agreement(balances), "m a and I α as the bodies move, and the loads on each", UNDETERMINED
+        )
 
     def _inverse(self, s: Stretch, largest: float) -> float:
         """What is left, beside the largest force, of the balances of bodies for accelerations that are second differences."""
@@ -149,8 +154,10 @@ class Certificate:
                 acting = np.full((7, 3), math.nan)
             momenta.append(apart(whole[6] - whole[0], s.integral(acting), max(np.abs(whole).max(), s.force_size * 6 * s.h)))
             works += self._works(s)
-        yield Route("impulse and momentum", agreement(momenta), "momenta of the whole, and the impulses of what acts on it")
-        yield Route("work", agreement(works), "works of forces and motions, and the time integrals of their powers")
+        what = "momenta of the whole, and the impulses of what acts on it"
+        yield Route("impulse and momentum", agreement(momenta), what, UNDETERMINED)
+        what = "works of forces and motions, and the time integrals of their powers"
+        yield Route("work", agreement(works), what, "no forces, no motions")
         ledger = self.run.energy
         largest = max((np.abs(ledger[name]).max(initial=0.0) for name in ledger.names if name != "balance"), default=0.0)
         left = [apart(ledger.balance, np.zeros_like(ledger.balance), largest)]
@@ -181,7 +188,8 @@ class Certificate:
                 known = len(impulse)  # of contacts no couple is stated
                 balances.append(apart((on_body / self._reach)[:known], (np.array(impulse) / self._reach[:known]), largest))
         if losses:
-            yield Route("impulses of impacts", agreement(balances), "jumps of the momentum of each body, and the impulses on it")
+            what = "jumps of the momentum of each body, and the impulses on it"
+            yield Route("impulses of impacts", agreement(balances), what, "impulses undetermined")
             yield Route("energy of impacts", agreement(losses), "kinetic energy lost, the work of motions, and what is booked")
 
     def _works(self, s: Stretch) -> Iterator[float]:

@@ -13,6 +13,7 @@ from freebody.views import shapes
 from freebody.views.glyphs import free_part, points_of_curve
 from freebody.views.sketch import Sketch, named_points
 
+FIGURES = 4  # of a value, where they hold
 _ROUND_OFF = 1e-7  # sizes of symbols, below which a length is what assembly leaves of 0
 _NO_TURN = 1e-9  # degrees, or of a curve's parameter: the same
 _SEEN = 0.2  # rad, the least angle whose arc can be seen
@@ -65,12 +66,13 @@ class _Asked:
 @dataclass(frozen=True)
 class Paper:
     """What coordinates are drawn on: ``radius`` of arcs in sizes of symbols; ``cut``: the bodies that are seen, None: all; ``far``
-    in m: of a longer arrow only the end is drawn; ``taken``: lines (k, 2) that are there already."""
+    in m: of a longer arrow only the end is drawn; ``taken``: lines (k, 2) that are there already; so many ``figures`` of values hold."""
 
     radius: float = 3.4
     cut: Collection[str] | None = None
     far: float = np.inf
     taken: Sequence[Array] = ()
+    figures: int = FIGURES
 
 
 _PAPER = Paper()
@@ -98,7 +100,8 @@ def _apart(sketch: Sketch, wanted: Iterable[_Asked], paper: Paper) -> Iterator[D
         arrow, guides, shown = offered[int(np.argmin(met))]
         taken.append(arrow)
         value, unit = (float(np.degrees(asked.value)), "°") if angle else (asked.value, f" {asked.dimension}".rstrip())
-        stated = digits(value, _ROUND_OFF * sketch.size if asked.dimension == "m" else _NO_TURN) + unit
+        least = _ROUND_OFF * sketch.size if asked.dimension == "m" else _NO_TURN
+        stated = digits(value, least, paper.figures) + unit if paper.figures else "?"
         of_axis = angle and asked.word not in (_TWO_POINTS, _OWN_ANGLE)
         arrow = arrow if shown > 0 else arrow[::-1]
         yield DimensionLine(asked.name, asked.first, asked.second, arrow, guides, place, angle, of_axis, stated, shown < 0)
@@ -273,6 +276,6 @@ def _way(sketch: Sketch, asked: _Asked) -> Array:
     return shapes.turn(along[None], float(sketch.poses[0, sketch.names.index(body), 2]))[0]
 
 
-def digits(value: float, least: float = 0.0) -> str:
-    """Four digits for people; 0 of what is smaller than ``least``."""
-    return f"{0.0 if abs(value) < least else value:.4g}".replace("-", "−")
+def digits(value: float, least: float = 0.0, most: int = FIGURES) -> str:
+    """Four digits for people, or as many as hold; 0 of what is smaller than ``least``."""
+    return f"{0.0 if abs(value) < least else value:.{most}g}".replace("-", "−")

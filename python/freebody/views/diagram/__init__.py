@@ -21,6 +21,7 @@ from freebody.views.diagram.panel import Panel
 from freebody.views.diagram.picture import Picture
 from freebody.views.diagram.rows import COLUMN, MARGIN, Row, fits
 from freebody.views.diagram.scenery import CROWD, Scenery, scenery
+from freebody.views.dimension_lines import FIGURES
 from freebody.views.sketch import sketch_of_state
 
 _NARROWEST = 60.0  # mm
@@ -52,17 +53,18 @@ class Diagram(Picture):
 
     name: str
     free: FreeBodies
-    draw: Callable[[], Iterable[Cut]]
+    draw: Callable[[int], Iterable[Cut]]
     remark: str = ""
+    figures: int = FIGURES
 
-    def with_remark(self, words: str) -> Diagram:
-        """The same with a sentence below all of them."""
-        return replace(self, remark=words)
+    def with_remark(self, words: str, figures: int = FIGURES) -> Diagram:
+        """The same with a sentence below all of them, and values of so many figures at most; of none, without values."""
+        return replace(self, remark=words, figures=min(figures, FIGURES))
 
     @cached_property
     def cuts(self) -> tuple[Cut, ...]:
         """The diagrams."""
-        return tuple(self.draw())
+        return tuple(self.draw(self.figures))
 
     @property
     def data(self) -> list[dict[str, Any]]:
@@ -104,9 +106,14 @@ def diagram(
     near = _further(source, state, free)
     laws = None if scaled else Laws(source, state, free)
     chosen = chosen_groups(groups, free)
-    labels = Labels(SymbolicState(source, state, given=free), free)
-    builder = DiagramBuilder(source, state, free, near, labels, chosen, scaled, effective, column, laws)
-    return Diagram(f"free-body diagrams of {source.name}", free, lambda: map(builder.cut, chosen))
+    subject = SymbolicState(source, state, given=free)
+
+    def draw(figures: int) -> Iterable[Cut]:
+        labels = Labels(subject, free, figures)
+        builder = DiagramBuilder(source, state, free, near, labels, chosen, scaled, effective, column, laws)
+        return map(builder.cut, chosen)
+
+    return Diagram(f"free-body diagrams of {source.name}", free, draw)
 
 
 def chosen_groups(groups: Sequence[Sequence[str]] | None, free: FreeBodies) -> tuple[tuple[str, ...], ...]:
@@ -154,12 +161,13 @@ class DiagramBuilder:
             short = [action.sign.plain for action in pushes if action.size * per_newton < SHORTEST]
             notes = notes + [f"drawn longer than to scale: {', '.join(short)}"] * bool(short)
         bare = drawn.bare()
-        angles = [each for each in drawn.measured(group, self.scaled, []).dimensions if each.angle and not crowd]
+        figures = self.labels.figures
+        angles = [each for each in drawn.measured(group, self.scaled, [], figures).dimensions if each.angle and not crowd]
         details = [] if self.scaled else crowded(forces, drawn)
         large = [action for detail in details for action in detail.forces]
         drawn = marked(drawn, details)
         marks = arranged([a for a in forces if not any(a is b for b in large)], replace(drawn, dimensions=angles), per_newton)
-        measured = drawn.measured(group, self.scaled, [] if crowd else [mark.line for mark in marks])
+        measured = drawn.measured(group, self.scaled, [] if crowd else [mark.line for mark in marks], figures)
         panels = [Panel(drawn if crowd else measured, marks, group if len(group) > 1 else ())]
         if terms:
             panels.append(Panel(bare, arranged(terms, bare, per_newton), ()))

@@ -188,7 +188,13 @@ def _acting(loads: Collection[Load], group: Collection[str], labels: Labels, ske
 
 
 def _with_value(action: Action, labels: Labels) -> Action:
-    unit, sign, value = labels.turning_unit if action.turns else labels.unit, action.sign, digits(action.size)
+    if not labels.figures:
+        return action
+    unit, sign, value = (
+        labels.turning_unit if action.turns else labels.unit,
+        action.sign,
+        digits(action.size, most=labels.figures),
+    )
     mantissa, _, power = value.partition("e")
     figure = rf"{mantissa}\times 10^{{{int(power.replace('−', '-'))}}}" if power else value
     shown = rf"{sign.latex} = {figure}\ \mathrm{{{unit}}}".replace("·", r"\,")

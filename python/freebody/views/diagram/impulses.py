@@ -60,8 +60,8 @@ def impulse_diagram(
     touched = FreeBodies(moved, free.loads)
     chosen = chosen_groups(groups, free)
 
-    def draw() -> Iterator[Cut]:
-        labels = _Jumps(ImpulsiveState.of(impact), free)
+    def draw(figures: int) -> Iterator[Cut]:
+        labels = _Jumps(ImpulsiveState.of(impact), free, figures)
         builder = DiagramBuilder(source, impact.state, touched, touched, labels, chosen, scaled, effective, column)
         for group in chosen:
             cut = builder.cut(group)

@@ -14,6 +14,7 @@ from freebody.symbolic.printers.text import text
 from freebody.symbolic.printers.typeset import latex
 from freebody.symbolic.symbols import Name
 from freebody.symbolic.tree import Add, Sym, Tree, is_zero, symbols
+from freebody.views.dimension_lines import FIGURES
 
 _LONGEST = 8  # columns of an expression that is written out for a mass
 
@@ -36,10 +37,12 @@ class Sign:
 
 @dataclass(frozen=True)
 class Labels:
-    """What the arrows of a model are called, by the symbols of its equations; ``free`` are the loads that are drawn."""
+    """What the arrows of a model are called, by the symbols of its equations; ``free`` are the loads that are drawn, and of their
+    values so many ``figures`` hold."""
 
     subject: SymbolicState
     free: FreeBodies
+    figures: int = FIGURES
     unit: ClassVar[str] = "N"
     turning_unit: ClassVar[str] = "N·m"
 

@@ -91,11 +91,12 @@ class Scenery:
         """Whether any of some places (k, 2) is on a body."""
         return any(shapes.inside(outline, places).any() for outline in self.solids)
 
-    def measured(self, group: Sequence[str], scaled: bool, taken: Sequence[Array]) -> Scenery:
-        """With the coordinates that say where the group's bodies are, off lines that are ``taken``."""
+    def measured(self, group: Sequence[str], scaled: bool, taken: Sequence[Array], figures: int) -> Scenery:
+        """With the coordinates that say where the group's bodies are, off lines that are ``taken``; of their values so many ``figures``
+        hold."""
         far = max(extent(self.strokes), _FAR) / self.scale
         blocks = [stroke.line for stroke in self.strokes if stroke.style == "block"]
-        paper = Paper(_RADIUS, group, far, [line / self.scale for line in (*taken, *blocks)])
+        paper = Paper(_RADIUS, group, far, [line / self.scale for line in (*taken, *blocks)], figures)
         return replace(self, dimensions=_dimensions(self.sketch, self.strokes, self.scale, scaled, paper, dimension_lines))
 
     @cached_property

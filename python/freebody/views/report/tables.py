@@ -200,7 +200,7 @@ def _certificate(run: Run) -> Table:
     routes = Certificate(run).own_routes
     rows, least = [(route.name, route.stated, route.what) for route in routes], weakest(routes)
     more = "`freebody certify` also integrates anew, by another method and at half the tolerance."
-    return Table(title, heads, rows, f"The weakest link is {least.name}, with {least.stated} digits; {more}", "across")
+    return Table(title, heads, rows, f"The weakest link: {least.name}, {least.stated} digits. {more}", "across")
 
 
 def settings(run: Run) -> Table:
