@@ -78,6 +78,7 @@ def members(count, *names, seed=1):
 )
 def test_each_member_is_what_simulate_makes_of_it_to_the_last_bit(text, q0, u0, p):
     m = fb.Mechanism.loads(text)
+    assert m.compile().runs_in_lanes == (text is not FOUR_BAR)
     count = 5 if text is FOUR_BAR else 19
     q0, u0, p = members(count, *q0), members(count, *u0, seed=2), members(count, *p, seed=3)
     p["L"] = 0.3 + 0.05 * p["L"]

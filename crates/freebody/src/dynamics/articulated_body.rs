@@ -153,7 +153,7 @@ impl<S: Scalar> ArticulatedBody<S> {
         self.inverse_inertia.resize(n, S::zero());
         self.general.resize(n, ([[S::zero(); 3]; 3], [[S::zero(); 3]; 3]));
         self.full.resize(n, ArticulatedInertia::none());
-        for i in 0..n {
+        for i in 1..n {
             let (arm, w) = (arms[i], at.k.twist[i].w);
             let Inertia { mass, moment, turn } = Inertia::of(at, i, arm);
             let swing = arm * (-mass * w * w);

@@ -74,7 +74,7 @@ impl Chain {
         feature: usize,
     ) -> LocalSurface<T> {
         let first = feature == 2 * self.sides();
-        if feature % 2 == 0 && !first {
+        if feature.is_multiple_of(2) && !first {
             let Seen { to, along, length } = self.seen(m, poses, disk, feature / 2);
             let depth = length * SUNK * behind(m, poses, disk, along);
             return LocalSurface::Flat { to: to - along.perp() * T::of(depth), along };
@@ -177,7 +177,7 @@ impl Chain {
         let after = if self.closed { (feature + 1) % all } else { feature + 1 };
         if feature == all {
             vec![Border { value: -side(0).place(), beyond: 0 }]
-        } else if feature % 2 == 0 {
+        } else if feature.is_multiple_of(2) {
             let side = side(feature);
             vec![Border { value: side.place(), beyond: before }, Border { value: -side.past(), beyond: after }]
         } else {
@@ -227,7 +227,7 @@ impl Chain {
 
     /// Whether a side is not what keeps a corner off, for the corner's polygon reaches behind it.
     pub(super) fn is_submerged(&self, m: &Mechanism, poses: &impl Poses<f64>, disk: &Disk, feature: usize) -> bool {
-        feature % 2 == 0 && behind(m, poses, disk, self.seen(m, poses, disk, feature / 2).along) > 0.0
+        feature.is_multiple_of(2) && behind(m, poses, disk, self.seen(m, poses, disk, feature / 2).along) > 0.0
     }
 
     /// The height of this chain over the one of the corner's own sides that is farther from it, those left out on which

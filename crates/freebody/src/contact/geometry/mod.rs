@@ -78,7 +78,7 @@ impl ContactPair {
     pub fn can_close(&self, feature: usize) -> bool {
         match &self.against {
             _ if self.disk.radius.is_some() => true,
-            Profile::Chain(_) => feature % 2 == 0,
+            Profile::Chain(_) => feature.is_multiple_of(2),
             Profile::Arc(_) => feature == 0,
             Profile::Track(track) => feature < track.stretches.len(),
             Profile::Line(_) | Profile::Circle { .. } => true,
