@@ -54,6 +54,7 @@ impl Compiled {
         c.idle()?;
         c.events()?;
         c.find_discontinuities();
+        c.m.drive_gauges = c.m.drives.iter().map(|drive| drive.gauges(|gauge| c.m.bodies_of(gauge))).collect();
         Ok(Compiled { mechanism: c.m, names: c.names })
     }
 

@@ -184,7 +184,7 @@ impl Workspace<'_> {
     pub(super) fn along(&self, row: Option<&Row>) -> Vec<f64> {
         let mut force = vec![0.0; self.m.freedom()];
         if let Some(row) = row {
-            generalized_force(self.at(), &row.motion, &mut force);
+            generalized_force(self.at(), row.motion.iter().copied(), &mut force);
         }
         force
     }

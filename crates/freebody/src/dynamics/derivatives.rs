@@ -267,7 +267,7 @@ impl Workspace<'_> {
         let (mut nu_dot, mut lambda) = (fixed(&self.solved.nu_dot), fixed(&self.solved.lambda));
         let left = Balances::of(at, &nu_dot, &lambda, friction);
         let mut force = vec![Lanes::zero(); nu_dot.len()];
-        generalized_force(at, &left.left.into_iter().enumerate().skip(1).collect::<Vec<_>>(), &mut force);
+        generalized_force(at, left.left.into_iter().enumerate().skip(1), &mut force);
         for lane in 0..lanes {
             let force: Vec<f64> = force.iter().map(|x| x.du[lane]).collect();
             let asked: Vec<f64> = left.rows.iter().map(|row| -row.bias.du[lane]).collect();

@@ -5,18 +5,21 @@ use crate::plane::{Twist, Wrench};
 use crate::scalar::Scalar;
 
 /// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.
-pub(super) fn generalized_force<S: Scalar>(at: StateView<'_, S>, wrenches: &[(usize, Wrench<S>)], out: &mut [S]) {
+pub(super) fn generalized_force<S: Scalar>(
+    at: StateView<'_, S>,
+    wrenches: impl IntoIterator<Item = (usize, Wrench<S>)>,
+    out: &mut [S],
+) {
     visit_ancestors(at, wrenches, |i, load, column| out[i] += load.power(column));
 }
 
 /// Every coordinate on which loads may do work, with the load at the joint origin of its body and its column.
 pub(super) fn visit_ancestors<S: Scalar>(
     at: StateView<'_, S>,
-    wrenches: &[(usize, Wrench<S>)],
+    wrenches: impl IntoIterator<Item = (usize, Wrench<S>)>,
     mut visit: impl FnMut(usize, Wrench<S>, Twist<S>),
 ) {
-    for &(body, load) in wrenches {
-        let (mut body, mut load) = (body, load);
+    for (mut body, mut load) in wrenches {
         while let Some(b) = at.m.bodies[body].tree_joint {
             for k in 0..b.freedom {
                 visit(b.start + k, load, at.k.motion_subspace[body][k]);

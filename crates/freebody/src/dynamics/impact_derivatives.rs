@@ -30,7 +30,7 @@ impl<S: Scalar> ImpulseBalances<S> {
         let mut left: Vec<Wrench<S>> = (0..bodies.len()).map(unbalanced).collect();
         add_multipliers(&rows, lambda, &mut left);
         let mut force = vec![S::zero(); jump.len()];
-        generalized_force(at, &left.into_iter().enumerate().skip(1).collect::<Vec<_>>(), &mut force);
+        generalized_force(at, left.into_iter().enumerate().skip(1), &mut force);
         let gained = |row: &Row<S>| row.motion.iter().fold(S::zero(), |sum, &(body, w)| sum + w.power(bodies[body]));
         let rate = |row: &Row<S>| row.rate.unwrap_or(S::zero()) * (S::of(1.0) + restitution(at, row));
         let rates = rows.iter().map(|row| -(rate(row) + gained(row))).collect();

@@ -1,15 +1,15 @@
 //! As few equations as degrees of freedom: loops and drives eliminated by the null space of their rows.
 
-use super::momentum::Inertia;
-use super::rows::closing_rows;
+use super::momentum::{residual_into, Inertia};
+use super::rows::closing_rows_into;
 use super::{
-    generalized_force, residual, size_of_power, visit_ancestors, DynamicsError, Row, Source, Workspace, CANCELLED,
+    generalized_force, size_of_power, visit_ancestors, BodyWrenches, DynamicsError, Row, Source, Workspace, CANCELLED,
 };
 use crate::kinematics::StateView;
 use crate::mode::ContactMode;
-use crate::plane::{Twist, Wrench};
+use crate::plane::{Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
-use crate::solve::{Islands, Matrix, Orthogonal, SaddleError};
+use crate::solve::{IslandMemory, Islands, Matrix, Orthogonal, SaddleError, Solution};
 
 /// Memory of the dense solution.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +18,25 @@ pub struct Dense {
     pub(super) g: Matrix,
     b: Matrix,
     pub(super) saddle: Islands,
+    /// Units of the coordinates, and what makes the rows of order one.
+    columns: Vec<f64>,
+    scales: Vec<f64>,
+    /// The size of what is summed in a row, before it cancels.
+    sizes: Matrix,
+    /// Inertia of each body with all that hangs on it.
+    whole: Vec<Inertia>,
+}
+
+/// Memory of the right-hand sides and of what is found.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    force: Vec<f64>,
+    asked: Vec<f64>,
+    /// What the solution leaves of both.
+    left: Vec<f64>,
+    gap: Vec<f64>,
+    found: Solution,
+    islands: IslandMemory,
 }
 
 /// Along what the multipliers act.
@@ -38,14 +57,27 @@ pub(super) const CONTRADICTION: f64 = 1e-7;
 
 impl Workspace<'_> {
     pub(super) fn solve_minimal(&mut self) -> Result<(), DynamicsError> {
-        let force = self.set_up()?;
-        let asked: Vec<f64> = self.rows.iter().map(|row| -row.bias).collect();
-        let solution = self.dense.saddle.solve(&force, &asked);
-        self.check_consistent(solution.inconsistency, &asked, &solution.a)?;
-        self.solved.nu_dot.copy_from_slice(&solution.a);
-        self.solved.lambda = solution.lambda;
+        let mut memory = std::mem::take(&mut self.memory);
+        let done = self.solve_minimal_with(&mut memory);
+        self.memory = memory;
+        done
+    }
+
+    fn solve_minimal_with(&mut self, memory: &mut Memory) -> Result<(), DynamicsError> {
+        let Memory { force, asked, left, gap, found, islands } = memory;
+        self.set_up(force)?;
+        asked.clear();
+        asked.extend(self.rows.iter().map(|row| -row.bias));
+        self.dense.saddle.solve_into(force, asked, found, islands);
+        self.check_consistent(found.inconsistency, asked, &found.a)?;
+        self.solved.nu_dot.copy_from_slice(&found.a);
+        self.solved.lambda.clone_from(&found.lambda);
         self.recover_body_motion();
-        self.refine(&asked);
+        self.unbalanced_by(asked, left, gap);
+        self.dense.saddle.solve_into(left, gap, found, islands);
+        self.solved.nu_dot.iter_mut().zip(&found.a).for_each(|(x, d)| *x += d);
+        self.solved.lambda.iter_mut().zip(&found.lambda).for_each(|(x, d)| *x += d);
+        self.recover_body_motion();
         Ok(())
     }
 
@@ -55,49 +87,50 @@ impl Workspace<'_> {
         self.propagate_joint_wrenches();
     }
 
-    /// One step of iterative refinement: what the balance of the bodies leaves along the freedom of each joint, which
-    /// can pass nothing there, is asked of the factored equations again. Small masses behind large ones keep their
-    /// digits.
-    fn refine(&mut self, asked: &[f64]) {
-        let mut left = vec![0.0; self.m.freedom()];
+    /// For one step of iterative refinement, what the balance of the bodies leaves along the freedom of each joint, which
+    /// can pass nothing there, and what is open of the rows: asked of the factored equations again, small masses behind large
+    /// ones keep their digits.
+    fn unbalanced_by(&self, asked: &[f64], left: &mut Vec<f64>, gap: &mut Vec<f64>) {
+        left.clear();
+        left.resize(self.m.freedom(), 0.0);
         for (i, body) in self.m.bodies.iter().enumerate() {
             let Some(b) = body.tree_joint else { continue };
             for k in 0..b.freedom {
                 left[b.start + k] = -self.solved.joint_wrenches[i].power(self.k.motion_subspace[i][k]);
             }
         }
-        let rates = self.dense.g.mul_vec(&self.solved.nu_dot);
-        let gap: Vec<f64> = asked.iter().zip(rates).map(|(r, g)| r - g).collect();
-        let more = self.dense.saddle.solve(&left, &gap);
-        self.solved.nu_dot.iter_mut().zip(&more.a).for_each(|(x, d)| *x += d);
-        self.solved.lambda.iter_mut().zip(&more.lambda).for_each(|(x, d)| *x += d);
-        self.recover_body_motion();
+        self.dense.g.mul_vec_into(&self.solved.nu_dot, gap);
+        gap.iter_mut().zip(asked).for_each(|(gap, asked)| *gap = asked - *gap);
     }
 
-    /// Sets up and factors the equations of the present state; returns the generalized forces.
-    fn set_up(&mut self) -> Result<Vec<f64>, DynamicsError> {
-        let zero = vec![0.0; self.m.freedom()];
-        self.k.propagate_motion(self.m, &zero, true, &mut self.solved.bodies);
-        self.rows = closing_rows(self.at(), Some(&self.solved.bodies));
-        let mut force = vec![0.0; self.m.freedom()];
-        let unbalanced = residual(self.at(), &self.loads, &self.solved.bodies, &[], &[]);
-        let unbalanced: Vec<(usize, Wrench)> = unbalanced.into_iter().enumerate().skip(1).collect();
-        generalized_force(self.at(), &unbalanced, &mut force);
-        self.factor(Force::ActuatorDirection)?;
-        Ok(force)
+    /// Sets up and factors the equations of the present state; finds the generalized forces.
+    fn set_up(&mut self, force: &mut Vec<f64>) -> Result<(), DynamicsError> {
+        force.clear();
+        force.resize(self.m.freedom(), 0.0);
+        self.k.propagate_motion(self.m, force, true, &mut self.solved.bodies);
+        let mut rows = std::mem::take(&mut self.rows);
+        closing_rows_into(self.at(), Some(&self.solved.bodies), &mut rows);
+        self.rows = rows;
+        let at = self.placed.view(self.m, &self.n, &self.k);
+        let unbalanced = &mut self.solved.joint_wrenches;
+        residual_into(at, &self.loads, &self.solved.bodies, &[], &[], unbalanced);
+        generalized_force(at, unbalanced.iter().copied().enumerate().skip(1), force);
+        self.factor(Force::ActuatorDirection)
     }
 
     /// Factors mass matrix and rows of the present state.
     pub(super) fn factor(&mut self, force: Force) -> Result<(), DynamicsError> {
         let at = self.placed.view(self.m, &self.n, &self.k);
-        mass_matrix(at, &self.arms, &mut self.dense.mass);
-        rows_in_coordinates(at, &self.rows, self.length, &mut self.dense.g, &mut self.dense.b);
-        let columns = column_scales(at, self.length);
-        let scales = row_scales(&self.dense.g, &columns);
-        let own = force == Force::ActuatorDirection && self.rows.iter().any(|row| row.force.is_some());
         let d = &mut self.dense;
+        mass_matrix(at, &self.arms, &mut d.whole, &mut d.mass);
+        rows_in_coordinates(at, &self.rows, self.length, [&mut d.g, &mut d.b, &mut d.sizes]);
+        d.columns.clear();
+        d.columns.extend(column_scales(at, self.length));
+        d.scales.clear();
+        d.scales.extend(row_scales(&d.g, &d.columns));
+        let own = force == Force::ActuatorDirection && self.rows.iter().any(|row| row.force.is_some());
         let b = own.then_some(&d.b);
-        d.saddle.refactor(&d.mass, &d.g, b, &scales, &columns).map_err(|error| self.explain(error))
+        d.saddle.refactor(&d.mass, &d.g, b, &d.scales, &d.columns).map_err(|error| self.explain(error))
     }
 
     /// Says in the model's words why there is no unique motion.
@@ -158,10 +191,9 @@ impl Workspace<'_> {
     }
 
     fn check_consistent(&self, inconsistency: f64, asked: &[f64], found: &[f64]) -> Result<(), DynamicsError> {
-        let columns = self.units();
-        let scales = row_scales(&self.dense.g, &columns);
+        let (columns, scales) = (&self.dense.columns, &self.dense.scales);
         // What is asked is a difference of squares of rates, and is met by what loads and constraints accelerate.
-        let rate = self.placed.u.iter().zip(&columns).map(|(u, c)| (u / c).abs()).fold(0.0, f64::max);
+        let rate = self.placed.u.iter().zip(columns).map(|(u, c)| (u / c).abs()).fold(0.0, f64::max);
         let over = |load: f64, inertia: f64| if inertia > 0.0 { load / inertia } else { 0.0 };
         let fall = |(body, load): (usize, &Wrench)| {
             let inertia = Inertia::of(self.at(), body, self.arms[body]);
@@ -181,76 +213,94 @@ impl Workspace<'_> {
 
     /// The load that each body's joint passes, from the balance of all that hangs on it.
     pub(super) fn propagate_joint_wrenches(&mut self) {
-        let s = &self.solved;
-        self.solved.joint_wrenches =
-            joint_wrenches(self.at(), &residual(self.at(), &self.loads, &s.bodies, &self.rows, &s.lambda));
+        let (at, s) = (self.placed.view(self.m, &self.n, &self.k), &mut self.solved);
+        residual_into(at, &self.loads, &s.bodies, &self.rows, &s.lambda, &mut s.joint_wrenches);
+        pass_to_ground(at, &mut s.joint_wrenches);
     }
 }
 
 /// The load that each body's joint in the tree passes, for what all else leaves of the balance of each body.
 pub(super) fn joint_wrenches<S: Scalar>(at: StateView<'_, S>, unbalanced: &[Wrench<S>]) -> Vec<Wrench<S>> {
-    let mut needed: Vec<Wrench<S>> = unbalanced.iter().map(|&load| -load).collect();
-    let mut joint_wrenches = vec![Wrench::zero(); needed.len()];
-    for i in (1..needed.len()).rev() {
+    let mut loads = unbalanced.to_vec();
+    pass_to_ground(at, &mut loads);
+    loads
+}
+
+/// The same in place of what is unbalanced.
+fn pass_to_ground<S: Scalar>(at: StateView<'_, S>, loads: &mut [Wrench<S>]) {
+    loads.iter_mut().for_each(|load| *load = -*load);
+    for i in (1..loads.len()).rev() {
         let b = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
-        let couple = if at.m.bodies[i].particle { S::zero() } else { needed[i].m };
-        joint_wrenches[i] = Wrench { f: needed[i].f, m: couple };
-        needed[b.parent] += joint_wrenches[i].seen_from(at.k.arm[i]);
+        if at.m.bodies[i].particle {
+            loads[i].m = S::zero();
+        }
+        let passed = loads[i].seen_from(at.k.arm[i]);
+        loads[b.parent] += passed;
     }
-    joint_wrenches
+    loads[0] = Wrench::zero();
 }
 
 /// Unit of each coordinate: a radian for angles, the characteristic length for lengths, and for the parameter of a curve
 /// what shifts or turns a body by as much.
-pub(super) fn column_scales(at: StateView<'_>, length: f64) -> Vec<f64> {
-    let of_curve = |joint: usize, k: usize| {
+pub(super) fn column_scales(at: StateView<'_>, length: f64) -> impl Iterator<Item = f64> + '_ {
+    let of_curve = move |joint: usize, k: usize| {
         let column = at.k.motion_subspace[at.m.joints[joint].child?][k];
         let size = column.v.norm().max(length * column.w.abs());
         (size > 0.0).then(|| length / size)
     };
-    let unit = |&(joint, k): &(usize, usize)| match at.m.joints[joint].coordinates[k].dimension {
+    let unit = move |&(joint, k): &(usize, usize)| match at.m.joints[joint].coordinates[k].dimension {
         "m" => length,
         "rad" => 1.0,
         _ => of_curve(joint, k).unwrap_or(1.0),
     };
-    at.m.coordinates.iter().map(unit).collect()
+    at.m.coordinates.iter().map(unit)
 }
 
 /// Makes every row of order one in scaled coordinates.
-pub(super) fn row_scales(g: &Matrix, columns: &[f64]) -> Vec<f64> {
-    (0..g.rows())
-        .map(|i| {
-            let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c) * (x * c)).sum::<f64>().sqrt();
-            if norm > 0.0 {
-                1.0 / norm
-            } else {
-                1.0
-            }
-        })
-        .collect()
+pub(super) fn row_scales<'a>(g: &'a Matrix, columns: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    (0..g.rows()).map(move |i| {
+        let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c) * (x * c)).sum::<f64>().sqrt();
+        if norm > 0.0 {
+            1.0 / norm
+        } else {
+            1.0
+        }
+    })
 }
 
-/// Rows by joint coordinates, n columns, and the loads of their multipliers.
-pub(super) fn rows_in_coordinates(at: StateView<'_>, rows: &[Row], length: f64, g: &mut Matrix, b: &mut Matrix) {
+/// Rows by joint coordinates, n columns, and the loads of their multipliers; with memory for their sizes.
+pub(super) fn rows_in_coordinates(at: StateView<'_>, rows: &[Row], length: f64, [g, b, sizes]: [&mut Matrix; 3]) {
     let n = at.m.freedom();
     g.reset(rows.len(), n);
     b.reset(rows.len(), n);
     for (i, row) in rows.iter().enumerate() {
-        generalized_force_clean(at, &row.motion, length, g.row_mut(i));
-        generalized_force_clean(at, row.loads(), length, b.row_mut(i));
+        let mut clean = |loads: &BodyWrenches<f64>, out: &mut [f64]| {
+            sizes.reset(1, n);
+            generalized_force_clean(at, loads, length, out, sizes.row_mut(0));
+        };
+        clean(&row.motion, g.row_mut(i));
+        match &row.force {
+            Some(force) => clean(force, b.row_mut(i)),
+            None => b.row_mut(i).copy_from_slice(g.row(i)),
+        }
     }
 }
 
-/// As [`project`], but 0 where loads cancel, or pass through a joint origin, but for round-off: such a row asks for
-/// nothing of that coordinate, and must not be scaled up to a constraint.
-fn generalized_force_clean(at: StateView<'_>, wrenches: &[(usize, Wrench)], length: f64, out: &mut [f64]) {
-    let mut size = vec![0.0; out.len()];
-    visit_ancestors(at, wrenches, |i, load, column| {
+/// As [`generalized_force`], but 0 where loads cancel, or pass through a joint origin, but for round-off: such a row asks for
+/// nothing of that coordinate, and must not be scaled up to a constraint. `size`, 0 before, is what does not cancel.
+fn generalized_force_clean(
+    at: StateView<'_>,
+    wrenches: &BodyWrenches<f64>,
+    length: f64,
+    out: &mut [f64],
+    size: &mut [f64],
+) {
+    visit_ancestors(at, wrenches.iter().copied(), |i, load, column| {
         out[i] += load.power(column);
         size[i] += size_of_power(load, column, length);
     });
-    for (sum, size) in out.iter_mut().zip(&size) {
-        if sum.abs() <= CANCELLED * size {
+    for (sum, size) in out.iter_mut().zip(size) {
+        if sum.abs() <= CANCELLED * *size {
             *sum = 0.0;
         }
     }
@@ -258,10 +308,11 @@ fn generalized_force_clean(at: StateView<'_>, wrenches: &[(usize, Wrench)], leng
 
 /// The mass matrix of the tree by joint coordinates, n × n, from the inertia of each body with all that hangs on it
 /// (composite rigid bodies; Featherstone ch. 6).
-pub(super) fn mass_matrix(at: StateView<'_>, arms: &[crate::plane::Vec2], out: &mut Matrix) {
+pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], whole: &mut Vec<Inertia>, out: &mut Matrix) {
     let bodies = at.m.bodies.len();
     out.reset(at.m.freedom(), at.m.freedom());
-    let mut whole = vec![Inertia::default(); bodies];
+    whole.clear();
+    whole.resize(bodies, Inertia::default());
     for i in (1..bodies).rev() {
         let (body, own) = (Inertia::of(at, i, arms[i]), &mut whole[i]);
         own.mass += body.mass;

@@ -158,6 +158,7 @@ pub struct Workspace<'m> {
     solved: Solution,
     articulated_body: articulated_body::ArticulatedBody,
     dense: minimal::Dense,
+    memory: minimal::Memory,
     sparse: Option<maximal::Sparse>,
     many_loops: bool,
     preferred: Option<Route>,
@@ -199,6 +200,7 @@ impl<'m> Workspace<'m> {
             },
             articulated_body: articulated_body::ArticulatedBody::new(),
             dense: Default::default(),
+            memory: Default::default(),
             sparse: None,
             many_loops: false,
             preferred: None,
@@ -262,7 +264,14 @@ impl<'m> Workspace<'m> {
 
     /// The rates of the states with a rate of their own.
     pub fn state_rates(&self) -> Vec<f64> {
-        self.m.state_rates.iter().map(|rate| rate.eval(&State(self.at()))).collect()
+        let mut rates = vec![0.0; self.m.state_rates.len()];
+        self.write_state_rates(&mut rates);
+        rates
+    }
+
+    /// Writes them.
+    pub fn write_state_rates(&self, out: &mut [f64]) {
+        out.iter_mut().zip(&self.m.state_rates).for_each(|(out, rate)| *out = rate.eval(&State(self.at())));
     }
 
     /// The mode of the present state.

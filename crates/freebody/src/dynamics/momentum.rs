@@ -35,10 +35,24 @@ pub fn residual<S: Scalar>(
     rows: &[Row<S>],
     multipliers: &[S],
 ) -> Vec<Wrench<S>> {
-    let unbalanced = |body: usize| loads[body] - inertia_wrench(at, body, accelerations[body]);
-    let mut left: Vec<Wrench<S>> = (0..at.m.bodies.len()).map(unbalanced).collect();
-    add_multipliers(rows, multipliers, &mut left);
+    let mut left = vec![Wrench::zero(); loads.len()];
+    residual_into(at, loads, accelerations, rows, multipliers, &mut left);
     left
+}
+
+/// The same in the memory of `left`.
+pub(super) fn residual_into<S: Scalar>(
+    at: StateView<'_, S>,
+    loads: &[Wrench<S>],
+    accelerations: &[Twist<S>],
+    rows: &[Row<S>],
+    multipliers: &[S],
+    left: &mut [Wrench<S>],
+) {
+    for (body, left) in left.iter_mut().enumerate() {
+        *left = loads[body] - inertia_wrench(at, body, accelerations[body]);
+    }
+    add_multipliers(rows, multipliers, left);
 }
 
 /// Adds the loads of rows with their multipliers to those on each body.

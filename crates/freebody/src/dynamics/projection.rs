@@ -1,7 +1,7 @@
 //! Back onto the closed loops: corrections of positions and velocities that change the motion least.
 
 use super::minimal::{row_scales, rows_in_coordinates, Force};
-use super::rows::closing_rows;
+use super::rows::closing_rows_into;
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
@@ -44,7 +44,9 @@ impl Workspace<'_> {
 
     /// The closing rows of the present state.
     pub(crate) fn update_rows(&mut self) {
-        self.rows = closing_rows(self.at(), None);
+        let mut rows = std::mem::take(&mut self.rows);
+        closing_rows_into(self.at(), None, &mut rows);
+        self.rows = rows;
     }
 
     /// Largest gap of the present state, lengths in units of the characteristic length.
@@ -299,10 +301,10 @@ impl Workspace<'_> {
 
     /// Rows by scaled coordinates, each of order one, with the scales of rows and coordinates.
     fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
-        let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
+        let mut g = Matrix::default();
+        rows_in_coordinates(self.at(), rows, self.length, [&mut g, &mut Matrix::default(), &mut Matrix::default()]);
         let columns = self.units();
-        let scales = row_scales(&g, &columns);
+        let scales: Vec<f64> = row_scales(&g, &columns).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
         (scaled, scales, columns)
     }
@@ -345,8 +347,8 @@ impl Workspace<'_> {
 
     /// Rows by coordinates, each over its unit, coordinates in theirs.
     fn in_units(&self, rows: &[Row]) -> Matrix {
-        let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), rows, self.length, &mut g, &mut b);
+        let mut g = Matrix::default();
+        rows_in_coordinates(self.at(), rows, self.length, [&mut g, &mut Matrix::default(), &mut Matrix::default()]);
         let columns = self.units();
         let units: Vec<f64> = rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
         Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j])

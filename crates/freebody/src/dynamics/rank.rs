@@ -188,10 +188,10 @@ impl Workspace<'_> {
         if rows.is_empty() || self.m.freedom() == 0 {
             return (0, false);
         }
-        let (mut g, mut b) = (Matrix::default(), Matrix::default());
-        rows_in_coordinates(self.at(), &rows, self.length, &mut g, &mut b);
+        let mut g = Matrix::default();
+        rows_in_coordinates(self.at(), &rows, self.length, [&mut g, &mut Matrix::default(), &mut Matrix::default()]);
         let columns = self.units();
-        let scales = row_scales(&g, &columns);
+        let scales: Vec<f64> = row_scales(&g, &columns).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
         let rank = Orthogonal::factor(&scaled).rank();
         (rank.rank, rank.uncertain)

@@ -169,6 +169,14 @@ impl<S: Scalar> SolvedView<'_, S> {
         self.drive_powers_of(|body| self.at.k.twist[body])
     }
 
+    /// Power of one motion, W; 0 where it is not in place.
+    pub fn drive_power(&self, drive: usize) -> S {
+        let found = self.multipliers().find(|(row, _)| row.source == Source::Drive(drive));
+        found.map_or(S::zero(), |(row, lambda)| {
+            lambda * row.loads().iter().fold(S::zero(), |sum, (body, w)| sum + w.power(self.at.k.twist[*body]))
+        })
+    }
+
     /// Power of each motion by velocities; its work, by impulses.
     pub(super) fn drive_powers_of(&self, twist: impl Fn(usize) -> Twist<S>) -> Vec<S> {
         let mut powers = vec![S::zero(); self.at.m.drives.len()];

@@ -7,13 +7,14 @@
 use crate::expr::Env;
 use crate::gauges::ModelExpr;
 use crate::kinematics::{gradient, jet, relative, JointView, MotionView, Poses, SeededView, State, StateView};
-use crate::mechanism::{Drive, Friction, FrictionSource, Joint, Level, Part};
+use crate::mechanism::{Drive, DriveGauges, Friction, FrictionSource, Joint, Level, Part};
 use crate::mode::ContactMode;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
+use smallvec::{smallvec, SmallVec};
 
-/// Loads on bodies, at their joint origins.
-pub type BodyWrenches<S> = Vec<(usize, Wrench<S>)>;
+/// Loads on bodies, at their joint origins; rarely on more than two.
+pub type BodyWrenches<S> = SmallVec<[(usize, Wrench<S>); 2]>;
 
 /// Where a row comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -73,8 +74,15 @@ pub type Base<'a, S> = Option<&'a [Twist<S>]>;
 /// All rows outside the tree that hold in the present mode.
 pub fn closing_rows<S: Scalar>(at: StateView<'_, S>, base: Base<S>) -> Vec<Row<S>> {
     let mut rows = vec![];
+    closing_rows_into(at, base, &mut rows);
+    rows
+}
+
+/// The same in the memory of other rows.
+pub(super) fn closing_rows_into<S: Scalar>(at: StateView<'_, S>, base: Base<S>, rows: &mut Vec<Row<S>>) {
+    rows.clear();
     for &joint in at.m.closures.iter().filter(|&&j| at.mode.has(Part::Joint(j))) {
-        joint_rows(at, joint, base, &mut rows);
+        joint_rows(at, joint, base, rows);
     }
     for (drive, _) in at.drives() {
         rows.push(drive_row(at, drive, base));
@@ -97,7 +105,6 @@ pub fn closing_rows<S: Scalar>(at: StateView<'_, S>, base: Base<S>) -> Vec<Row<S
     {
         rows.push(joint_friction_row(at, friction, base));
     }
-    rows
 }
 
 /// The row that keeps what has friction from sliding.
@@ -221,7 +228,7 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
 }
 
 /// The loads of a unit multiplier of each row of a joint's card.
-fn joint_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec<BodyWrenches<S>> {
+fn joint_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> SmallVec<[BodyWrenches<S>; 3]> {
     let joint = &at.m.joints[index];
     let (axes, place) = relative(joint, at.m, &at);
     let seeded = crate::joints::Relative {
@@ -242,7 +249,7 @@ fn joint_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> Vec<BodyWrenche
 /// A load on the second body at a place, and its opposite on the first, each at its body's joint origin.
 pub fn pair<S: Scalar>(at: StateView<'_, S>, joint: &Joint, place: Vec2<S>, load: Wrench<S>) -> BodyWrenches<S> {
     let [a, b] = at.m.ends(joint);
-    let mut wrenches = vec![];
+    let mut wrenches = smallvec![];
     if b > 0 {
         wrenches.push((b, load.seen_from(place - at.k.pose[b].at)));
     }
@@ -257,23 +264,25 @@ pub fn drive_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -
     let drive: &Drive = &at.m.drives[index];
     let going = MotionView { at, bodies: base, accelerations: None };
     let of = jet(&going, &drive.of);
-    let (value, rate, bias, gauge) = match drive.level {
+    let (value, rate, bias) = match drive.level {
         Level::Position => {
             let law = jet(&going, &drive.law);
-            (Some(of.d0 - law.d0), Some(of.d1 - law.d1), of.d2 - law.d2, drive.of.clone() - drive.law.clone())
+            (Some(of.d0 - law.d0), Some(of.d1 - law.d1), of.d2 - law.d2)
         }
         Level::Velocity => {
             let law = jet(&going, &drive.law);
-            (None, Some(of.d1 - law.d0), of.d2 - law.d1, drive.of.clone())
+            (None, Some(of.d1 - law.d0), of.d2 - law.d1)
         }
         Level::Acceleration => {
             let law: S = drive.law.eval(&State(at) as &dyn Env<S, _>);
-            (None, None, of.d2 - law, drive.of.clone())
+            (None, None, of.d2 - law)
         }
     };
-    let motion = gauge_wrenches(at, &gauge);
-    let own_way = drive.by.is_some() || (drive.feedback && drive.level == Level::Position && drive.is_motion());
-    let force = own_way.then(|| gauge_wrenches(at, drive.along()));
+    let DriveGauges { motion, force } = &at.m.drive_gauges[index];
+    let loads = |(gauge, bodies): &(ModelExpr, Vec<usize>)| -> BodyWrenches<S> {
+        bodies.iter().map(|&body| (body, gradient(at, gauge, body))).collect()
+    };
+    let (motion, force) = (loads(motion), force.as_ref().map(loads));
     Row { source: Source::Drive(index), value, rate, bias, motion, force }
 }
 

@@ -66,7 +66,7 @@ impl Workspace<'_> {
     /// A large change of each coordinate at the present state: what turns by a radian, or shifts by the characteristic
     /// length.
     pub fn units(&self) -> Vec<f64> {
-        column_scales(self.at(), self.length)
+        column_scales(self.at(), self.length).collect()
     }
 
     /// The fastest rate at the present state, 1/s: of the coordinates, by their accelerations, or of a fall by gravity,

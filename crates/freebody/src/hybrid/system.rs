@@ -288,7 +288,7 @@ impl System for HybridSystem<'_> {
             dy[..states].fill(0.0);
             if states < dy.len() {
                 self.place(t, y);
-                dy[states..].copy_from_slice(&self.workspace.state_rates());
+                self.workspace.write_state_rates(&mut dy[states..]);
             }
             return Ok(());
         }
@@ -296,8 +296,8 @@ impl System for HybridSystem<'_> {
         self.solve_stage(t, y)?;
         dy[..n].copy_from_slice(self.workspace.at().u);
         self.workspace.accelerations(&mut dy[n..2 * n]);
-        dy[2 * n..states].copy_from_slice(&self.works.powers(&self.workspace));
-        dy[states..].copy_from_slice(&self.workspace.state_rates());
+        self.works.write_powers(&self.workspace, &mut dy[2 * n..states]);
+        self.workspace.write_state_rates(&mut dy[states..]);
         Ok(())
     }
 

@@ -39,16 +39,13 @@ impl Works {
         forces.chain(motions).chain(friction).chain(self.compliant.then(|| "compliant contacts".to_string())).collect()
     }
 
-    /// Their rates in a solved state.
-    pub fn powers(&self, solved: &Workspace) -> Vec<f64> {
+    /// Writes their rates in a solved state.
+    pub fn write_powers(&self, solved: &Workspace, out: &mut [f64]) {
         let forces = self.forces.iter().map(|&f| unaccounted_power(solved.at(), f));
-        let motions = match self.motions.is_empty() {
-            true => vec![],
-            false => solved.solved_view().drive_powers(),
-        };
-        let motions = self.motions.iter().map(|&d| motions[d]);
+        let motions = self.motions.iter().map(|&d| solved.solved_view().drive_power(d));
         let friction = self.friction.then(|| solved.friction_power());
-        forces.chain(motions).chain(friction).chain(self.compliant.then(|| solved.compliant_power())).collect()
+        let all = forces.chain(motions).chain(friction).chain(self.compliant.then(|| solved.compliant_power()));
+        out.iter_mut().zip(all).for_each(|(out, power)| *out = power);
     }
 
     /// Those of a state vector, spread over all forces, then all drives, then that of friction, as [`Workspace::evaluate`]

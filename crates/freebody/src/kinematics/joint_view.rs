@@ -8,6 +8,7 @@ use crate::joints::{Curve as CurveOf, Gear, Joint as Formulas, Numbers as JointN
 use crate::mechanism::{Curve, Joint, Mechanism};
 use crate::plane::{vec2, Rows3, Vec2};
 use crate::scalar::{Dual, Scalar};
+use smallvec::SmallVec;
 
 /// Most numbers that a joint has.
 const MOST: usize = 6;
@@ -22,7 +23,7 @@ pub struct JointView<'a, T> {
 struct CurveView<'a, T> {
     mechanism: &'a Mechanism,
     curve: &'a Curve,
-    p: Vec<T>,
+    p: SmallVec<[T; 8]>,
 }
 
 impl<'a, T: Scalar> JointView<'a, T> {

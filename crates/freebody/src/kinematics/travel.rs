@@ -28,29 +28,39 @@ impl Travel {
     pub fn follow(&mut self, at: StateView<'_>, parts: usize, part: impl Fn(usize, usize) -> f64, time: f64) {
         let bodies = at.m.bodies.len();
         self.time = time;
-        self.change.clear();
-        self.change.extend((0..at.q.len()).map(|i| (0..parts).map(|k| part(k, i).abs()).sum::<f64>()));
-        for list in [&mut self.way, &mut self.turn] {
+        for (list, size) in [
+            (&mut self.way, bodies),
+            (&mut self.turn, bodies),
+            (&mut self.turns, bodies * parts),
+            (&mut self.change, at.q.len()),
+        ] {
             list.clear();
-            list.resize(bodies, 0.0);
+            list.resize(size, 0.0);
         }
-        self.turns.clear();
-        self.turns.resize(bodies * parts, 0.0);
         for body in 1..bodies {
             let Some(b) = at.m.bodies[body].tree_joint else { continue };
             let joint = &at.m.joints[b.joint];
-            let (mut shift, mut spin) = (0.0, 0.0);
-            for k in 0..parts {
-                let carried = self.turns[b.parent * parts + k];
-                let mut turned = if at.m.bodies[body].particle { 0.0 } else { carried };
-                for (j, coordinate) in joint.coordinates.iter().enumerate() {
-                    let own = coordinate.reading(&at.n.values).to_joint(0.0, part(k, b.start + j), 0.0, carried).1;
-                    *(if coordinate.dimension == "m" { &mut shift } else { &mut spin }) += own.abs();
-                    turned += at.k.motion_subspace[body][j].w * own;
-                }
-                self.turns[body * parts + k] = turned;
-                self.turn[body] += turned.abs();
+            let (before, own) = self.turns.split_at_mut(body * parts);
+            let (carried, turned) = (&before[b.parent * parts..][..parts], &mut own[..parts]);
+            if !at.m.bodies[body].particle {
+                turned.copy_from_slice(carried);
             }
+            let (mut shift, mut spin) = (0.0, 0.0);
+            for (j, coordinate) in joint.coordinates.iter().enumerate() {
+                let (i, reading) = (b.start + j, coordinate.reading(&at.n.values));
+                let (column, is_shift) = (at.k.motion_subspace[body][j].w, coordinate.dimension == "m");
+                for k in 0..parts {
+                    let change = part(k, i);
+                    self.change[i] += change.abs();
+                    let own = reading.to_joint(0.0, change, 0.0, carried[k]).1;
+                    *(if is_shift { &mut shift } else { &mut spin }) += own.abs();
+                    turned[k] += column * own;
+                }
+            }
+            if joint.curve.is_some() {
+                turned.fill(f64::INFINITY);
+            }
+            self.turn[body] = turned.iter().map(|turn| turn.abs()).sum();
             let swing = self.turn[b.parent] * at.k.arm[body].norm();
             self.way[body] = self.way[b.parent] + swing + joint_way(at, body, joint, b, [shift, spin]);
         }

@@ -57,7 +57,26 @@ pub struct Drive {
     pub feedback: bool,
 }
 
+/// The gauges of a drive's row, each with the bodies on which it depends, ground left out.
+#[derive(Clone, Debug)]
+pub struct DriveGauges {
+    /// What is held: less its law, where places are given.
+    pub motion: (ModelExpr, Vec<usize>),
+    /// That along which the force acts, where it is another one.
+    pub force: Option<(ModelExpr, Vec<usize>)>,
+}
+
 impl Drive {
+    /// The gauges of its row.
+    pub(crate) fn gauges(&self, bodies_of: impl Fn(&ModelExpr) -> Vec<usize>) -> DriveGauges {
+        let with_bodies = |gauge: ModelExpr| (gauge.clone(), bodies_of(&gauge));
+        let held = match self.level {
+            Level::Position => self.of.clone() - self.law.clone(),
+            Level::Velocity | Level::Acceleration => self.of.clone(),
+        };
+        let own_way = self.by.is_some() || (self.feedback && self.level == Level::Position && self.is_motion());
+        DriveGauges { motion: with_bodies(held), force: own_way.then(|| with_bodies(self.along().clone())) }
+    }
     /// Whether it is a prescribed motion.
     pub fn is_motion(&self) -> bool {
         self.kind == DriveKind::Motion

@@ -12,7 +12,7 @@ mod surfaces;
 mod unilateral;
 
 pub use cables::{Cable, End, Guide};
-pub use drives::{Drive, DriveKind, Level};
+pub use drives::{Drive, DriveGauges, DriveKind, Level};
 pub use events::{Discontinuity, Event, EventAction};
 pub use forces::{Force, GaugeForce, PlateFriction, PlateOutline, PointForce};
 pub use joints::{Coordinate, CurveFollower, FrictionSource, Joint, JointFriction};
@@ -66,6 +66,8 @@ pub struct Mechanism {
     pub coordinates: Vec<(usize, usize)>,
     /// Couplings and prescribed motions.
     pub drives: Vec<Drive>,
+    /// The gauges of their rows.
+    pub drive_gauges: Vec<DriveGauges>,
     /// The forces, gravity apart.
     pub forces: Vec<Force>,
     /// Gauges that cannot fall below zero: contacts, stops, strings.
@@ -226,6 +228,7 @@ impl Mechanism {
             closures: vec![],
             coordinates: vec![],
             drives: vec![],
+            drive_gauges: vec![],
             forces: vec![],
             unilateral: vec![],
             groups: vec![],

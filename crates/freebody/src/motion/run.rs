@@ -88,6 +88,9 @@ pub(super) struct Runner<'a> {
     /// End of the step being made.
     pub next: Point,
     t_end: f64,
+    /// The end of the step before its projection, and before the last round of it.
+    before: Vec<f64>,
+    from: Vec<f64>,
     pub run: Run,
     pub chatter: Chatter,
 }
@@ -111,6 +114,8 @@ impl<'a> Runner<'a> {
             singular_stage: (method.stage_gap, None),
             next: now.clone(),
             t_end,
+            before: vec![],
+            from: vec![],
             run: Run::new(&now),
             now,
             system: Counted { system, evaluations: 0 },
@@ -267,23 +272,26 @@ impl<'a> Runner<'a> {
     /// Projects the end of the step onto the invariants, but not along what is stiff: even round-off of a loop is a
     /// vibration there, which the next step would have to follow.
     pub fn project(&mut self) -> Result<(), Outcome> {
-        let before = self.next.y.clone();
+        self.before.clone_from(&self.next.y);
         for round in 1..=PROJECTIONS {
-            let from = self.next.y.clone();
+            self.from.clone_from(&self.next.y);
             let system = &mut *self.system.system;
             let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::DynamicsError)?;
             self.run.largest_correction = self.run.largest_correction.max(correction);
+            if round == 1 && self.next.y == self.before {
+                return Ok(());
+            }
             if round == PROJECTIONS && correction > PROJECTED {
                 break;
             }
-            let change: Vec<f64> = self.next.y.iter().zip(&from).map(|(to, from)| to - from).collect();
+            let change: Vec<f64> = self.next.y.iter().zip(&self.from).map(|(to, from)| to - from).collect();
             let Some(stiff) = self.stepper.stiff_part(&change) else { break };
             self.next.y.iter_mut().zip(stiff).for_each(|(y, stiff)| *y -= stiff);
             if correction <= PROJECTED {
                 break;
             }
         }
-        if self.next.y != before {
+        if self.next.y != self.before {
             self.system.rate_of(&mut self.next).map_err(ending)?;
         }
         Ok(())

@@ -65,19 +65,27 @@ impl Lu {
 
     /// x with A x = `b`, refined once (Higham, *Accuracy and Stability*, 2nd ed., §12.2).
     pub fn solve(&self, b: &[f64]) -> Vec<f64> {
-        let mut x = self.substitute(b);
-        let residual: Vec<f64> = b.iter().enumerate().map(|(i, b)| b - dot(self.matrix.row(i), &x)).collect();
-        axpy(1.0, &self.substitute(&residual), &mut x);
+        let mut x = vec![];
+        self.solve_into(b, &mut x, &mut Default::default());
         x
     }
 
-    fn substitute(&self, b: &[f64]) -> Vec<f64> {
-        let mut x: Vec<f64> = self.perm.iter().map(|&p| b[p]).collect();
+    /// The same into `x`, with memory for the residual and the correction.
+    pub(super) fn solve_into(&self, b: &[f64], x: &mut Vec<f64>, [residual, more]: &mut [Vec<f64>; 2]) {
+        self.substitute(b, x);
+        residual.clear();
+        residual.extend(b.iter().enumerate().map(|(i, b)| b - dot(self.matrix.row(i), x)));
+        self.substitute(residual, more);
+        axpy(1.0, more, x);
+    }
+
+    fn substitute(&self, b: &[f64], x: &mut Vec<f64>) {
+        x.clear();
+        x.extend(self.perm.iter().map(|&p| b[p]));
         for i in 0..x.len() {
             x[i] -= dot(&self.lu.row(i)[..i], &x[..i]);
         }
-        self.back_substitute(&mut x);
-        x
+        self.back_substitute(x);
     }
 
     /// x ← U₁⁻¹ x with the leading block U₁ of x's size.
@@ -121,7 +129,8 @@ impl Lu {
         let mut x = vec![1.0 / n as f64; n];
         let mut inverse = 0.0_f64;
         for _ in 0..5 {
-            let y = self.substitute(&x);
+            let mut y = vec![];
+            self.substitute(&x, &mut y);
             let norm = y.iter().map(|v| v.abs()).sum::<f64>();
             let signs: Vec<f64> = y.iter().map(|v| 1_f64.copysign(*v)).collect();
             let z = self.substitute_transposed(&signs);

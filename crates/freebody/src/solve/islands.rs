@@ -1,5 +1,6 @@
 //! Equations that fall apart into groups without a common unknown: each group is solved for itself.
 
+use super::saddle::Memory;
 use super::{largest, Matrix, Rank, Saddle, SaddleError, Solution};
 
 /// Part of a row that is round-off.
@@ -11,6 +12,25 @@ pub struct Islands {
     /// Numbers of rows and of unknowns.
     size: [usize; 2],
     islands: Vec<Island>,
+    groups: Groups,
+}
+
+/// Which unknowns are in one group.
+#[derive(Clone, Debug, Default)]
+struct Groups {
+    /// Of each unknown the least that it is known to be grouped with, found by way of others.
+    least: Vec<usize>,
+    /// The group of each unknown.
+    of: Vec<usize>,
+}
+
+/// Memory of [`Islands::solve_into`], kept from one solution to the next.
+#[derive(Clone, Debug, Default)]
+pub struct IslandMemory {
+    f: Vec<f64>,
+    r: Vec<f64>,
+    part: Solution,
+    saddle: Memory,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -22,6 +42,8 @@ struct Island {
     mass: Matrix,
     g: Matrix,
     b: Matrix,
+    /// Its scales of rows and unknowns.
+    scales: [Vec<f64>; 2],
 }
 
 impl Islands {
@@ -36,25 +58,39 @@ impl Islands {
         col_scale: &[f64],
     ) -> Result<(), SaddleError> {
         self.size = [g.rows(), g.cols()];
-        let groups = groups(mass, g, b);
-        self.islands.resize_with(groups.len(), Island::default);
+        let groups = self.groups.find(mass, g, b);
+        self.islands.resize_with(groups, Island::default);
+        for island in &mut self.islands {
+            island.unknowns.clear();
+            island.rows.clear();
+        }
+        for (i, &group) in self.groups.of.iter().enumerate() {
+            self.islands[group].unknowns.push(i);
+        }
+        for i in 0..g.rows() {
+            // Rows without unknowns go to the first, which is always there.
+            let group = touched(g, b, i).next().map_or(0, |j| self.groups.of[j]);
+            self.islands[group].rows.push(i);
+        }
         let mut done = Ok(());
-        for (island, (unknowns, rows)) in self.islands.iter_mut().zip(groups) {
+        for island in &mut self.islands {
+            let (unknowns, rows) = (&island.unknowns, &island.rows);
             let part = |of: &Matrix, rows: &[usize], to: &mut Matrix| {
                 to.fill(rows.len(), unknowns.len(), |i, j| of[(rows[i], unknowns[j])]);
             };
-            part(mass, &unknowns, &mut island.mass);
-            part(g, &rows, &mut island.g);
-            b.iter().for_each(|b| part(b, &rows, &mut island.b));
+            part(mass, unknowns, &mut island.mass);
+            part(g, rows, &mut island.g);
+            b.iter().for_each(|b| part(b, rows, &mut island.b));
+            gather(row_scale, rows, &mut island.scales[0]);
+            gather(col_scale, unknowns, &mut island.scales[1]);
             let factored = island.saddle.refactor(
                 &island.mass,
                 &island.g,
                 b.map(|_| &island.b),
-                &gather(row_scale, &rows),
-                &gather(col_scale, &unknowns),
+                &island.scales[0],
+                &island.scales[1],
             );
-            done = done.and(factored.map_err(|error| spread_out(error, &unknowns, self.size[1])));
-            (island.unknowns, island.rows) = (unknowns, rows);
+            done = done.and(factored.map_err(|error| spread_out(error, unknowns, self.size[1])));
         }
         done
     }
@@ -90,7 +126,8 @@ impl Islands {
 
     /// Whether some motion with G z = 0 changes a further row (n), beyond round-off.
     pub fn moves(&self, row: &[f64]) -> bool {
-        let parts = self.islands.iter().map(|island| island.saddle.felt(&gather(row, &island.unknowns)));
+        let part = |island: &Island| island.unknowns.iter().map(|&i| row[i]).collect::<Vec<f64>>();
+        let parts = self.islands.iter().map(|island| island.saddle.felt(&part(island)));
         let [felt, all] = parts.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
         felt > UNFELT * UNFELT * all
     }
@@ -115,48 +152,57 @@ impl Islands {
 
     /// Solves for applied forces f (n) and right-hand sides r (m), refined once.
     pub fn solve(&self, f: &[f64], r: &[f64]) -> Solution {
-        let mut all = Solution { a: vec![0.0; f.len()], lambda: vec![0.0; r.len()], inconsistency: 0.0 };
+        let mut found = Solution::default();
+        self.solve_into(f, r, &mut found, &mut IslandMemory::default());
+        found
+    }
+
+    /// The same into `found`.
+    pub fn solve_into(&self, f: &[f64], r: &[f64], found: &mut Solution, memory: &mut IslandMemory) {
+        for (of, size) in [(&mut found.a, f.len()), (&mut found.lambda, r.len())] {
+            of.clear();
+            of.resize(size, 0.0);
+        }
+        found.inconsistency = 0.0;
         for Island { unknowns, rows, saddle, .. } in &self.islands {
-            let (f, r) = (gather(f, unknowns), gather(r, rows));
-            if f.iter().chain(&r).all(|&v| v == 0.0) {
+            gather(f, unknowns, &mut memory.f);
+            gather(r, rows, &mut memory.r);
+            if memory.f.iter().chain(&memory.r).all(|&v| v == 0.0) {
                 continue;
             }
-            let part = saddle.solve(&f, &r);
-            unknowns.iter().zip(part.a).for_each(|(&i, a)| all.a[i] = a);
-            rows.iter().zip(part.lambda).for_each(|(&i, lambda)| all.lambda[i] = lambda);
-            all.inconsistency = largest([all.inconsistency, part.inconsistency].into_iter());
+            let part = &mut memory.part;
+            saddle.solve_into(&memory.f, &memory.r, part, &mut memory.saddle);
+            unknowns.iter().zip(&part.a).for_each(|(&i, &a)| found.a[i] = a);
+            rows.iter().zip(&part.lambda).for_each(|(&i, &lambda)| found.lambda[i] = lambda);
+            found.inconsistency = largest([found.inconsistency, part.inconsistency].into_iter());
         }
-        all
     }
 }
 
-/// The unknowns and the rows of each group; rows without unknowns go to the first, which is always there.
-fn groups(mass: &Matrix, g: &Matrix, b: Option<&Matrix>) -> Vec<(Vec<usize>, Vec<usize>)> {
-    let n = g.cols();
-    // Of each unknown the least that it is known to be grouped with, found by way of others.
-    let mut least: Vec<usize> = (0..n).collect();
-    let touched = |i: usize| (0..n).filter(move |&j| g[(i, j)] != 0.0 || b.is_some_and(|b| b[(i, j)] != 0.0));
-    for i in 0..n {
-        join(&mut least, (0..=i).filter(|&j| mass[(i, j)] != 0.0 || i == j));
-    }
-    (0..g.rows()).for_each(|i| join(&mut least, touched(i)));
-    let roots: Vec<usize> = (0..n).map(|i| root(&least, i)).collect();
-    let mut groups: Vec<(Vec<usize>, Vec<usize>)> = vec![];
-    let mut group_of = vec![0; n];
-    for (i, &root) in roots.iter().enumerate() {
-        if root == i {
-            group_of[i] = groups.len();
-            groups.push((vec![], vec![]));
+/// The unknowns that a row touches.
+fn touched<'a>(g: &'a Matrix, b: Option<&'a Matrix>, i: usize) -> impl Iterator<Item = usize> + 'a {
+    (0..g.cols()).filter(move |&j| g[(i, j)] != 0.0 || b.is_some_and(|b| b[(i, j)] != 0.0))
+}
+
+impl Groups {
+    /// Finds the groups, in the order of their first unknowns; returns how many, at least one.
+    fn find(&mut self, mass: &Matrix, g: &Matrix, b: Option<&Matrix>) -> usize {
+        let (n, least) = (g.cols(), &mut self.least);
+        least.clear();
+        least.extend(0..n);
+        for i in 0..n {
+            join(least, (0..=i).filter(|&j| mass[(i, j)] != 0.0 || i == j));
         }
-        groups[group_of[root]].0.push(i);
+        (0..g.rows()).for_each(|i| join(least, touched(g, b, i)));
+        let mut count = 0;
+        self.of.clear();
+        for i in 0..n {
+            let first = root(least, i);
+            self.of.push(if first == i { count } else { self.of[first] });
+            count += usize::from(first == i);
+        }
+        count.max(1)
     }
-    if groups.is_empty() {
-        groups.push((vec![], vec![]));
-    }
-    for i in 0..g.rows() {
-        groups[touched(i).next().map_or(0, |j| group_of[roots[j]])].1.push(i);
-    }
-    groups
 }
 
 fn root(least: &[usize], mut i: usize) -> usize {
@@ -177,8 +223,9 @@ fn join(least: &mut [usize], mut of: impl Iterator<Item = usize>) {
     }
 }
 
-fn gather(of: &[f64], at: &[usize]) -> Vec<f64> {
-    at.iter().map(|&i| of[i]).collect()
+fn gather(of: &[f64], at: &[usize], to: &mut Vec<f64>) {
+    to.clear();
+    to.extend(at.iter().map(|&i| of[i]));
 }
 
 /// An error of a group, its direction expressed for all n unknowns.

@@ -6,11 +6,22 @@ use std::ops::{Index, IndexMut};
 /// A dense matrix, stored by rows; entry (i, j) is `m[(i, j)]`.
 ///
 /// Products panic when the shapes do not fit.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default, PartialEq)]
 pub struct Matrix {
     rows: usize,
     cols: usize,
     data: Vec<f64>,
+}
+
+impl Clone for Matrix {
+    fn clone(&self) -> Self {
+        Matrix { data: self.data.clone(), ..*self }
+    }
+    /// Keeps its memory.
+    fn clone_from(&mut self, other: &Self) {
+        (self.rows, self.cols) = (other.rows, other.cols);
+        self.data.clone_from(&other.data);
+    }
 }
 
 impl Matrix {
@@ -101,8 +112,15 @@ impl Matrix {
     }
     /// The product A x.
     pub fn mul_vec(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![];
+        self.mul_vec_into(x, &mut y);
+        y
+    }
+    /// y becomes the product A x.
+    pub fn mul_vec_into(&self, x: &[f64], y: &mut Vec<f64>) {
         assert_eq!(self.cols, x.len(), "inner sizes of a product");
-        (0..self.rows).map(|i| dot(self.row(i), x)).collect()
+        y.clear();
+        y.extend((0..self.rows).map(|i| dot(self.row(i), x)));
     }
     /// y ← y + Aᵀ x.
     pub fn add_t_mul_vec(&self, x: &[f64], y: &mut [f64]) {

@@ -17,7 +17,7 @@ mod simplex;
 mod sparse;
 
 pub use dense::{Lu, Singular};
-pub use islands::Islands;
+pub use islands::{IslandMemory, Islands};
 pub use matrix::Matrix;
 pub use ordering::minimum_degree;
 pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};

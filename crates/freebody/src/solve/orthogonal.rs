@@ -52,6 +52,9 @@ pub struct Orthogonal {
     perm: Vec<usize>,
     heads: Vec<f64>,
     values: Vec<f64>,
+    /// Memory of the reflections from the left.
+    reflectors: Matrix,
+    vector: Vec<f64>,
 }
 
 impl Orthogonal {
@@ -89,8 +92,14 @@ impl Orthogonal {
 
     /// x ← x + G⁺ b, the least-squares solution of G x = b of minimum norm.
     pub fn add_solution(&self, b: &[f64], x: &mut [f64]) {
+        self.add_solution_with(b, x, &mut vec![]);
+    }
+
+    /// The same with memory for the coefficients.
+    pub(super) fn add_solution_with(&self, b: &[f64], x: &mut [f64], c: &mut Vec<f64>) {
         let r = self.rank.rank;
-        let mut c: Vec<f64> = (0..r).map(|k| dot(self.y.row(k), b)).collect();
+        c.clear();
+        c.extend((0..r).map(|k| dot(self.y.row(k), b)));
         for k in 0..r {
             let row = self.l.row(k);
             c[k] = (c[k] - dot(&row[..k], &c[..k])) / row[k];
@@ -100,8 +109,14 @@ impl Orthogonal {
 
     /// y ← y + (Gᵀ)⁺ b, the least-squares solution of Gᵀ y = b of minimum norm.
     pub fn add_transposed_solution(&self, b: &[f64], y: &mut [f64]) {
+        self.add_transposed_solution_with(b, y, &mut vec![]);
+    }
+
+    /// The same with memory for the coefficients.
+    pub(super) fn add_transposed_solution_with(&self, b: &[f64], y: &mut [f64], c: &mut Vec<f64>) {
         let r = self.rank.rank;
-        let mut c: Vec<f64> = (0..r).map(|k| dot(self.x.row(k), b)).collect();
+        c.clear();
+        c.extend((0..r).map(|k| dot(self.x.row(k), b)));
         for k in (0..r).rev() {
             let row = self.l.row(k);
             c[k] /= row[k];
@@ -156,7 +171,8 @@ impl Orthogonal {
     /// Annihilates the redundant rows of L by reflections from the left, whose product is Y.
     fn reduce_and_form_y(&mut self) {
         let (r, m) = (self.rank.rank, self.l.rows());
-        let mut reflectors = Matrix::zeros(if m > r { r } else { 0 }, m - r + 1);
+        let mut reflectors = std::mem::take(&mut self.reflectors);
+        reflectors.reset(if m > r { r } else { 0 }, m - r + 1);
         for k in (0..reflectors.rows()).rev() {
             let v = reflectors.row_mut(k);
             v[0] = self.l[(k, k)];
@@ -170,14 +186,16 @@ impl Orthogonal {
             }
         }
         self.form_y(&reflectors);
+        self.reflectors = reflectors;
     }
 
     fn form_y(&mut self, reflectors: &Matrix) {
         let (r, m) = (self.rank.rank, self.l.rows());
-        let mut vector = vec![0.0; m];
+        let vector = &mut self.vector;
         self.y.reset(m, m);
         for i in 0..m {
-            vector.fill(0.0);
+            vector.clear();
+            vector.resize(m, 0.0);
             vector[i] = 1.0;
             for k in 0..reflectors.rows() {
                 let v = reflectors.row(k);
@@ -185,7 +203,7 @@ impl Orthogonal {
                 vector[k] -= s * v[0];
                 axpy(-s, &v[1..], &mut vector[r..]);
             }
-            self.perm.iter().zip(&vector).for_each(|(&p, &v)| self.y[(i, p)] = v);
+            self.perm.iter().zip(&*vector).for_each(|(&p, &v)| self.y[(i, p)] = v);
         }
     }
 

@@ -45,6 +45,24 @@ pub struct Solution {
     pub inconsistency: f64,
 }
 
+/// Memory of [`Saddle::solve_into`], kept from one solution to the next.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Memory {
+    scaled: [Vec<f64>; 2],
+    left: [Vec<f64>; 2],
+    steps: Steps,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Steps {
+    step: Vec<f64>,
+    product: Vec<f64>,
+    load: Vec<f64>,
+    y: Vec<f64>,
+    coefficients: Vec<f64>,
+    lu: [Vec<f64>; 2],
+}
+
 /// Why the equations of an instant determine no motion.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SaddleError {
@@ -215,44 +233,60 @@ impl Saddle {
 
     /// Solves for applied forces f (n) and right-hand sides r (m), refined once.
     pub fn solve(&self, f: &[f64], r: &[f64]) -> Solution {
-        let f = product(f, &self.col_scale);
-        let r = product(r, &self.row_scale);
-        let (mut a, mut lambda) = (vec![0.0; f.len()], vec![0.0; r.len()]);
-        self.correct(f.clone(), &r, &mut a, &mut lambda);
-        let (df, dr) = self.residual(&f, &r, &a, &lambda);
-        self.correct(df, &dr, &mut a, &mut lambda);
-        let (_, dr) = self.residual(&f, &r, &a, &lambda);
-        Solution {
-            a: product(&a, &self.col_scale),
-            lambda: product(&lambda, &self.row_scale),
-            inconsistency: max_abs(&dr),
+        let mut found = Solution::default();
+        self.solve_into(f, r, &mut found, &mut Memory::default());
+        found
+    }
+
+    /// The same into `found`.
+    pub(super) fn solve_into(&self, f: &[f64], r: &[f64], found: &mut Solution, memory: &mut Memory) {
+        let Memory { scaled: [scaled_f, scaled_r], left: [df, dr], steps } = memory;
+        for (scaled, x, scale) in [(&mut *scaled_f, f, &self.col_scale), (&mut *scaled_r, r, &self.row_scale)] {
+            scaled.clear();
+            scaled.extend_from_slice(x);
+            multiply(scaled, scale);
         }
+        zeros(&mut found.a, f.len());
+        zeros(&mut found.lambda, r.len());
+        df.clone_from(scaled_f);
+        self.correct(df, scaled_r, found, steps);
+        self.residual([scaled_f, scaled_r], found, [df, dr], &mut steps.product);
+        self.correct(df, dr, found, steps);
+        self.residual([scaled_f, scaled_r], found, [df, dr], &mut steps.product);
+        found.inconsistency = max_abs(dr);
+        multiply(&mut found.a, &self.col_scale);
+        multiply(&mut found.lambda, &self.row_scale);
     }
 
     /// f − M a + Bᵀ λ and r − G a, scaled.
-    fn residual(&self, f: &[f64], r: &[f64], a: &[f64], lambda: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let mut df = f.to_vec();
+    fn residual(&self, [f, r]: [&[f64]; 2], of: &Solution, [df, dr]: [&mut Vec<f64>; 2], product: &mut Vec<f64>) {
+        df.clear();
+        df.extend_from_slice(f);
         let b = self.actuation.as_ref().map_or(&self.g, |(b, _)| b);
-        b.add_t_mul_vec(lambda, &mut df);
-        axpy(-1.0, &self.mass.mul_vec(a), &mut df);
-        let dr = r.iter().enumerate().map(|(i, r)| r - dot(self.g.row(i), a)).collect();
-        (df, dr)
+        b.add_t_mul_vec(&of.lambda, df);
+        self.mass.mul_vec_into(&of.a, product);
+        axpy(-1.0, product, df);
+        dr.clear();
+        dr.extend(r.iter().enumerate().map(|(i, r)| r - dot(self.g.row(i), &of.a)));
     }
 
-    /// Adds the scaled solution for (f, r) to (a, λ).
-    fn correct(&self, mut f: Vec<f64>, r: &[f64], a: &mut [f64], lambda: &mut [f64]) {
-        let mut step = vec![0.0; f.len()];
-        self.motion.add_solution(r, &mut step);
-        axpy(-1.0, &self.mass.mul_vec(&step), &mut f);
+    /// Adds the scaled solution for (f, r) to (a, λ); f is used up.
+    fn correct(&self, f: &mut [f64], r: &[f64], to: &mut Solution, steps: &mut Steps) {
+        let Steps { step, product, load, y, coefficients, lu } = steps;
+        zeros(step, f.len());
+        self.motion.add_solution_with(r, step, coefficients);
+        self.mass.mul_vec_into(step, product);
+        axpy(-1.0, product, f);
         let rank = self.rank().rank;
-        let load: Vec<f64> = (rank..f.len()).map(|i| dot(self.force().x().row(i), &f)).collect();
-        let y = self.lu.solve(&load);
-        self.add_motion(&y, &mut step);
+        load.clear();
+        load.extend((rank..f.len()).map(|i| dot(self.force().x().row(i), f)));
+        self.lu.solve_into(load, y, lu);
+        self.add_motion(y, step);
         // What is left over, M a − f, is the constraint force.
         f.iter_mut().for_each(|v| *v = -*v);
-        y.iter().enumerate().for_each(|(j, y)| axpy(*y, self.momentum.row(j), &mut f));
-        self.force().add_transposed_solution(&f, lambda);
-        axpy(1.0, &step, a);
+        y.iter().enumerate().for_each(|(j, y)| axpy(*y, self.momentum.row(j), f));
+        self.force().add_transposed_solution_with(f, &mut to.lambda, coefficients);
+        axpy(1.0, step, &mut to.a);
     }
 
     /// z ← z + Z y, scaled.
@@ -275,8 +309,21 @@ fn scale_into(out: &mut Matrix, a: &Matrix, rows: &[f64], cols: &[f64]) {
 }
 
 fn product(x: &[f64], scale: &[f64]) -> Vec<f64> {
+    let mut scaled = x.to_vec();
+    multiply(&mut scaled, scale);
+    scaled
+}
+
+/// x ← diag(scale) x.
+fn multiply(x: &mut [f64], scale: &[f64]) {
     assert_eq!(x.len(), scale.len(), "size of a right-hand side");
-    x.iter().zip(scale).map(|(x, s)| x * s).collect()
+    x.iter_mut().zip(scale).for_each(|(x, s)| *x *= s);
+}
+
+/// x becomes n zeros.
+fn zeros(x: &mut Vec<f64>, n: usize) {
+    x.clear();
+    x.resize(n, 0.0);
 }
 
 fn larger(a: f64, b: f64) -> f64 {

@@ -136,7 +136,7 @@ impl SymbolicState<'_> {
             value: Some(gap.d0),
             rate: Some(gap.d1),
             bias: gap.d2,
-            motion: vec![],
+            motion: Default::default(),
             force: None,
         })
     }
