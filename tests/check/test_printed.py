@@ -69,7 +69,31 @@ strings: {thread: {ends: [ground.A, bob.centre]}}
 forces: {wind: {type: force, at: bob.centre, x: "0.103 + 1.746*cos(x*1)", y: "0.24*cos(y*1) + 0.565*cos(2*t)"}}
 initial: {x: 0.564, y: -0.843}
 """
-TEXTS = {"words": WORDS, "collar": COLLAR, "string": STRING}
+LINK = """
+freebody: 1
+name: a motor on a link without mass, its rate in an angle
+parameters: {L: 0.834 m, m: 2 kg}
+bodies: {plate: {mass: m, inertia: 0.234, points: {P: [-0.235, 0.434]}, centre: [-0.016, 0.063]}}
+joints: {rod: {type: link, of: [ground.O, plate.P], length: L, coordinates: [phi, theta]}}
+motions: {drive: {of: phi, is: 0.3 + 0.2*sin(3*t) + 0.7*t}}
+initial: {theta: -0.8}
+"""
+HANGING = """
+freebody: 1
+name: four bars, each hung with its own end named first
+bodies:
+  a: {shape: rod, length: 1 m, mass: 1 kg}
+  b: {shape: rod, length: 1.3 m, mass: 1 kg}
+  c: {shape: rod, length: 0.7 m, mass: 2 kg}
+  d: {shape: rod, length: 0.9 m, mass: 1 kg}
+joints:
+  A: {type: hinge, of: [ground.O, a.start], coordinate: p}
+  B: {type: hinge, of: [b.start, a.end], coordinate: q}
+  C: {type: hinge, of: [c.start, b.end], coordinate: r}
+  D: {type: hinge, of: [d.start, c.end], coordinate: s}
+initial: {p: 0.3, q: 0.4, r: 1.2, s: 0.2}
+"""
+TEXTS = {"words": WORDS, "collar": COLLAR, "string": STRING, "link": LINK, "hanging": HANGING}
 
 
 @pytest.fixture(scope="module", params=family([*NAMED, *TEXTS]))

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 SAMPLES = 64
 _TRIES = 40  # for one sample; a four-bar with random bars closes in about one of three
 _FEW_TRIES = 16  # where a parameter is far from the model's, and states are rarer or none
+_NEARER = 0.9  # to the start after a try that failed: loops may have few places far from it
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
 _LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
@@ -108,14 +109,16 @@ class MotionSampler(AskedModel):
                 break
             if len(found) >= _FEWER and spent > _SHARE:
                 return found
-            for _ in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
+            for failed in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
                 with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
-                    if (made := self._made(rng, self._parameters(rng, family), family)) is not None:
+                    if (made := self._made(rng, self._parameters(rng, family), family, _NEARER**failed)) is not None:
                         found.append(made)
                         break
         return found if len(found) >= min(_LATE_ENOUGH if family.late else _ENOUGH, count) else []
 
-    def _made(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State, State | None] | None:
+    def _made(
+        self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float
+    ) -> tuple[State, State | None] | None:
         start = None
         driven = bool(family.vanishing and self.spec["motions"]) and not self._free_rates.size
         if (family.since or driven) and not family.at_start:
@@ -125,7 +128,7 @@ class MotionSampler(AskedModel):
         elif self.rolls_in_loop and not family.at_start:
             found, start = self._rolled_on(rng, values, family)
         else:
-            found = self._started(values) if family.at_start else self._anywhere(rng, values, family)
+            found = self._started(values) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
         lost = [
             text
@@ -166,13 +169,12 @@ class MotionSampler(AskedModel):
         factor = low * (high / low) ** size
         return value * factor if value else sign * factor * self.unit(dimension)
 
-    def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
-        """A random state of the start's assembly and side, none of whose limits is closed."""
-        turn = (
-            math.pi / 2 * min(1.0, _SHORT_LOOP / len(self.names)) if self.loops else math.pi
-        )  # farther many ways of a loop end singular
+    def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float) -> State | None:
+        """A random state of the start's assembly and side, within ``reach`` of the farthest, none of whose limits is closed."""
+        turn = math.pi  # farther than a part of a right angle many ways of a loop end in a singular position
+        turn *= min(1.0, _SHORT_LOOP / len(self.names)) / 2 if self.loops else 1
         move = np.array([turn if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        place = self.first.q + move * rng.uniform(-1, 1, len(move))
+        place = self.first.q + reach * move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
         given = {} if family.held or family.numbers or self.loops else values

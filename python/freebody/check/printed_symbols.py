@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from freebody.core import MotionError
 from freebody.equations.derivation.conserved import energies, momenta
 from freebody.equations.derivation.preamble import directions
+from freebody.equations.derivation.put_in import Closed
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.solve.symbolic_state import SymbolicState
@@ -41,7 +42,7 @@ class PrintedSymbols:
     @cached_property
     def plain(self) -> dict[str, str]:
         """What each symbol means, as a declaration."""
-        return self._of(_named, _bodies, _whole, _directions)
+        return self._of(_named, _bodies, _whole, _directions, _closed)
 
     @cached_property
     def momenta(self) -> dict[str, str]:
@@ -96,6 +97,13 @@ def _whole(derived: SymbolicState) -> Iterator[tuple[str, str]]:
     for point in points[:1]:
         carried = f"(centre_x() - x({point}))*momentum_y() - (centre_y() - y({point}))*momentum_x()"
         yield "H/G", f"angular_momentum({point}) - ({carried})"
+
+
+def _closed(derived: SymbolicState) -> Iterator[tuple[str, str]]:
+    """Numbers in laws of motions, and roots that come again and again."""
+    closed = Closed(derived)
+    yield from ((entry.written.unicode(), f"{size!r} {entry.doc.partition(' ')[2]}") for entry, size in closed.rates)
+    yield from ((entry.written.unicode(), f"sqrt({_expression(base, {})})") for entry, base in closed.named)
 
 
 def _momenta(derived: SymbolicState) -> Iterator[tuple[str, str]]:

@@ -102,7 +102,7 @@ def direction(name: str, dots: int = 0) -> Formula:
 def _letter(text: str, otherwise: str) -> Atom:
     """A number, a letter, or a word of its kind."""
     kind = "number" if text.isdigit() else "letter" if len(text) == 1 or text in GREEK else otherwise
-    return Atom(GREEK.get(text, text.replace("_", " ")), kind)
+    return Atom(GREEK.get(text, re.sub("[_.]", " ", text)), kind)
 
 
 def _word(text: str) -> str:

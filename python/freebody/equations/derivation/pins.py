@@ -15,7 +15,7 @@ Stated = tuple[Name, Components]
 
 def from_pins(subject: SymbolicState, named: Directions, bodies: Sequence[str], given: Sequence[Stated]) -> list[Stated]:
     """The accelerations ``given`` of some bodies by those of pins that are in two of them at least."""
-    hinges = {joint["second"]: joint["name"] for joint in subject.source.metadata["joints"] if joint["type"] == "hinge"}
+    hinges = _carrying(subject)
     pins: dict[frozenset, Stated] = {}
     for body, (_, parts) in zip(bodies, given, strict=True):
         own = {unit for pair in named.pairs if body in (*pair.owners, *pair.turning) for unit in (pair.along, pair.across)}
@@ -31,6 +31,14 @@ def from_pins(subject: SymbolicState, named: Directions, bodies: Sequence[str], 
                 made.append((pin, _from(pins, rest)))
         made.append((name, _from(pins, parts)))
     return made
+
+
+def _carrying(subject: SymbolicState) -> dict[str, str]:
+    """The hinge in which each body hangs on the one before it: of its two bodies, the one that moves with the coordinate."""
+    joints = [j for j in subject.source.metadata["joints"] if j["type"] == "hinge" and not j["cut"] and j["coordinates"]]
+    moving = subject.balances([{"ask": "coordinate", "name": joint["coordinates"][0]} for joint in joints])
+    ends = ((joint, [joint["first"], joint["second"]], balance.bodies) for joint, balance in zip(joints, moving, strict=True))
+    return {body: joint["name"] for joint, pair, carried in ends for body in pair if body in carried}
 
 
 def _from(pins: dict[frozenset, Stated], parts: Components) -> Components:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 from freebody.document.blocks import Written
 from freebody.solve.symbolic_state import Row
@@ -128,23 +129,29 @@ def plain(rows: Sequence[Row], coordinates: Sequence[str], values: Mapping[Sym, 
     return [_cleared(row, coordinates, values) for row in made]
 
 
-def with_rates(row: Row, coordinates: Sequence[str], give: Callable[[float, int], Sym]) -> Row:
+def with_rates(row: Row, coordinates: Sequence[str], give: Callable[[float, int, bool], Sym]) -> Row:
     """A prescribed motion in which each number times a power of t, and nothing else that has a unit, is a symbol that ``give`` has for
-    it: θ = ω t, never an angle that is a time."""
+    it, its power and whether it is in an angle of sin or cos: θ = ω t, never an angle that is a time."""
     time = Sym("t")
 
-    def put(part: Tree) -> Tree | None:
+    def put(part: Tree, in_angle: bool = False) -> Tree | None:
+        if isinstance(part, Fn):
+            turns = part.name in ("sin", "cos", "tan")
+            return Fn(part.name, tuple(rebuilt(arg, partial(put, in_angle=True)) for arg in part.args)) if turns else part
+        if isinstance(part, Pow) and part.base != time:  # its base has another unit
+            return part
+        again = partial(put, in_angle=in_angle)
         factors = part.factors if isinstance(part, Mul) else (part,)
         times = [f for f in factors if f == time or (isinstance(f, Pow) and f.base == time)]
         others = [f for f in factors if not symbols(f) or isinstance(f, Fn)]
         if len(times) != 1:
             return None
         if len(others) + 1 != len(factors):  # a symbol beside it has the unit
-            return mul(*(f if f in times else rebuilt(f, put) for f in factors))
+            return mul(*(f if f in times else rebuilt(f, again) for f in factors))
         power_of_t = times[0].exponent if isinstance(times[0], Pow) else Fraction(1)
         size = math.prod(float(f.value) for f in others if isinstance(f, Num))
-        rest = (rebuilt(f, put) for f in others if not isinstance(f, Num))
-        return mul(number(-1 if size < 0 else 1), give(abs(size), int(power_of_t)), power(time, power_of_t), *rest)
+        rest = (rebuilt(f, again) for f in others if not isinstance(f, Num))
+        return mul(number(-1 if size < 0 else 1), give(abs(size), int(power_of_t), in_angle), power(time, power_of_t), *rest)
 
     if row.kind != "motion" or row.value is None or (value := rebuilt(row.value, put)) == row.value:
         return row

@@ -80,16 +80,16 @@ class Closed:
             made.append((with_rates(row, self.subject.names, give), given))
         return made
 
-    def _rate(self, row: Row, given: list[tuple[SymbolEntry, float]], size: float, order: int) -> Sym:
-        """The symbol of a number of a law that is times a power of t."""
-        turns = any(
+    def _rate(self, row: Row, given: list[tuple[SymbolEntry, float]], size: float, order: int, in_angle: bool) -> Sym:
+        """The symbol of a number of a law that is times a power of t: ω or v where it is the rate, Ω in an angle, else c."""
+        turns = in_angle or any(
             c["name"] in {x.name for x in row.linear.coefficients} and c["dimension"] == "rad" for c in self.subject.coordinates
         )
         unit = f"{'rad' if turns else 'm'}/s{order if order > 1 else ''}".translate(SUPERSCRIPTS)
+        alone = order == 1 and sum(part == Sym("t") for part in walk(row.value)) == 1
         what = f"{figure(size)} {unit}"
-        name = self.subject.symbols.taken.give(
-            f"{what} of {row.name}", Name.parse(("omega" if turns else "v") if order == 1 else "c")
-        )
+        wanted = "Omega" if in_angle and order == 1 else ("omega" if turns else "v") if alone else "c"
+        name = self.subject.symbols.taken.give(f"{what} of {row.name}", Name.parse(wanted))
         entry = SymbolEntry(name.ascii(), "constant", "", what, name)
         if (entry, size) not in given:
             given.append((entry, size))

@@ -23,6 +23,8 @@ from freebody.symbolic.tree import ONE, ZERO, Tree, add, is_zero, mul, number
 _MOST_LOADS, _MOST_BODIES = 8, 4
 """Loads on some bodies, and bodies, beyond which nobody writes all of them in one line."""
 _SEED, _TRIES = 3, 5
+_UNIT = 1e-9
+"""By which the square of a unit vector may be off 1, by round-off."""
 
 Terms = Mapping["str | Name", Tree]
 """Components by their directions."""
@@ -37,7 +39,8 @@ class VectorLaw:
 
     @cached_property
     def sides(self) -> tuple[Vector, Vector] | None:
-        """Both sides; None where more acts than a line has room for, or friction that follows from other loads."""
+        """Both sides; None where more acts than a line has room for, or friction that follows from other loads, or a force along what
+        is neither a unit vector nor in one pair of directions."""
         given, subject = self.stated.balance, self.subject
         loads = {c.load: c.tree for c in given.contributions if not c.internal and self._counts(c.load, c.tree)}
         if len(loads) > _MOST_LOADS or len(given.bodies) > _MOST_BODIES or any(subject.free.loads[i].follows for i in loads):
@@ -54,7 +57,9 @@ class VectorLaw:
             subject, [*(each.place for each in found), given.place, *(v for m in moved for v in (m.r, m.a))]
         )
         pulling = [i for i, line in lines.items() if not all(map(is_zero, line.place.xy))]
-        pulls = [self._force(i, lines[i], named) for i in pulling]
+        pulls = [pull for i in pulling if (pull := self._force(i, lines[i], named))]
+        if len(pulls) < len(pulling):
+            return None
         carried = [_mass_times(m.mass, named.vector(m.a), subject.symbols.of_body("a", m.body)) for m in moved]
         if not given.turns:
             return Vector(_components(_sum(pulls), named)), Vector(_components(_sum(carried), named))
@@ -73,19 +78,28 @@ class VectorLaw:
         """Whether a load is in the law: of moments one that has one, of forces every force."""
         return not is_zero(tree) if self.stated.balance.turns else not self.subject.free.loads[load].card.couple
 
-    def _force(self, load: int, line: Balance, named: Directions) -> Terms:
-        """A load on the bodies: what is known by itself, what is not by its unit direction; the line is that of the load."""
+    def _force(self, load: int, line: Balance, named: Directions) -> Terms | None:
+        """A load on the bodies, of which the balance along its own line has the product with that: what is known by itself, what is not by
+        its symbol."""
         tree = next(each.tree for each in line.contributions if each.load == load)
-        size = tree if self.subject.free.loads[load].unknown else number(self._sign(tree))
-        return {name: mul(size, part) for name, part in _terms(named.vector(line.place)).items()}
+        along = _terms(named.vector(line.place))
+        if not self.subject.free.loads[load].unknown:
+            size: Tree = number(-1 if next((x for x in self._near(tree) if x), 0) < 0 else 1)
+        elif all(abs(x - 1) < _UNIT for x in self._near(add(*(mul(x, x) for x in line.place.xy)))):
+            size = tree
+        elif any({*along} <= {*pair} for pair in [named.axes[:2], *((pair.along, pair.across) for pair in named.pairs)]):
+            size = quotient(tree, add(*(mul(x, x) for x in along.values())))
+        else:
+            return None
+        return {name: mul(size, part) for name, part in along.items()}
 
-    def _sign(self, tree: Tree) -> int:
-        """Of a square, or its opposite, also where it vanishes at the state."""
+    def _near(self, tree: Tree) -> list[float]:
+        """Its values near the state, also where it vanishes there."""
         rng = np.random.default_rng(_SEED)
         with np.errstate(all="ignore"):
             near = ({x: v + rng.uniform(0.1, 1) for x, v in self.subject.values.items()} for _ in range(_TRIES))
             sizes = [float(evaluate(tree, at, self.subject.tables)) for at in near]
-        return -1 if next((size for size in sizes if np.isfinite(size) and size), 0) < 0 else 1
+        return [size for size in sizes if np.isfinite(size)]
 
 
 def _mass_times(mass: Tree, a: Vector, name: Name) -> Terms:
