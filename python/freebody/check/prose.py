@@ -39,7 +39,9 @@ _SENSE = {re.compile(rf"\s*,?\s*(\()?\b(?:{words})\b(?(1)\))(?=\s*(?:[,;.]|$))",
 _REMARK = re.compile(
     r"\s*\((?:i\.?\s?e\b|e\.?\s?g\b|that is|because|since|so|as|hence|thus|note|acting|by|from|see)\b[^()=]*\)(?=\s*(?:[,;.]|$))"
 )
-_IN_LATEX = re.compile(r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,]+[A-Za-z]+)*\s*[,.:]?)\s*\}")
+_IN_LATEX = re.compile(
+    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,]+[A-Za-z]+)*\s*[,.:]?)\s*\}(?!\s*[_^'])"
+)
 _CONNECTIVES = {
     *(
         "and",
