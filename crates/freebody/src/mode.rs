@@ -1,6 +1,7 @@
 //! What is active now. A motion is a chain of modes; within one, every law is smooth.
 
 use crate::mechanism::{Mechanism, Part};
+use crate::motion::Spent;
 use std::collections::HashMap;
 
 /// Which branches, parts and unilateral constraints are active.
@@ -18,6 +19,8 @@ pub struct Mode {
     other_flank: Vec<usize>,
     /// At rest by friction: nothing moves until the mode changes.
     pub resting: bool,
+    /// Zeros that events have used up where a motion ended, for one that goes on from there.
+    pub spent: Vec<Spent>,
 }
 
 impl PartialEq for Mode {
@@ -124,6 +127,7 @@ impl Mode {
             joint_friction: vec![ContactMode::Open; m.joint_friction.len()],
             other_flank: vec![],
             resting: false,
+            spent: vec![],
         }
     }
     /// Whether it is a mode of this mechanism.

@@ -145,39 +145,44 @@ impl Builder<'_> {
     /// Where the laws of forces, drives and stops, and the curves of joints, are not smooth.
     fn find_discontinuities(&mut self) {
         let m = &self.m;
-        let forces = m.forces.iter().flat_map(|f| f.laws());
-        let drives = m.drives.iter().flat_map(|d| [&d.of, &d.law].into_iter().chain(&d.by));
+        let forces = m.forces.iter().flat_map(|f| f.laws().map(|law| (law, format!("forces.{}", f.name))));
+        let drives = m.drives.iter().flat_map(|d| {
+            let laws = [&d.of, &d.law].into_iter().chain(&d.by);
+            laws.map(|law| (law, format!("{}s.{}", d.kind.word(), d.name)))
+        });
         let stops = m.unilateral.iter().filter_map(|constraint| match &constraint.gap {
-            Gap::Gauge(law) => Some(law),
+            Gap::Gauge(law) => Some((law, m.groups[constraint.group].path())),
             Gap::ContactPair(_) | Gap::Cable(_) => None,
         });
-        let mut discontinuities: Vec<Discontinuity> = vec![];
-        for law in forces.chain(drives).chain(stops).chain(&m.state_rates) {
+        let states = self.spec.states.iter().map(|state| format!("states.{}", state.name));
+        let mut found: Vec<(Discontinuity, String)> = vec![];
+        for (law, item) in forces.chain(drives).chain(stops).chain(m.state_rates.iter().zip(states)) {
             for switch in sorted(law.discontinuities()) {
-                if !discontinuities.iter().any(|k| matches!(k, Discontinuity::Switch(known, _) if *known == switch)) {
-                    discontinuities.push(Discontinuity::Switch(switch, law.clone()));
+                if !found.iter().any(|(k, _)| matches!(k, Discontinuity::Switch(known, _) if *known == switch)) {
+                    found.push((Discontinuity::Switch(switch, law.clone()), item.clone()));
                 }
             }
             for (table, argument) in law.lookups() {
                 let knots = m.tables[table].knots();
-                discontinuities.extend(knots.map(|x| Discontinuity::Knot(table, argument.clone(), x)));
+                found.extend(knots.map(|x| (Discontinuity::Knot(table, argument.clone(), x), item.clone())));
             }
         }
         for (j, joint) in m.joints.iter().enumerate() {
             let Some(curve) = joint.curve.map(|c| &m.curves[c]) else { continue };
-            let first = &joint.coordinates[0];
+            let (first, item) = (&joint.coordinates[0], format!("joints.{}", joint.name));
             let turned = ModelExpr::constant(first.sense) * ModelExpr::variable(ModelVariable::Coordinate(j, 0));
             let along = m.values[first.zero].clone() + turned;
             for law in [&curve.x, &curve.y].map(|law| law.substitute(&ModelVariable::Local, &along)) {
                 let switches = sorted(law.discontinuities());
-                discontinuities.extend(switches.into_iter().map(|switch| Discontinuity::Bend(switch, law.clone())));
+                let bend = |switch| (Discontinuity::Bend(switch, law.clone()), item.clone());
+                found.extend(switches.into_iter().map(bend));
                 for (table, argument) in law.lookups() {
                     let knots = m.tables[table].knots();
-                    discontinuities.extend(knots.map(|x| Discontinuity::Knot(table, argument.clone(), x)));
+                    found.extend(knots.map(|x| (Discontinuity::Knot(table, argument.clone(), x), item.clone())));
                 }
             }
         }
-        self.m.discontinuities = discontinuities;
+        (self.m.discontinuities, self.m.discontinuous_items) = found.into_iter().unzip();
     }
 }
 

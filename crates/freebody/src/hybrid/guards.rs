@@ -47,7 +47,10 @@ impl SwitchingFunction {
     pub(super) fn name(self, m: &Mechanism) -> String {
         match self {
             SwitchingFunction::Event(event) => format!("event `{}`", m.events[event].name),
-            SwitchingFunction::Discontinuity(_) => "kink of a law".to_string(),
+            SwitchingFunction::Discontinuity(law) => {
+                let (word, name) = m.discontinuous_items[law].split_once('.').expect("an item is of a kind");
+                format!("law of the {} `{name}`", word.trim_end_matches('s'))
+            }
             SwitchingFunction::Contact(l, _) => {
                 let group = &m.groups[m.unilateral[l].group];
                 format!("{} `{}`", group.word, group.name)

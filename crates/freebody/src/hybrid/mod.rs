@@ -118,8 +118,10 @@ pub fn simulate(
     let mut workspace = Workspace::new(m, start.p);
     workspace.prefer(settings.route);
     workspace.move_to(start.t, start.q, start.u);
-    let mode = start.mode.cloned().unwrap_or_else(|| workspace.with_row_offsets());
+    let mut mode = start.mode.cloned().unwrap_or_else(|| workspace.with_row_offsets());
+    let spent = std::mem::take(&mut mode.spent);
     let mut system = HybridSystem::new(workspace, mode, start.p);
+    system.spent = spent;
     system.rule = settings.impacts;
     system.jam_by_impact = settings.jam_by_impact;
     let mut y = system.pack(start.q, start.u);

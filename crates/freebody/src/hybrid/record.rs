@@ -5,7 +5,7 @@ use super::mode_changes::{ContactImpulse, ModeChange};
 use super::Trajectory;
 use crate::gauges::ModelExpr;
 use crate::mechanism::{DriveKind, Mechanism};
-use crate::motion::{Kind, Outcome, Unresolved, TIGHTEST};
+use crate::motion::{Doubt, Kind, Outcome, Unresolved, TIGHTEST};
 use serde_json::{json, Value};
 
 impl Trajectory {
@@ -23,7 +23,7 @@ impl Trajectory {
             "changes": self.mode_changes.iter().map(|c| change(m, c)).collect::<Vec<_>>(),
             "outcome": {
                 "name": self.outcome.name(), "ok": self.outcome.is_ok(), "t": self.steps.last(),
-                "sentence": self.sentence(m, reported), "path": self.outcome.path(),
+                "sentence": self.sentence(m, reported), "path": self.path(m),
             },
             "stats": {
                 "accepted": self.counts[0], "rejected": self.counts[1], "evaluations": self.counts[2], "kinks": self.discontinuities,
@@ -33,14 +33,35 @@ impl Trajectory {
         })
     }
 
+    /// The item of the model that its end is about, or nothing.
+    fn path(&self, m: &Mechanism) -> String {
+        match &self.outcome {
+            Outcome::Chatter { index } => match SwitchingFunction::all(m).nth(*index) {
+                Some(SwitchingFunction::Discontinuity(law)) => m.discontinuous_items[law].clone(),
+                _ => String::new(),
+            },
+            other => other.path().to_string(),
+        }
+    }
+
     /// How it ended, with the names of the model.
     pub fn sentence(&self, m: &Mechanism, reported: &[ModelExpr]) -> String {
         let ending = match &self.outcome {
             Outcome::StoppedByEvent { index } => format!("the event `{}` ended the run", m.events[*index].name),
-            Outcome::Chatter { index } => format!(
-                "the {} comes back again and again within one instant; change what happens there, or loosen the tolerance",
-                SwitchingFunction::all(m).nth(*index).map_or(String::new(), |of| of.name(m))
-            ),
+            Outcome::Chatter { index } => {
+                let of = SwitchingFunction::all(m).nth(*index).expect("it is of this mechanism");
+                let advice = match of {
+                    SwitchingFunction::Discontinuity(_) => {
+                        "jumps to and fro within one instant, where what it switches by stays at zero; dry friction that may \
+                         hold is `friction` of a contact, hinge, slot, curved_slot or slider, and any other jump can be made \
+                         steep, as tanh(x/a) with a small a for sign(x)"
+                    }
+                    _ => {
+                        "comes back again and again within one instant; change what happens there, or loosen the tolerance"
+                    }
+                };
+                format!("the {} {advice}", of.name(m))
+            }
             other => other.to_string(),
         };
         let dense = |&(event, t): &(usize, f64)| {
@@ -51,9 +72,12 @@ impl Trajectory {
         };
         let unresolved = |each: &Unresolved| {
             let (name, t, rtol) = (|event: usize| &m.events[event].name, each.t, each.rtol);
-            let what = match each.other {
-                Some(other) => format!("which of `{}` and `{}` comes first", name(each.index), name(other)),
-                None => format!("whether `{}` acts", name(each.index)),
+            let what = match each.doubt {
+                Doubt::Acts => format!("whether `{}` acts", name(each.index)),
+                Doubt::ComesBefore(other) => {
+                    format!("which of `{}` and `{}` comes first", name(each.index), name(other))
+                }
+                Doubt::ComesBeforeEnd => format!("whether `{}` comes before the end of the run", name(each.index)),
             };
             let by = if rtol > TIGHTEST { format!("rtol {rtol:.0e}") } else { "a smaller one".to_string() };
             format!("; {what}, at t = {t:.6} s, is not resolved at this rtol; {by} may tell")

@@ -10,7 +10,7 @@ use crate::gauges::ModelExpr;
 use crate::kinematics::{State, Travel};
 use crate::mechanism::{Discontinuity, EventAction};
 use crate::mode::Mode;
-use crate::motion::{After, Canonical, EventRecord, EventSpec, Segment, System};
+use crate::motion::{After, Canonical, EventRecord, EventSpec, Segment, Spent, System};
 use crate::plane::Vec2;
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
@@ -66,6 +66,8 @@ pub struct HybridSystem<'m> {
     pub(super) taut_segments: Vec<Vec<Vec2>>,
     /// The events of the start.
     pub(super) initial_events: Vec<EventRecord>,
+    /// Zeros that events have used up in the motion that goes on here.
+    pub(super) spent: Vec<Spent>,
     /// After the last bounce: what collided and what comes back first, and how long its flight lasts, s.
     pub(super) bounce_interval: Option<(Vec<usize>, f64)>,
     /// Sizes of forces, N, and of speeds, m/s.
@@ -112,6 +114,7 @@ impl<'m> HybridSystem<'m> {
             mode_changes: vec![],
             taut_segments: vec![],
             initial_events: vec![],
+            spent: vec![],
             bounce_interval: None,
             strength: 1.0,
             speed: 1.0,
@@ -465,6 +468,10 @@ impl System for HybridSystem<'_> {
             (_, false) => After::Continue,
             _ => After::Restart,
         })
+    }
+
+    fn spent(&self) -> &[Spent] {
+        &self.spent
     }
 
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {

@@ -103,7 +103,9 @@ impl Trajectory {
 
     /// The state at the end: a motion that goes on from there starts with it.
     pub fn end(&self, m: &Mechanism) -> MotionState {
-        self.state_of(m, self.run.t, &self.run.y)
+        let mut end = self.state_of(m, self.run.t, &self.run.y);
+        end.mode.spent.clone_from(&self.run.spent);
+        end
     }
 
     /// The state at one time, on the closed loops.

@@ -84,6 +84,8 @@ pub struct Mechanism {
     pub events: Vec<Event>,
     /// Where laws and curves are not smooth: the integrator must not step over these.
     pub discontinuities: Vec<Discontinuity>,
+    /// The item of the model in whose law or curve each of them stands, e.g. `forces.wind`.
+    pub discontinuous_items: Vec<String>,
     /// Number of switches in the model.
     pub switches: usize,
     /// What was assumed while compiling, in sentences.
@@ -237,6 +239,7 @@ impl Mechanism {
             initially_absent: vec![],
             events: vec![],
             discontinuities: vec![],
+            discontinuous_items: vec![],
             switches: 0,
             notes: vec![],
         }

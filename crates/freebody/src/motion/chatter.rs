@@ -30,6 +30,11 @@ impl Chatter {
         Self { since: t, instant: (t, Vec::new()), count: 0, time }
     }
 
+    /// What happened last in the instant of a time.
+    pub fn latest(&self, t: f64) -> Option<usize> {
+        self.instant.1.last().copied().filter(|_| is_tie(t, self.instant.0, self.time))
+    }
+
     /// Whether an event happens twice in one instant, a guard does so again and again, or too many come in a short time.
     pub fn is_dense(&mut self, index: usize, role: Role, t: f64) -> bool {
         if !is_tie(t, self.instant.0, self.time) {

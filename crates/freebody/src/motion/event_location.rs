@@ -2,15 +2,17 @@
 
 use super::chatter::is_tie;
 use super::dense::Segment;
-use super::events::{Kind, Mark, Unresolved};
+use super::events::{Doubt, Kind, Mark, Unresolved};
 use super::method::all_finite;
 use super::outcome::{EventRecord, Outcome};
 use super::probe::Probe;
 use super::run::{ending, Runner};
-use super::system::{After, Role, System};
+use super::system::{After, Role, Spent, System};
 
 /// Part of a step over which the tangent tells where a function is heading.
 const GLANCE: f64 = 1e-3;
+/// The least part of a time by which a step goes beyond a jump, and how that grows until it does.
+const BEYOND: [f64; 2] = [4.0 * f64::EPSILON, 8.0];
 
 impl Runner<'_> {
     /// The zeros on a segment that count, in order.
@@ -43,17 +45,45 @@ impl Runner<'_> {
         if self.detector.is_idle() {
             return Ok(());
         }
-        let (values, h) = (self.switch_values(0.0)?, GLANCE * self.steps.h);
-        let later = self.switch_values(h)?;
+        let (values, ahead) = (self.switch_values(0.0)?, self.ahead as i8);
+        let glance = self.switch_values(GLANCE * self.steps.h)?;
+        let later: Vec<f64> = values.iter().zip(glance).map(|(value, to)| value + (to - value) / GLANCE).collect();
         let (mut hits, system) = (Vec::new(), &mut *self.system.system);
-        for (index, side) in self.detector.crossing_here(&values, &later) {
-            let direction = side * h.signum() as i8;
-            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction, blur: 0.0 };
-            if system.switch(index).role == Role::Event && counts(system, &hit, &self.now.y)? {
+        for (index, side, rtol) in self.detector.coming(&values, &later) {
+            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction: side * ahead, blur: 0.0 };
+            if system.switch(index).role != Role::Event || !counts(system, &hit, &self.now.y)? {
+                continue;
+            }
+            if values[index].abs() <= self.detector.noise(index) {
                 hits.push(hit);
             }
+            let Some(on) = self.run.trajectory.segments.last() else { continue };
+            if Probe::new(system, on).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
+                self.run.unresolved.push(Unresolved { t: self.now.t, index, doubt: Doubt::ComesBeforeEnd, rtol });
+            }
         }
-        self.act(&hits).map(|_| ())
+        if hits.is_empty() {
+            Ok(())
+        } else {
+            self.let_act(&hits)
+        }
+    }
+
+    /// Goes on from the zeros that events have used up where the motion comes from.
+    pub(super) fn go_on_from_zeros(&mut self) -> Result<(), Outcome> {
+        let spent = self.system.system.spent().to_vec();
+        if !spent.is_empty() {
+            let values = self.switch_values(0.0)?;
+            spent.into_iter().for_each(|spent| self.detector.go_on(spent, values[spent.index], self.now.t));
+        }
+        Ok(())
+    }
+
+    /// The zeros that events have used up where the run ended.
+    pub(super) fn spent(&mut self) -> Vec<Spent> {
+        let mut spent = self.switch_values(0.0).map_or(vec![], |values| self.detector.spent(&values));
+        spent.retain(|spent| self.system.system.switch(spent.index).role == Role::Event);
+        spent
     }
 
     /// Steps to the first crossing of `marks`, lets it act and goes on from there.
@@ -68,23 +98,37 @@ impl Runner<'_> {
         if !arrived {
             return self.look_around(&[], None);
         }
+        self.note_end(&hits);
         self.note_unresolved(&segment, self.now.t);
         self.order_events(&mut hits);
+        self.let_act(&hits)
+    }
+
+    /// Lets the events at the present act, and goes on from there.
+    fn let_act(&mut self, hits: &[Mark]) -> Result<(), Outcome> {
         let landed = self.switch_values(0.0)?;
-        let has_jumped = self.act(&hits)?;
+        let (has_jumped, stop) = self.act(hits)?;
+        let jumped_from = has_jumped.then_some(&landed[..]);
+        if let Some(index) = stop {
+            // A run that stops here is complete, whatever would come next.
+            let _ = self.look_around(hits, jumped_from);
+            return Err(Outcome::StoppedByEvent { index });
+        }
         if has_jumped {
             self.stepper.reset();
             self.system.rate_of(&mut self.now).map_err(ending)?;
-            self.restart_steps();
-            self.look_ahead();
+            if self.now.t != self.t_end {
+                self.restart_steps();
+                self.look_ahead();
+            }
         }
-        self.look_around(&hits, has_jumped.then_some(&landed))
+        self.look_around(hits, jumped_from)
     }
 
     /// Tells the watcher on which side of zero all functions go on, of which `landed` are the values before a jump.
     fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>) -> Result<(), Outcome> {
         let values = self.switch_values(0.0)?;
-        let (now, ahead, has_jumped) = (self.now.t, self.sign(), landed.is_some());
+        let (now, ahead, has_jumped) = (self.now.t, self.ahead, landed.is_some());
         self.detector.stop_at(|t| ahead * (now - t) >= 0.0, &values, has_jumped);
         for hit in hits {
             let side = match (self.system.system.switch(hit.index).role, landed) {
@@ -92,7 +136,7 @@ impl Runner<'_> {
                 // An action may have turned the motion, or moved the zero.
                 (Role::Event, Some(landed)) => self.side(hit.index, landed[hit.index], values[hit.index])?,
                 // A discontinuity has changed to the arm beyond.
-                (Role::Event | Role::Discontinuity, _) => hit.direction * self.sign() as i8,
+                (Role::Event | Role::Discontinuity, _) => hit.direction * ahead as i8,
             };
             self.detector.spend(hit.index, side, self.now.t);
         }
@@ -102,7 +146,8 @@ impl Runner<'_> {
     /// On which side of zero switching function `i` goes on, `landed` when it was at a zero and `value` after the jump there;
     /// 0 when it rests at the zero.
     fn side(&mut self, i: usize, landed: f64, value: f64) -> Result<i8, Outcome> {
-        if (value - landed).abs() > landed.abs() + self.detector.noise(i) {
+        let moved = (value - landed).abs() > landed.abs() + self.detector.noise(i);
+        if moved || self.detector.jumps(i, value) {
             return Ok(value.signum() as i8);
         }
         let rise = self.switch_values(GLANCE * self.steps.h)?[i] - value;
@@ -110,12 +155,15 @@ impl Runner<'_> {
     }
 
     /// Makes a true step to a zero that was found on the dense output of a longer one, and once more when the function is
-    /// not yet zero there. Answers whether it got there: not where another one vanishes clearly before, at `next` as the
-    /// dense output tells it; which comes first is then found from there.
+    /// not yet zero there; just beyond, where it jumps and never is. Answers whether it got there: not where another one vanishes
+    /// clearly before, at `next` as the dense output tells it; which comes first is then found from there.
     fn step_onto(&mut self, segment: &Segment, hit: Mark, next: Option<f64>) -> Result<bool, Outcome> {
         let last = next.unwrap_or(segment.t1);
         let (t0, t1) = (segment.t0.min(last), segment.t0.max(last));
         let (mut t, mut arrives) = (hit.t, true);
+        if t != self.now.t && self.jumps(segment, hit)? {
+            return Ok(self.step_beyond(hit, last)? || next.is_none());
+        }
         for _ in 0..3 {
             if t == self.now.t {
                 return Ok(true);
@@ -138,6 +186,37 @@ impl Runner<'_> {
         Ok(arrives)
     }
 
+    /// Whether a function is no zero beside a time at which it changes its sign.
+    fn jumps(&mut self, segment: &Segment, hit: Mark) -> Result<bool, Outcome> {
+        let (least, latest) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
+        let beside = BEYOND[0] * (self.norm.time + hit.t.abs());
+        let mut probe = Probe::new(&mut *self.system.system, segment);
+        let mut value = |t: f64| probe.one(hit.index, t.clamp(least, latest)).map_err(Outcome::DynamicsError);
+        let sides = [value(hit.t - beside)?, value(hit.t + beside)?];
+        Ok(sides.iter().all(|&value| self.detector.jumps(hit.index, value)))
+    }
+
+    /// Makes a true step to just beyond a jump that was found on the dense output of a longer one, or to the time `last`;
+    /// answers whether it got beyond.
+    fn step_beyond(&mut self, hit: Mark, last: f64) -> Result<bool, Outcome> {
+        let (mut t, [mut part, growth]) = (hit.t, BEYOND);
+        let is_beyond = loop {
+            self.step_to(t)?;
+            let mut values = vec![0.0; self.system.system.switches()];
+            self.system.system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
+            let is_beyond = values[hit.index] * f64::from(hit.direction) * self.ahead > 0.0;
+            if is_beyond || t == last {
+                break is_beyond;
+            }
+            let (later, left) = (part * (self.norm.time + hit.t.abs()), (last - hit.t).abs());
+            t = if later < left { hit.t + self.ahead * later } else { last };
+            part *= growth;
+        };
+        let landed = self.segment()?;
+        self.push(landed);
+        Ok(is_beyond)
+    }
+
     /// Makes a step to `t`, which is known to be short enough.
     fn step_to(&mut self, t: f64) -> Result<(), Outcome> {
         self.next.t = t;
@@ -146,8 +225,8 @@ impl Runner<'_> {
         self.project()
     }
 
-    /// Lets the events at the present act; returns whether the state or the law changed.
-    fn act(&mut self, hits: &[Mark]) -> Result<bool, Outcome> {
+    /// What the events at the present do: whether the state or the law changed, and which of them ends the run.
+    fn act(&mut self, hits: &[Mark]) -> Result<(bool, Option<usize>), Outcome> {
         let (before, mut has_jumped, mut stop) = (self.now.y.clone(), false, None);
         for hit in hits {
             let system = &mut *self.system.system;
@@ -178,10 +257,7 @@ impl Runner<'_> {
             }
         }
         all_finite(&self.now.y).map_err(ending)?;
-        match stop {
-            Some(index) => Err(Outcome::StoppedByEvent { index }),
-            None => Ok(has_jumped || self.now.y != before),
-        }
+        Ok((has_jumped || self.now.y != before, stop))
     }
 
     /// Records the touches before time `until`.
@@ -199,7 +275,7 @@ impl Runner<'_> {
     /// Records once what events do before time `until` by less than the motion is known.
     pub(super) fn note_unresolved(&mut self, segment: &Segment, until: f64) {
         for each in std::mem::take(&mut self.detector.unresolved) {
-            let known = |other: &Unresolved| (other.index, other.other) == (each.index, each.other);
+            let known = |other: &Unresolved| (other.index, other.doubt) == (each.index, each.doubt);
             if (each.t - segment.t0).abs() <= (until - segment.t0).abs() && !self.run.unresolved.iter().any(known) {
                 self.run.unresolved.push(each);
             }
@@ -221,9 +297,18 @@ impl Runner<'_> {
         for mark in crossings.iter().filter(acts).filter(|mark| !is_tie(mark.t, first.t, self.norm.time)) {
             let (apart, blur) = ((mark.t - first.t).abs(), first.blur + mark.blur);
             if apart <= blur {
-                let (t, other, rtol) = (first.t, Some(mark.index), self.norm.rtol * apart / blur);
-                self.detector.unresolved.push(Unresolved { t, index: first.index, other, rtol });
+                let (t, doubt, rtol) = (first.t, Doubt::ComesBefore(mark.index), self.norm.rtol * apart / blur);
+                self.detector.unresolved.push(Unresolved { t, index: first.index, doubt, rtol });
             }
+        }
+    }
+
+    /// Notes what happens so soon before the end of the run that it may come after it.
+    fn note_end(&mut self, hits: &[Mark]) {
+        let (t, left) = (self.now.t, (self.t_end - self.now.t).abs());
+        for hit in hits.iter().filter(|hit| left < hit.blur) {
+            let (index, rtol) = (hit.index, self.norm.rtol * left / hit.blur);
+            self.detector.unresolved.push(Unresolved { t, index, doubt: Doubt::ComesBeforeEnd, rtol });
         }
     }
 

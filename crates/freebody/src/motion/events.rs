@@ -3,7 +3,7 @@
 use super::dense::Segment;
 use super::probe::{Node, Probe};
 use super::roots::{chebyshev, chebyshev_points, extrema, monomial, value, SAMPLES};
-use super::system::{DynamicsError, Role, System};
+use super::system::{DynamicsError, Role, Spent, System};
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -26,6 +26,10 @@ const CONVERGED: f64 = 1e-9;
 const FAR_FROM_ZERO: f64 = 1e-2;
 /// A function changes at most this many times as fast as its steepest secant.
 const STEEPER: f64 = 1.5;
+/// Parabolas by which an extremum is brought nearer.
+const PARABOLAS: usize = 3;
+/// Size of a value, over that of its function, at a change of sign that is no zero: there the function jumps.
+const JUMP: f64 = 1e-6;
 /// Values of one function in one step that are asked for beside the samples and extrema.
 const PATIENCE: usize = 300;
 
@@ -48,19 +52,30 @@ pub(super) struct Mark {
     pub kind: Kind,
     /// +1 where the function rises as time grows, −1 where it falls, 0 for a touch.
     pub direction: i8,
-    /// How far its time is not sure, s; 0 where nothing acts or time alone decides.
+    /// How far the time of an event is not sure, s; 0 where time alone decides.
     pub blur: f64,
 }
 
-/// What an event that acts does by less than the motion is known.
+/// What is not sure of an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Doubt {
+    /// Whether it acts.
+    Acts,
+    /// Whether it comes before another.
+    ComesBefore(usize),
+    /// Whether it comes before the end of the run.
+    ComesBeforeEnd,
+}
+
+/// What an event does by less than the motion is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unresolved {
     /// When.
     pub t: f64,
-    /// The event that may, or may not, act.
+    /// The event.
     pub index: usize,
-    /// Another that comes so near that either may be the first.
-    pub other: Option<usize>,
+    /// What is not sure of it.
+    pub doubt: Doubt,
     /// The relative tolerance that may tell.
     pub rtol: f64,
 }
@@ -92,8 +107,10 @@ struct Memory {
     is_guard: bool,
     /// Part of its reach within which it touches zero.
     graze: f64,
-    /// The same within which it is not sure whether it acts.
+    /// The same within which it is not sure whether it acts,
     doubt: f64,
+    /// and within which it is not sure, of any event, when it comes.
+    blur: f64,
 }
 
 impl Memory {
@@ -151,8 +168,9 @@ impl EventDetector {
                 _ if spec.acts => GRAZE_OF_ACTION * rtol,
                 _ => GRAZE * rtol,
             };
-            let doubt = if spec.acts { DOUBT * rtol } else { 0.0 };
-            Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze, doubt }
+            let blur = if spec.role == Role::Event { DOUBT * rtol } else { 0.0 };
+            let doubt = if spec.acts { blur } else { 0.0 };
+            Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze, doubt, blur }
         };
         let memory: Vec<Memory> = (0..system.switches()).map(memory).collect();
         let bounds = vec![[0.0; 2]; memory.len()];
@@ -248,6 +266,9 @@ impl EventDetector {
         let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
         if !(tail <= CONVERGED * swing || tail <= FAR_FROM_ZERO * nearest) {
             nodes = self.between(i, &nodes, values, probe)?;
+            if !memory.is_guard {
+                nodes = turns(i, &nodes, probe)?;
+            }
         }
         nodes.extend(past);
         Ok(nodes)
@@ -307,7 +328,7 @@ impl EventDetector {
                 (memory.doubt > 0.0 && part <= memory.doubt).then_some(Unresolved {
                     t,
                     index: i,
-                    other: None,
+                    doubt: Doubt::Acts,
                     rtol: part / DOUBT,
                 })
             };
@@ -344,8 +365,8 @@ impl EventDetector {
                 let turn = nodes[k..].iter().find(|node| node.is_extremum);
                 self.unresolved.extend(turn.and_then(|turn| unsure(turn, t)));
                 let slope = ((node.value - last.value) / (node.t - last.t)).abs();
-                let blur = match memory.doubt > 0.0 && probe.depends_on_state(i, t)? {
-                    true => memory.doubt * place.reach / slope,
+                let blur = match memory.blur > 0.0 && probe.depends_on_state(i, t)? {
+                    true => memory.blur * place.reach / slope,
                     false => 0.0,
                 };
                 marks.push(Mark { t, index: i, kind: Kind::Crossing, direction, blur });
@@ -370,13 +391,13 @@ impl EventDetector {
         }
     }
 
-    /// Functions that are zero where the run is, and about to change their sign, with the side that they go to;
-    /// `ahead`: their values a little later.
-    pub fn crossing_here<'a>(&'a self, values: &'a [f64], later: &'a [f64]) -> impl Iterator<Item = (usize, i8)> + 'a {
+    /// Functions that come to zero where the run ends, no farther than they are known, with the side that they go to and the
+    /// tolerance that may tell on which they are there; `values` there, and those a step `later` as they go.
+    pub fn coming<'a>(&'a self, values: &'a [f64], later: &'a [f64]) -> impl Iterator<Item = (usize, i8, f64)> + 'a {
         self.memory.iter().enumerate().filter_map(|(i, memory)| {
-            let is_zero = !memory.is_spent && !memory.is_muted && memory.sign(values[i]) == 0;
-            let goes_on = (later[i] - values[i]) * f64::from(memory.now.side) < 0.0;
-            (is_zero && goes_on).then_some((i, -memory.now.side))
+            let (left, side, reach) = (values[i].abs(), memory.now.side, memory.now.reach);
+            let is_near = !memory.is_spent && !memory.is_muted && left <= self.noise(i).max(memory.blur * reach);
+            (is_near && later[i] * f64::from(side) < 0.0).then_some((i, -side, left / (DOUBT * reach)))
         })
     }
 
@@ -407,9 +428,32 @@ impl EventDetector {
         NOISE * self.memory[i].size
     }
 
+    /// Whether a value of function `i` where it changes its sign is no zero.
+    pub fn jumps(&self, i: usize, value: f64) -> bool {
+        value.abs() > JUMP * self.memory[i].size
+    }
+
     /// Function `i` is not watched any more.
     pub fn mute(&mut self, i: usize) {
         self.memory[i].is_muted = true;
+    }
+
+    /// The zeros that are used up where the run ended, of functions with these `values` there.
+    pub fn spent(&self, values: &[f64]) -> Vec<Spent> {
+        let spent = |(index, memory): (usize, &Memory)| {
+            let (side, value, size) = (memory.now.side, values[index], memory.size);
+            memory.is_spent.then_some(Spent { index, side, value, size })
+        };
+        self.memory.iter().enumerate().filter_map(spent).collect()
+    }
+
+    /// Goes on at `t` from a zero that was used up, unless the function has another `value` there by now.
+    pub fn go_on(&mut self, spent: Spent, value: f64, t: f64) {
+        let memory = &mut self.memory[spent.index];
+        memory.size = memory.size.max(spent.size);
+        if (value - spent.value).abs() <= TOUCH * memory.size {
+            self.spend(spent.index, spent.side, t);
+        }
     }
 
     /// Function `i` acted at `t`, where the run stopped, and is now heading for `side`: its zero there is used up.
@@ -418,4 +462,31 @@ impl EventDetector {
         memory.is_spent = true;
         memory.now = Place { side, reach: 0.0, grazes: None, last_touch: t };
     }
+}
+
+/// The nodes of function `i` with its extrema as they are themselves, not as those of a polynomial that does not follow it: each node
+/// beyond both of its neighbours, brought nearer by parabolas.
+fn turns(i: usize, nodes: &[Node], probe: &mut Probe) -> Result<Vec<Node>, DynamicsError> {
+    let mut found = nodes.to_vec();
+    for k in 1..nodes.len() - 1 {
+        let [mut a, mut b, mut c] = [nodes[k - 1], nodes[k], nodes[k + 1]];
+        b.is_extremum = (b.value - a.value) * (b.value - c.value) > 0.0;
+        for _ in 0..if b.is_extremum { PARABOLAS } else { 0 } {
+            let (left, right) = ((b.value - a.value) / (b.t - a.t), (c.value - b.value) / (c.t - b.t));
+            let t = 0.5 * (a.t + b.t - left * (c.t - a.t) / (right - left));
+            let node = Node { t, value: probe.one(i, t)?, is_extremum: true };
+            let (is_farther, is_later) = ((node.value - b.value) * left > 0.0, (t - b.t) * (c.t - b.t) > 0.0);
+            match (is_farther, is_later) {
+                (true, true) => (a, b) = (b, node),
+                (true, false) => (b, c) = (node, b),
+                (false, true) => c = node,
+                (false, false) => a = node,
+            }
+            if !(t != b.t || is_farther) || a.t == b.t || b.t == c.t {
+                break;
+            }
+        }
+        found[k] = b;
+    }
+    Ok(found)
 }

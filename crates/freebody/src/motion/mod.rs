@@ -28,12 +28,12 @@ mod tests;
 mod tsit5;
 
 pub use dense::{Segment, Trajectory};
-pub use events::{Kind, Unresolved};
+pub use events::{Doubt, Kind, Unresolved};
 pub use march::{march, Span};
 pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options, TIGHTEST};
-pub use system::{After, Canonical, DynamicsError, EventSpec, Role, System};
+pub use system::{After, Canonical, DynamicsError, EventSpec, Role, Spent, System};
 
 /// All methods; the first one is the default.
 pub const METHODS: &[&Method] = &[&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];

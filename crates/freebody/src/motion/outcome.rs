@@ -2,7 +2,7 @@
 
 use super::dense::Trajectory;
 use super::events::{Kind, Unresolved};
-use super::system::DynamicsError;
+use super::system::{DynamicsError, Spent};
 use std::fmt;
 
 /// How a run ended. Each names the last good time `t` through [`Run::t`].
@@ -139,6 +139,8 @@ pub struct Run {
     pub unrecorded: Vec<(usize, f64)>,
     /// What events do by less than the motion is known, each once.
     pub unresolved: Vec<Unresolved>,
+    /// Zeros that events have used up where it ended.
+    pub spent: Vec<Spent>,
     /// How it ended.
     pub outcome: Outcome,
     /// Last good time.

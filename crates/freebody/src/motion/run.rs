@@ -7,7 +7,7 @@ use super::method::{all_finite, Counted, Failure, Method, Point, Stepper};
 use super::norm::{first_step, Norm, SMALL_STEP};
 use super::outcome::{Outcome, Run};
 use super::step_control::StepController;
-use super::system::System;
+use super::system::{Role, System};
 
 /// The tightest relative tolerance that is accepted.
 pub const TIGHTEST: f64 = 1e-14;
@@ -87,7 +87,9 @@ pub(super) struct Runner<'a> {
     pub now: Point,
     /// End of the step being made.
     pub next: Point,
-    t_end: f64,
+    pub t_end: f64,
+    /// +1 or −1, as the run goes forward or backward.
+    pub ahead: f64,
     /// The end of the step before its projection, and before the last round of it.
     before: Vec<f64>,
     from: Vec<f64>,
@@ -114,6 +116,7 @@ impl<'a> Runner<'a> {
             singular_stage: (method.stage_gap, None),
             next: now.clone(),
             t_end,
+            ahead: (t_end - t0).signum(),
             before: vec![],
             from: vec![],
             run: Run::new(&now),
@@ -126,11 +129,11 @@ impl<'a> Runner<'a> {
         self.refuse(method, options)?;
         self.system.rate_of(&mut self.now).map_err(ending)?;
         match options.first_step {
-            Some(h) => self.steps.restart(h.abs() * self.sign()),
+            Some(h) => self.steps.restart(h.abs() * self.ahead),
             None => self.restart_steps(),
         }
         self.look_ahead();
-        Ok(())
+        self.go_on_from_zeros()
     }
 
     /// What the method cannot do, by name.
@@ -153,10 +156,6 @@ impl<'a> Runner<'a> {
             return Err(Outcome::ToleranceTooTight { rtol: options.rtol });
         }
         all_finite(&self.now.y).map_err(ending)
-    }
-
-    pub fn sign(&self) -> f64 {
-        (self.t_end - self.now.t).signum()
     }
 
     /// Chooses the step anew, as at the start.
@@ -210,7 +209,8 @@ impl<'a> Runner<'a> {
             let h = self.next.t - self.now.t;
             if h.abs() < 4.0 * f64::EPSILON * self.now.t.abs() && self.next.t != self.t_end || h == 0.0 {
                 let known = self.system.system.dead_end(self.now.t, &self.now.y);
-                return Err(known.filter(|_| cause == Outcome::StepUnderflow).map_or(cause, Outcome::DynamicsError));
+                let known = known.map(Outcome::DynamicsError).or_else(|| self.stuck_law());
+                return Err(known.filter(|_| cause == Outcome::StepUnderflow).unwrap_or(cause));
             }
             match self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm) {
                 Ok(error) if error <= 1.0 => return Ok(error),
@@ -228,6 +228,13 @@ impl<'a> Runner<'a> {
             }
             self.run.rejected += 1;
         }
+    }
+
+    /// A law that has just taken another branch and, as no step is short enough for it, goes back.
+    fn stuck_law(&self) -> Option<Outcome> {
+        let latest = self.chatter.latest(self.now.t);
+        let index = latest.filter(|&index| self.system.system.switch(index).role == Role::Discontinuity)?;
+        Some(Outcome::Chatter { index })
     }
 
     /// End of the next step: the end of the run when it is in reach.
@@ -316,8 +323,9 @@ impl<'a> Runner<'a> {
         self.norm.noise = system.noise();
     }
 
-    fn finish(self, outcome: Outcome) -> Run {
-        Run { outcome, t: self.now.t, y: self.now.y, evaluations: self.system.evaluations, ..self.run }
+    fn finish(mut self, outcome: Outcome) -> Run {
+        let spent = self.spent();
+        Run { outcome, t: self.now.t, y: self.now.y, evaluations: self.system.evaluations, spent, ..self.run }
     }
 }
 
@@ -337,6 +345,7 @@ impl Run {
             events: Vec::new(),
             unrecorded: Vec::new(),
             unresolved: Vec::new(),
+            spent: Vec::new(),
             outcome: Outcome::Interrupted,
             t: at.t,
             y: at.y.clone(),

@@ -48,6 +48,19 @@ impl EventSpec {
     }
 }
 
+/// A zero that an event has used up where a motion ended: one that goes on from there does not see it again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spent {
+    /// Its switching function.
+    pub index: usize,
+    /// The side of zero on which it goes on; 0 where it rests there.
+    pub side: i8,
+    /// Its value there.
+    pub value: f64,
+    /// Largest value seen on the way.
+    pub size: f64,
+}
+
 /// What follows an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum After {
@@ -175,6 +188,11 @@ pub trait System {
     /// A named failure; the run ends with it.
     fn act(&mut self, _i: usize, _t: f64, _y: &mut [f64]) -> Result<After, DynamicsError> {
         Ok(After::Continue)
+    }
+
+    /// Zeros that events have used up in the motion that goes on here.
+    fn spent(&self) -> &[Spent] {
+        &[]
     }
 
     /// The canonical form, which symplectic methods need; `None` when there is none.
