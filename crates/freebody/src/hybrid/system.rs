@@ -421,12 +421,14 @@ impl System for HybridSystem<'_> {
             SwitchingFunction::Event(event) => {
                 let event = &self.workspace.m.events[event];
                 EventSpec {
-                    is_positive: event.guard,
+                    side: i8::from(event.guard),
                     acts: !event.then.is_empty(),
                     ..EventSpec::event(event.direction)
                 }
             }
-            SwitchingFunction::Discontinuity(_) => EventSpec::discontinuity(),
+            SwitchingFunction::Discontinuity(law) => {
+                EventSpec { side: self.frozen_side(law), ..EventSpec::discontinuity() }
+            }
             SwitchingFunction::Contact(l, guard) => {
                 EventSpec { of_forces: self.is_force(l, guard), ..EventSpec::guard(self.roundoff_scale) }
             }
@@ -445,6 +447,34 @@ impl System for HybridSystem<'_> {
     }
 
     fn act(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, DynamicsError> {
+        let before = self.branch_values(t, y);
+        let after = self.act_on(i, t, y)?;
+        if !matches!(self.switching_functions[i], SwitchingFunction::Discontinuity(_))
+            && self.follow_jump(t, y, &before)
+        {
+            return Ok(if after == After::Continue { After::Restart } else { after });
+        }
+        Ok(after)
+    }
+
+    fn spent(&self) -> &[Spent] {
+        &self.spent
+    }
+
+    fn canonical(&mut self) -> Option<&mut dyn Canonical> {
+        if self.workspace.is_closed()
+            || self.workspace.m.is_hybrid()
+            || !(self.works.forces.is_empty() && self.workspace.m.state_rates.is_empty())
+        {
+            return None;
+        }
+        Some(self)
+    }
+}
+
+impl HybridSystem<'_> {
+    /// What happens at a zero of a switching function.
+    fn act_on(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, DynamicsError> {
         let m = self.workspace.m;
         let event = match self.switching_functions[i] {
             SwitchingFunction::Event(event) => &m.events[event],
@@ -470,17 +500,36 @@ impl System for HybridSystem<'_> {
         })
     }
 
-    fn spent(&self) -> &[Spent] {
-        &self.spent
+    /// The side of zero of a switch that is frozen at a branch; 0 of any other discontinuity.
+    fn frozen_side(&self, law: usize) -> i8 {
+        let Discontinuity::Switch(switch, _) = self.workspace.m.discontinuities[law] else { return 0 };
+        self.mode.branch(switch).map_or(0, |branch| if branch { 1 } else { -1 })
     }
 
-    fn canonical(&mut self) -> Option<&mut dyn Canonical> {
-        if self.workspace.is_closed()
-            || self.workspace.m.is_hybrid()
-            || !(self.works.forces.is_empty() && self.workspace.m.state_rates.is_empty())
-        {
-            return None;
+    /// The values by which laws take their branches, at a state.
+    fn branch_values(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
+        let m = self.workspace.m;
+        if m.discontinuities.is_empty() {
+            return vec![];
         }
-        Some(self)
+        self.place(t, y);
+        m.discontinuities.iter().map(|discontinuity| self.switching(discontinuity)).collect()
+    }
+
+    /// Lets laws take the branches to which a jump of the state has brought them, from the values `before`; answers whether any did.
+    fn follow_jump(&mut self, t: f64, y: &[f64], before: &[f64]) -> bool {
+        let (m, values, mut changed) = (self.workspace.m, self.branch_values(t, y), false);
+        for (discontinuity, (value, before)) in m.discontinuities.iter().zip(values.iter().zip(before)) {
+            let Discontinuity::Switch(switch, _) = discontinuity else { continue };
+            if value != before && *value != 0.0 && self.mode.branch(*switch) != Some(*value > 0.0) {
+                self.mode.freeze(*switch, *value > 0.0);
+                changed = true;
+            }
+        }
+        if changed {
+            self.begin_phase(t, 0.0);
+            self.place(t, y);
+        }
+        changed
     }
 }

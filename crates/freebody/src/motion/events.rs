@@ -160,9 +160,8 @@ impl EventDetector {
     pub fn new(system: &dyn System, rtol: f64) -> Self {
         let memory = |i| {
             let spec = system.switch(i);
-            let side = i8::from(spec.is_positive);
             let (now, is_guard) =
-                (Place { side, reach: 0.0, grazes: None, last_touch: f64::NAN }, spec.role == Role::Guard);
+                (Place { side: spec.side, reach: 0.0, grazes: None, last_touch: f64::NAN }, spec.role == Role::Guard);
             let graze = match spec.role {
                 Role::Guard => 0.0,
                 _ if spec.acts => GRAZE_OF_ACTION * rtol,

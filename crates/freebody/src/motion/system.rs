@@ -12,8 +12,8 @@ pub struct EventSpec {
     pub role: Role,
     /// Whether an event does more than being reported.
     pub acts: bool,
-    /// It is positive where the run starts: a value below zero there is its zero.
-    pub is_positive: bool,
+    /// Side of zero on which it is where the run starts, +1 or −1: a value on the other there is its zero; 0: its value tells.
+    pub side: i8,
     /// It is of forces, which are known as well as the motion is; what is of places is kept to round-off.
     pub of_forces: bool,
     /// Physical size of the function: what is below 16 ε of it is zero. 0 when unknown; the
@@ -36,7 +36,7 @@ pub enum Role {
 impl EventSpec {
     /// An event that counts in a direction.
     pub fn event(direction: i8) -> Self {
-        EventSpec { direction, role: Role::Event, acts: false, is_positive: false, of_forces: false, scale: 0.0 }
+        EventSpec { direction, role: Role::Event, acts: false, side: 0, of_forces: false, scale: 0.0 }
     }
     /// A discontinuity.
     pub fn discontinuity() -> Self {
@@ -44,7 +44,7 @@ impl EventSpec {
     }
     /// A guard of given physical size.
     pub fn guard(scale: f64) -> Self {
-        EventSpec { role: Role::Guard, is_positive: true, scale, ..EventSpec::event(-1) }
+        EventSpec { role: Role::Guard, side: 1, scale, ..EventSpec::event(-1) }
     }
 }
 
