@@ -11,7 +11,7 @@ LAWS = (
     "-(1 N)*sign(rate(b.y))",
     "if(rate(b.y) > 0, -1 N, 1 N)",
     "if(rate(b.y) < 0, 1 N, -1 N)",
-    "-(1 N)*rate(b.y)/max(abs(rate(b.y)), 1e-9 m/s)",
+    "-(1 N)*rate(b.y)/max(abs(rate(b.y)), 1e-6 m/s)",
 )
 MOTIONS = {
     "falls from rest": ("", "initial: {b.x: 0, b.y: 10 m, at_rest: true}", ""),

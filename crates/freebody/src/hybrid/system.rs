@@ -518,11 +518,13 @@ impl HybridSystem<'_> {
 
     /// Lets laws take the branches to which a jump of the state has brought them, from the values `before`; answers whether any did.
     fn follow_jump(&mut self, t: f64, y: &[f64], before: &[f64]) -> bool {
-        let (m, values, mut changed) = (self.workspace.m, self.branch_values(t, y), false);
-        for (discontinuity, (value, before)) in m.discontinuities.iter().zip(values.iter().zip(before)) {
+        let (m, mut changed) = (self.workspace.m, false);
+        for (discontinuity, before) in m.discontinuities.iter().zip(before) {
             let Discontinuity::Switch(switch, _) = discontinuity else { continue };
-            if value != before && *value != 0.0 && self.mode.branch(*switch) != Some(*value > 0.0) {
-                self.mode.freeze(*switch, *value > 0.0);
+            self.place(t, y); // what is within another law has its branch by now
+            let value = self.switching(discontinuity);
+            if value != *before && value != 0.0 && self.mode.branch(*switch) != Some(value > 0.0) {
+                self.mode.freeze(*switch, value > 0.0);
                 changed = true;
             }
         }

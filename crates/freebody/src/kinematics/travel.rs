@@ -45,7 +45,7 @@ impl Travel {
             if !at.m.bodies[body].particle {
                 turned.copy_from_slice(carried);
             }
-            let (mut shift, mut spin) = (0.0, 0.0);
+            let (mut shift, mut spin, mut relative) = (0.0, 0.0, 0.0);
             for (j, coordinate) in joint.coordinates.iter().enumerate() {
                 let (i, reading) = (b.start + j, coordinate.reading(&at.n.values));
                 let (column, is_shift) = (at.k.motion_subspace[body][j].w, coordinate.dimension == "m");
@@ -55,6 +55,7 @@ impl Travel {
                     let own = reading.to_joint(0.0, change, 0.0, carried[k]).1;
                     *(if is_shift { &mut shift } else { &mut spin }) += own.abs();
                     turned[k] += column * own;
+                    relative += (column * own).abs();
                 }
             }
             if joint.curve.is_some() {
@@ -62,7 +63,7 @@ impl Travel {
             }
             self.turn[body] = turned.iter().map(|turn| turn.abs()).sum();
             let swing = self.turn[b.parent] * at.k.arm[body].norm();
-            self.way[body] = self.way[b.parent] + swing + joint_way(at, body, joint, b, [shift, spin]);
+            self.way[body] = self.way[b.parent] + swing + joint_way(at, body, joint, b, [shift, spin, relative]);
         }
     }
 
@@ -72,15 +73,17 @@ impl Travel {
     }
 }
 
-/// How far a joint moves its second body's origin in the first body's axes, its coordinates shifting and turning by so much:
-/// what they turn is no longer than from one body's point to the other's.
-fn joint_way(at: StateView<'_>, body: usize, joint: &Joint, b: TreeJoint, [shift, spin]: [f64; 2]) -> f64 {
+/// How far a joint moves the origin of the body that it carries in the axes of the other, its coordinates shifting and turning
+/// by so much, and the one body turning by so much `relative` to the other: what they turn is no longer than from one body's point
+/// to the other's, and what hangs on its second body turns with that, too.
+fn joint_way(at: StateView<'_>, body: usize, joint: &Joint, b: TreeJoint, [shift, spin, relative]: [f64; 3]) -> f64 {
     match (b.hinge, joint.curve) {
         (true, _) => 0.0,
         (_, Some(_)) => f64::INFINITY,
         _ => {
             let from = at.k.pose[b.parent].turn.apply(at.n.arms[joint.sides(b.reversed).0.site]);
-            shift + spin * ((at.k.arm[body] - from).norm() + shift)
+            let turns = spin + if b.reversed { relative } else { 0.0 };
+            shift + turns * ((at.k.arm[body] - from).norm() + shift)
         }
     }
 }

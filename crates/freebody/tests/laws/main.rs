@@ -27,5 +27,6 @@ mod redundancy;
 mod rng;
 mod scenes;
 mod symbolic;
+mod travel;
 mod tree_choice;
 mod two_definitions;
