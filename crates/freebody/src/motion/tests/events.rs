@@ -109,7 +109,8 @@ fn what_is_only_recorded_never_ends_a_run() {
     assert_eq!((run.outcome, run.unrecorded.len()), (Outcome::Completed, 1));
 }
 
-/// A point passes a peg: its distance is a V, and it is inside for as little as a millionth of the step.
+/// A point passes a peg: its distance is a V, and it is inside for as little as a millionth of the step. Where it goes in by less
+/// than is known of the distance, it touches.
 #[test]
 fn a_short_visit_is_not_missed() {
     let mut seed = 5;
@@ -122,6 +123,10 @@ fn a_short_visit_is_not_missed() {
         let end = 2.5 + 4.0 * radius;
         let options = Options { first_step: Some(end), ..rtol(1e-9) };
         let found = times(&system.run("dop853", (0.0, &[0.0]), end, &options));
+        if radius - off.abs() < 100.0 * options.rtol && found.len() == 1 {
+            assert!((found[0] - at).abs() < 2.0 * half, "{radius} {off} {at}");
+            continue;
+        }
         assert_eq!(found.len(), 2, "{radius} {off} {at}");
         assert!((found[0] - at + half).abs() < 1e-9 && (found[1] - at - half).abs() < 1e-9);
     }
