@@ -67,10 +67,8 @@ impl Batch<'_> {
     /// Makes them. `go_on` is asked now and then; None where it answers false.
     pub fn run(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Motions> {
         let width = self.times.len() * 2 * self.m.freedom();
-        let mut made = Motions {
-            states: vec![f64::NAN; self.members * width],
-            endings: vec![Ending::default(); self.members],
-        };
+        let mut made =
+            Motions { states: vec![f64::NAN; self.members * width], endings: vec![Ending::default(); self.members] };
         let in_lanes = self.is_march() && fits_lanes(self.m);
         let block = if in_lanes { LANES } else { 1 };
         let states = made.states.chunks_mut((block * width).max(1));

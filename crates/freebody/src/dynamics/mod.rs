@@ -344,14 +344,9 @@ impl<'m> Workspace<'m> {
                 self.rows.clear();
                 self.solved.lambda.clear();
                 let s = &mut self.solved;
-                self.articulated_body.solve(
-                    at,
-                    &self.arms,
-                    &self.loads,
-                    &mut s.nu_dot,
-                    &mut s.bodies,
-                    |i, wrench| s.joint_wrenches[i] = wrench,
-                )
+                self.articulated_body.solve(at, &self.arms, &self.loads, &mut s.nu_dot, &mut s.bodies, |i, wrench| {
+                    s.joint_wrenches[i] = wrench
+                })
             }
             Route::Minimal => self.solve_minimal(),
             Route::NewtonEuler => self.solve_newton_euler(),

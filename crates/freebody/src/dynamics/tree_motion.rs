@@ -30,9 +30,8 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
     /// Whether a mechanism is a tree whose motion is the same operations whatever its numbers: nothing closes a loop, switches, happens
     /// or is looked up.
     pub fn fits(m: &Mechanism) -> bool {
-        let is_plain = |joint: &Joint| {
-            joint.curve.is_none() && !joint.coordinates.iter().any(|c| joint.kind.unsigned(c.card))
-        };
+        let is_plain =
+            |joint: &Joint| joint.curve.is_none() && !joint.coordinates.iter().any(|c| joint.kind.unsigned(c.card));
         let is_smooth = |force: &Force| force.plate.is_none() && force.laws().all(ModelExpr::is_uniform);
         m.closures.is_empty()
             && m.drives.is_empty()

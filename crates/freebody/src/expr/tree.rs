@@ -170,7 +170,9 @@ impl<L> Expr<L> {
     /// Whether it is the same operations whatever the values of its leaves.
     pub fn is_uniform(&self) -> bool {
         self.all().all(|op| match op {
-            Op::Constant(_) | Op::Variable(_) | Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) | Op::Divide(..) => true,
+            Op::Constant(_) | Op::Variable(_) | Op::Add(..) | Op::Subtract(..) | Op::Multiply(..) | Op::Divide(..) => {
+                true
+            }
             Op::Negate(_) | Op::Whole(..) | Op::Atan2(..) | Op::Rate(_) | Op::Accel(_) => true,
             Op::Apply(function, _) => !matches!(function, Function::Sinh | Function::Tanh),
             _ => false,
