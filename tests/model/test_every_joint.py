@@ -209,3 +209,22 @@ initial: {{θ: 0, x: 0.7 m, y: 0.1 m, rates: {{θ: 2, x: 0, y: 0}}}}
     turned = fb.Mechanism.loads(text.replace("[clay.centre, bar.end]", "[bar.end, clay.centre]")).simulate(until=1.0)
     apart = turned.evaluate("sin(atan2(y, x) - θ)", np.array([0.1, 0.5, 1.0]))
     assert np.ptp(apart) < 1e-9
+
+
+@pytest.mark.parametrize("joined", ["weld: [a, b]", "engage: grip"])
+def test_two_particles_are_joined_where_they_meet_and_not_at_a_distance(joined):
+    """At a distance they would go on without turning, which loses angular momentum."""
+    text = f"""
+freebody: 1
+gravity: none
+bodies: {{a: {{shape: particle, mass: 1}}, b: {{shape: particle, mass: 2}}}}
+joints:
+  path: {{type: free, of: [ground.O, a.centre], coordinates: [x, y]}}
+  grip: {{type: hinge, of: [a.centre, b.centre], engaged: false}}
+events: {{hit: {{at: 0.5 s, then: {{{joined}}}}}}}
+initial: {{x: 0, y: 0, b.x: 1, b.y: HEIGHT, rates: {{x: 2, y: 0, b.x: 0, b.y: 0}}}}
+"""
+    apart = fb.Mechanism.loads(text.replace("HEIGHT", "0.5")).simulate(until=1.0).outcome
+    assert (str(apart.name), apart.t) == ("no_axes", pytest.approx(0.5)) and "`link`" in apart.sentence
+    met = fb.Mechanism.loads(text.replace("HEIGHT", "0")).simulate(until=1.0)
+    assert met.outcome.ok and met.evaluate("rate(x)", np.array([1.0])) == pytest.approx(2 / 3)

@@ -81,6 +81,8 @@ pub enum DynamicsError {
     StringZeroLength(String, String),
     /// A taut string is drawn in up to the rim of its drum: name, item.
     StringWoundUp(String, String),
+    /// A pin takes hold of two particles at a distance, in the axes of neither: name, the two.
+    NoAxes(String, [String; 2]),
     /// A motion that switches was asked for backward in time.
     Backward,
     /// A time outside the run: t, first, last.
@@ -290,6 +292,11 @@ impl DynamicsError {
                 "string_zero_length",
                 format!("the taut string `{name}` is drawn in until two of its points meet, or one the circle beside it: a little to one side it would swing round at once, straight through it would jerk; let it pass beside, or put a stop before"),
                 Some(at),
+            ),
+            Self::NoAxes(name, [first, second]) => (
+                "no_axes",
+                format!("`{name}` takes hold of the particles `{first}` and `{second}` at a distance, and neither has axes in which that would turn; join them by a `link`, which keeps the distance"),
+                None,
             ),
             Self::StringWoundUp(name, at) => (
                 "string_zero_length",

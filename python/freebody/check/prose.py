@@ -79,7 +79,7 @@ _CALLED = re.compile(
     rf"(?m)(?:(?<=^)|(?<=[,;:]\s))\s*(?:the\s+)?(initial\s+)?((?:(?:{_NOUN}|the)\s+)+)(?=\\?[^\s=<>]+\s*[=<>])", re.I
 )
 """``the natural period T = …``."""
-_SPACES = re.compile(r"(?<!\\)\\[,;:!> ]")
+_SPACES = re.compile(r"(?<!\\)\\(?:[,;:!>]| (?![^{}]*\}))")
 _SIDE_OF_ZERO = re.compile(r"(=\s*0)\s*(?:\^?\s*\{?\s*\+\s*\}?|⁺)(?=\s*(?:[:,)]|\\q?quad|\Z))")
 """``t = 0⁺``, just after."""
 _EXTREME = re.compile(r"_\{?\s*(?:\\(?:mathrm|text|rm|mathsf)\s*)?\{?\s*\\?(max|min)(?![A-Za-z])\s*\}{0,2}")

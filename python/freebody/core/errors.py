@@ -35,6 +35,7 @@ class OutcomeKind(str, Enum):
     SIMULTANEOUS_IMPACT = "simultaneous_impact"
     IMPACT_ITERATION_LIMIT = "impact_iteration_limit"
     STRING_ZERO_LENGTH = "string_zero_length"
+    NO_AXES = "no_axes"
     DEAD_POSITION = "dead_position"
     HANDS_OVER_AT_ONCE = "hands_over_at_once"
     BACKWARD = "backward"

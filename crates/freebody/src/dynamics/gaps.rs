@@ -1,8 +1,10 @@
 //! Gaps at one state: their features and borders, which are closed, and parts put in place.
 
+use super::projection::OPEN;
 use super::rows::{closing_rows, joint_rows};
 use super::{compliant_force, DynamicsError, Source, Workspace};
 use crate::bound_values::BoundValues;
+use crate::joints::Joint as _;
 use crate::kinematics::{Config, MotionView, Travel, TravelView};
 use crate::mechanism::{Gap, Group, Mechanism, Part};
 use crate::mode::{Border, ContactMode, ContactState, Feature, Mode};
@@ -286,6 +288,20 @@ impl Workspace<'_> {
             }
         }
         Some(mode)
+    }
+
+    /// That what a joint has taken hold of has axes to turn with.
+    ///
+    /// # Errors
+    /// A pin that has taken hold of two particles at a distance.
+    pub fn check_axes(&self, joint: usize) -> Result<(), DynamicsError> {
+        let pin = &self.m.joints[joint];
+        let bodies = [&pin.first, &pin.second].map(|marker| &self.m.bodies[self.m.body_of(marker.site)]);
+        let pins = pin.kind.card().rows.iter().any(|row| row.pin.is_some());
+        if pins && bodies.iter().all(|body| body.particle) && self.at().pin_shift(joint).norm() > OPEN * self.length {
+            return Err(DynamicsError::NoAxes(pin.name.clone(), bodies.map(|body| body.name.clone())));
+        }
+        Ok(())
     }
 
     fn switch_contacts(&self, mode: &mut Mode, g: usize, there: bool) -> bool {

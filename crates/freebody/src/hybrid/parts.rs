@@ -25,9 +25,9 @@ impl HybridSystem<'_> {
         let before = self.stored(t, y);
         for action in actions {
             switched |= match action {
-                EventAction::Release(part) => self.put(t, *part, false),
+                EventAction::Release(part) => self.put(t, *part, false)?,
                 EventAction::Engage(part) => {
-                    let put = self.put(t, *part, true);
+                    let put = self.put(t, *part, true)?;
                     engaged.extend(put.then(|| self.workspace.m.name_of(*part).to_string()));
                     put
                 }
@@ -45,17 +45,22 @@ impl HybridSystem<'_> {
         Ok(switched)
     }
 
-    fn put(&mut self, t: f64, part: Part, there: bool) -> bool {
+    /// # Errors
+    /// As [`crate::dynamics::Workspace::check_axes`].
+    fn put(&mut self, t: f64, part: Part, there: bool) -> Result<bool, DynamicsError> {
         let switched = self.workspace.switch_part(part, there);
         let changed = switched.is_some();
         if let Some(mode) = switched {
             self.mode = mode;
             self.workspace.enter(&self.mode);
+            if let (true, Part::Joint(joint)) = (there, part) {
+                self.workspace.check_axes(joint)?;
+            }
             let of = vec![self.workspace.m.name_of(part).to_string()];
             let kind = if there { "engaged" } else { "released" };
             self.record(ModeChange { t, kind, of, lost: 0.0, states: None, impulses: None, note: None });
         }
-        changed
+        Ok(changed)
     }
 
     /// Notes where the locks of the present mode keep their gauges: those that held already where they did.
