@@ -133,7 +133,7 @@ class _Declarations:
         for name, force in m.forces.items():
             self.owner(name, "force", ("forces", name), cards.forces()[force.type].readings)
             if force.type in table_friction.WORDS:
-                for event in (table_friction.resting(name), *table_friction.holding(name, force)):
+                for event in (table_friction.resting(name), *table_friction.holding(name, force, m.motions)):
                     self.event(event, f"the force `{name}`")
         for section, kind in _LIMITED.items():
             for name in getattr(m, section):
