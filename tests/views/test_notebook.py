@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import freebody as fb
-from freebody.run.progress import told
+from freebody.run.progress import reporting
 from freebody.views import notebook
 from freebody.views.report import report_html
 
@@ -108,7 +108,7 @@ def test_a_bar_follows_a_run(four_bar, monkeypatch, capsys):
     pytest.importorskip("tqdm")
     four_bar.simulate(until=0.2, progress=True)
     assert "0.2 of 0.2 s" in capsys.readouterr().err
-    with told(True, 2.0) as progress:
+    with reporting(True, 2.0) as progress:
         assert progress(0.5) and progress(1.5)
     assert "2 of 2 s" in capsys.readouterr().err
     without(monkeypatch, "tqdm.auto")

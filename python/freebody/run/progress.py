@@ -10,7 +10,7 @@ Progress = Callable[[float], bool]
 
 
 @contextmanager
-def told(progress: Progress | bool | None, end: float) -> Iterator[Progress | None]:
+def reporting(progress: Progress | bool | None, end: float) -> Iterator[Progress | None]:
     """What the core calls on the way to ``end`` (s): the function itself, or for ``True`` what moves a bar. Raises ``ImportError``."""
     if progress is not True:
         yield progress or None

@@ -28,7 +28,7 @@ from freebody.core import (
 from freebody.run import selection, storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
 from freebody.run.peaks import Peak, known_peaks
-from freebody.run.progress import Progress, told
+from freebody.run.progress import Progress, reporting
 from freebody.run.records import (
     KINDS,
     Array,
@@ -71,7 +71,7 @@ def simulate(
     if settings.every or t_eval is not None:
         check_size(len(columns_of(source, ())), settings, start.t, t_eval)
     options = {key: value for key, value in vars(settings).items() if key != "every"}
-    with told(progress, settings.until) as progress:
+    with reporting(progress, settings.until) as progress:
         trajectory = source.simulate(start, progress=progress, max_steps=max_steps, **options)
     later = partial(output_times, trajectory, settings.every)
     return Run(source, start, settings, trajectory, later if t_eval is None else output_times(trajectory, t_eval=t_eval))

@@ -1,10 +1,39 @@
 //! What events do.
 
+use super::guards::SwitchingFunction;
 use super::HybridSystem;
 use crate::dynamics::DynamicsError;
-use crate::mechanism::{Discontinuity, Event, EventAction};
+use crate::mechanism::{Event, EventAction};
+use crate::motion::After;
 
 impl HybridSystem<'_> {
+    /// What happens at a zero of a switching function.
+    pub(super) fn act_on(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, DynamicsError> {
+        let m = self.workspace.m;
+        let event = match self.switching_functions[i] {
+            SwitchingFunction::Event(event) => &m.events[event],
+            SwitchingFunction::Discontinuity(discontinuity) => {
+                self.switch_branch(&m.discontinuities[discontinuity], t);
+                return Ok(After::Restart);
+            }
+            SwitchingFunction::Contact(l, guard) => {
+                self.switch_contact(l, guard, t, y)?;
+                return Ok(After::Restart);
+            }
+            SwitchingFunction::JointFriction(friction, sense) => {
+                self.switch_joint_friction(friction, sense, t, y)?;
+                return Ok(After::Restart);
+            }
+        };
+        let changed = self.perform_actions(event, t, y)?;
+        let stops = event.then.iter().any(|d| matches!(d, EventAction::Stop));
+        Ok(match (stops, changed) {
+            (true, _) => After::Stop,
+            (_, false) => After::Continue,
+            _ => After::Restart,
+        })
+    }
+
     /// Whether all that an event would release is gone already.
     pub(super) fn is_spent(&self, event: &Event) -> bool {
         let mut actions = event.then.iter();
@@ -13,15 +42,6 @@ impl HybridSystem<'_> {
             _ => false,
         };
         !event.then.is_empty() && actions.all(is_gone)
-    }
-
-    /// Takes the other branch of a switch.
-    pub(super) fn switch_branch(&mut self, discontinuity: &Discontinuity, t: f64) {
-        if let Discontinuity::Switch(switch, _) = discontinuity {
-            let branch = self.mode.branch(*switch).unwrap_or(true);
-            self.mode.freeze(*switch, !branch);
-        }
-        self.begin_phase(t, 0.0);
     }
 
     /// Does what an event asks for; answers whether the motion changes by it.

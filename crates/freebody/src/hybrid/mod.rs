@@ -4,6 +4,7 @@
 //! every prescribed motion, so that the energy ledger has the accuracy of the motion.
 
 mod bounds;
+mod branches;
 mod cable_singularity;
 mod canonical;
 mod dead_position;

@@ -7,8 +7,7 @@ use super::scales::ROUNDOFF;
 use super::works::Works;
 use crate::dynamics::{DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
-use crate::kinematics::{State, Travel};
-use crate::mechanism::{Discontinuity, EventAction};
+use crate::kinematics::Travel;
 use crate::mode::Mode;
 use crate::motion::{After, Canonical, EventRecord, EventSpec, Segment, Spent, System};
 use crate::plane::Vec2;
@@ -46,7 +45,7 @@ pub struct Phase {
 /// A mechanism in motion.
 pub struct HybridSystem<'m> {
     pub(super) workspace: Workspace<'m>,
-    switching_functions: Vec<SwitchingFunction>,
+    pub(super) switching_functions: Vec<SwitchingFunction>,
     /// Whether all switching functions have bounds as long as nothing touches or rubs; how far the bodies go in a step, about
     /// its middle.
     pub(super) may_have_bounds: bool,
@@ -165,23 +164,6 @@ impl<'m> HybridSystem<'m> {
         self.workspace.place(mode, t, &y[..n], &y[n..2 * n]);
     }
 
-    /// Freezes every switch at the branch it has now; one that is just changing at that which it has a moment `ahead` (s).
-    pub fn freeze_branches(&mut self, t: f64, y: &[f64], ahead: f64) {
-        let (m, n) = (self.workspace.m, self.workspace.m.freedom());
-        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + ahead * y[n + i] } else { y[i] }).collect();
-        for discontinuity in &m.discontinuities {
-            let Discontinuity::Switch(switch, _) = discontinuity else { continue };
-            self.place(t, y);
-            let mut value = self.switching(discontinuity);
-            if value == 0.0 {
-                self.place(t + ahead, &later);
-                value = self.switching(discontinuity);
-            }
-            self.mode.freeze(*switch, value >= 0.0);
-        }
-        self.place(t, y);
-    }
-
     /// Begins the first phase of the motion, in the present mode, at a state.
     pub fn open(&mut self, t: f64, y: &[f64]) {
         self.place(t, y);
@@ -210,15 +192,6 @@ impl<'m> HybridSystem<'m> {
         phase.jump = energy - before.0;
         for (given, (after, before)) in phase.given.iter_mut().zip(potentials.iter().zip(&before.1)) {
             *given += after - before;
-        }
-    }
-
-    /// The function whose zero is a discontinuity, at the present state.
-    fn switching(&self, discontinuity: &Discontinuity) -> f64 {
-        let at = self.workspace.at();
-        match discontinuity {
-            Discontinuity::Switch(switch, law) | Discontinuity::Bend(switch, law) => law.switch(*switch, &State(at)),
-            Discontinuity::Knot(table, argument, x) => at.m.tables[*table].beyond(argument.eval(&State(at)), *x),
         }
     }
 
@@ -469,69 +442,5 @@ impl System for HybridSystem<'_> {
             return None;
         }
         Some(self)
-    }
-}
-
-impl HybridSystem<'_> {
-    /// What happens at a zero of a switching function.
-    fn act_on(&mut self, i: usize, t: f64, y: &mut [f64]) -> Result<After, DynamicsError> {
-        let m = self.workspace.m;
-        let event = match self.switching_functions[i] {
-            SwitchingFunction::Event(event) => &m.events[event],
-            SwitchingFunction::Discontinuity(discontinuity) => {
-                self.switch_branch(&m.discontinuities[discontinuity], t);
-                return Ok(After::Restart);
-            }
-            SwitchingFunction::Contact(l, guard) => {
-                self.switch_contact(l, guard, t, y)?;
-                return Ok(After::Restart);
-            }
-            SwitchingFunction::JointFriction(friction, sense) => {
-                self.switch_joint_friction(friction, sense, t, y)?;
-                return Ok(After::Restart);
-            }
-        };
-        let changed = self.perform_actions(event, t, y)?;
-        let stops = event.then.iter().any(|d| matches!(d, EventAction::Stop));
-        Ok(match (stops, changed) {
-            (true, _) => After::Stop,
-            (_, false) => After::Continue,
-            _ => After::Restart,
-        })
-    }
-
-    /// The side of zero of a switch that is frozen at a branch; 0 of any other discontinuity.
-    fn frozen_side(&self, law: usize) -> i8 {
-        let Discontinuity::Switch(switch, _) = self.workspace.m.discontinuities[law] else { return 0 };
-        self.mode.branch(switch).map_or(0, |branch| if branch { 1 } else { -1 })
-    }
-
-    /// The values by which laws take their branches, at a state.
-    fn branch_values(&mut self, t: f64, y: &[f64]) -> Vec<f64> {
-        let m = self.workspace.m;
-        if m.discontinuities.is_empty() {
-            return vec![];
-        }
-        self.place(t, y);
-        m.discontinuities.iter().map(|discontinuity| self.switching(discontinuity)).collect()
-    }
-
-    /// Lets laws take the branches to which a jump of the state has brought them, from the values `before`; answers whether any did.
-    fn follow_jump(&mut self, t: f64, y: &[f64], before: &[f64]) -> bool {
-        let (m, mut changed) = (self.workspace.m, false);
-        for (discontinuity, before) in m.discontinuities.iter().zip(before) {
-            let Discontinuity::Switch(switch, _) = discontinuity else { continue };
-            self.place(t, y); // what is within another law has its branch by now
-            let value = self.switching(discontinuity);
-            if value != *before && value != 0.0 && self.mode.branch(*switch) != Some(value > 0.0) {
-                self.mode.freeze(*switch, value > 0.0);
-                changed = true;
-            }
-        }
-        if changed {
-            self.begin_phase(t, 0.0);
-            self.place(t, y);
-        }
-        changed
     }
 }

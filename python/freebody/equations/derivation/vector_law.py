@@ -79,8 +79,8 @@ class VectorLaw:
         return not is_zero(tree) if self.stated.balance.turns else not self.subject.free.loads[load].card.couple
 
     def _force(self, load: int, line: Balance, named: Directions) -> Terms | None:
-        """A load on the bodies, of which the balance along its own line has the product with that: what is known by itself, what is not by
-        its symbol."""
+        """A load on the bodies: a known one by its components, an unknown one F e by its symbol. The balance along v has F e · v, where v is
+        along e but need not be a unit vector, so that the load is (F e · v / v · v) v; None where v · v is not written out simply."""
         tree = next(each.tree for each in line.contributions if each.load == load)
         along = _terms(named.vector(line.place))
         if not self.subject.free.loads[load].unknown:
@@ -94,7 +94,7 @@ class VectorLaw:
         return {name: mul(size, part) for name, part in along.items()}
 
     def _near(self, tree: Tree) -> list[float]:
-        """Its values near the state, also where it vanishes there."""
+        """Finite values of an expression at some states near this one."""
         rng = np.random.default_rng(_SEED)
         with np.errstate(all="ignore"):
             near = ({x: v + rng.uniform(0.1, 1) for x, v in self.subject.values.items()} for _ in range(_TRIES))
