@@ -17,7 +17,7 @@ from scipy.integrate import solve_ivp
 
 import freebody as fb
 
-FOLDER = Path(fb.__file__).parent / "systems/GEN-MODES"
+FOLDER = Path(fb.__file__).parent / "systems/GEN-MODES-vibrating-slider-crank"
 SPEED, K_SHAFT, C = 20.0, 500.0, 1.0
 RTOL = 1e-8
 SHIELDED = 1e-3  # kg m², what about bends with the rod: it makes the damping a tenth of critical

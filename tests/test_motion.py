@@ -152,7 +152,7 @@ def bending_pendulum() -> fb.Mechanism:
 
 
 def bending_slider_crank() -> fb.Mechanism:
-    mechanism = fb.Mechanism.load(Path(fb.__file__).parent / "systems/GEN-MODES/model.yaml")
+    mechanism = fb.Mechanism.load(Path(fb.__file__).parent / "systems/GEN-MODES-vibrating-slider-crank/model.yaml")
     mechanism.parameters.update(w=20, c=1)
     return mechanism
 

@@ -1,7 +1,5 @@
 """The smallest set: never beaten by brute force, equal to the full solve, and what a textbook would choose."""
 
-from pathlib import Path
-
 import numpy as np
 import planar
 import pytest
@@ -10,13 +8,13 @@ from by_brute_force import MOST, TARGETS, asked, fewest, states
 from store import every
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.core import FreeBodies, Indeterminate
 from freebody.equations.balances.smallest import smallest_set, virtual_power
 from freebody.equations.balances.system import problem
 
 CONSTRUCTED = {"ladder ladder.angle", "19.3.9/model pivot.Fx", "19.3.10/model pivot.Fy", "S19.16/model pivot.Fx"}
 """Targets for which a point or a direction has no name but how it is constructed."""
-SYSTEMS = Path(__file__).parents[2] / "systems"
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -205,7 +203,7 @@ def test_the_files_of_the_catalogue_agree_with_the_full_solve():
         ("EX-ARM/model", "theta1", 2),
         ("EX-ARM/model", "shoulder.Fy", 3),
     ):
-        found = fb.load(SYSTEMS / f"{file}.yaml").smallest(wanted)
+        found = fb.load(model_file(file)).smallest(wanted)
         assert len(found.equations) == number
         assert found.check < 1e-9
         assert found.structural

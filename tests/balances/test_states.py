@@ -1,16 +1,13 @@
 """States near by: loops closed, what touches touching, drives set aside; and what they teach about what drops out."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.core import FreeBodies
 from freebody.equations.balances.smallest import smallest_set
 from freebody.solve.perturbed_states import nearby
-
-SYSTEMS = Path(__file__).parents[2] / "systems"
 
 
 def leaning(friction=None):
@@ -33,7 +30,7 @@ def gaps_of_joints(free):
 
 @pytest.mark.parametrize("file", ["GEN-FOURBAR/model", "GEN-SLIDER/model", "EX-ARM/model", "19.3.16/driven"])
 def test_states_near_by_are_others_and_close_every_loop(file):
-    m = fb.load(SYSTEMS / f"{file}.yaml")
+    m = fb.load(model_file(file))
     free = nearby(m.source(), m.start()[0])
     assert len(free) == 4
     for other in free[1:]:
@@ -73,7 +70,7 @@ def test_friction_that_slides_goes_with_its_normal_force():
 
 
 def test_a_body_on_which_nothing_acts_is_still_a_state():
-    assert isinstance(fb.load(SYSTEMS / "19.3.2" / "model.yaml").minimal_form().equations, tuple)
+    assert isinstance(fb.load(model_file("19.3.2/model")).minimal_form().equations, tuple)
 
 
 def test_a_set_from_a_moment_without_its_neighbours_says_so():

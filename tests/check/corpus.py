@@ -15,6 +15,7 @@ from independent import holds, says_the_same
 from mutants import mutant
 from other_symbols import Other, others
 from rearranged import arranged, in_other_symbols, rearranged
+from store import MODELS
 from textbook import BOOKS, Book
 
 from freebody.check import Checker, Kind
@@ -159,7 +160,7 @@ def _of_model(name: str, mechanism: Mechanism) -> Bench:
 
 BENCHES: dict[str, Callable[[], Bench]] = {
     **{book.name: lambda book=book: _of_book(book) for book in BOOKS},
-    **{name: lambda name=name: _of_model(name, Mechanism.load(derived.ROOT / name)) for name in derived.FILES},
+    **{name: lambda name=name: _of_model(name, Mechanism.load(MODELS[name])) for name in derived.MODELS},
     **{name: lambda name=name, text=text: _of_model(name, Mechanism.loads(text)) for name, text in GENERATED.items()},
 }
 """How to make the bench of each model."""

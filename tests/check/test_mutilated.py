@@ -10,10 +10,10 @@ import pytest
 from store import every
 
 import freebody as fb
+from freebody.catalogue import model_file, systems
 from freebody.check import Checker, Verdict, file
 from freebody.symbolic.errors import StatementError
 
-SYSTEMS = Path(fb.__file__).parent / "systems"
 SIGNS = "=+-*/^()[]{}|,;:'′\"\\_·×∂√½²₁θφλΣdt .0123456789xyzabmgijk<>≤&$%#@!?~`\n\t\x00\u0307∞π°ẋ"
 STATEMENTS = 40  # of each seed
 
@@ -21,7 +21,7 @@ STATEMENTS = 40  # of each seed
 @cache
 def stated() -> list[tuple[Path, dict, str]]:
     """Model, symbols and text of every statement of the catalogue."""
-    read = [(path, file.read(path)) for path in sorted(SYSTEMS.glob("*/statements.yaml"))]
+    read = [(system.statements, file.read(system.statements)) for system in systems() if system.statements.exists()]
     return [
         (path.parent / (each.model or all_.model), all_.letters | each.letters, each.says)
         for path, all_ in read
@@ -65,4 +65,4 @@ def test_it_is_judged_or_refused_with_a_place(seed: str) -> None:
 @pytest.mark.parametrize("text", ["", " ", "=", "\\", "θ", "if : x = 1", "x = ", "(" * 300 + "x"])
 def test_so_is_what_says_nothing(text: str) -> None:
     with pytest.raises(StatementError):
-        Checker(fb.Mechanism.load(SYSTEMS / "19.3.16/model.yaml")).check(text)
+        Checker(fb.Mechanism.load(model_file("19.3.16/model"))).check(text)

@@ -7,13 +7,13 @@ import re
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from random_models import drawn
 from store import every, family
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.check import Checker, Kind
 from freebody.check.families import ALL
 from freebody.core import State
@@ -24,7 +24,6 @@ from freebody.equations.topics import NotHere, topic
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 
-SYSTEMS = Path(fb.__file__).parent / "systems"
 NAMED = (
     "19.3.1/side",  # particles
     "EX-ARM/held",  # prescribed motions with names of two words
@@ -98,11 +97,7 @@ TEXTS = {"words": WORDS, "collar": COLLAR, "string": STRING, "link": LINK, "hang
 
 @pytest.fixture(scope="module", params=family([*NAMED, *TEXTS]))
 def model(request: pytest.FixtureRequest) -> fb.Mechanism:
-    return (
-        fb.Mechanism.loads(TEXTS[request.param])
-        if request.param in TEXTS
-        else fb.Mechanism.load(SYSTEMS / f"{request.param}.yaml")
-    )
+    return fb.Mechanism.loads(TEXTS[request.param]) if request.param in TEXTS else fb.Mechanism.load(model_file(request.param))
 
 
 def _stated(document: Document) -> Iterator[Block]:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
-import freebody
+from freebody.catalogue import model_file
 from freebody.check import Checker, Kind
 from freebody.mechanism import Mechanism
 
@@ -227,7 +225,6 @@ run: {until: 1 s}
     assert "impact floor" in str(bounced)
 
 
-SYSTEMS = Path(freebody.__file__).parent / "systems"
 _SIDES = {
     # two prisms on smooth ground, by the balance of momentum along it; elsewhere their upright faces touch, and neither pushes
     "prisms": ("19.3.13", {"A": "ax(lower.G)", "N": "slope.N"}, ("A = -g sin(alpha) cos(alpha)/(n + sin(alpha)^2)", "N = 0")),
@@ -254,6 +251,6 @@ _SIDES = {
 @pytest.mark.parametrize("name", _SIDES)
 def test_what_touches_or_is_taut_is_as_at_the_start(name: str) -> None:
     system, letters, (right, wrong) = _SIDES[name]
-    checker = Checker(Mechanism.load(SYSTEMS / system / "model.yaml"), letters)
+    checker = Checker(Mechanism.load(model_file(f"{system}/model")), letters)
     assert checker.check(right, correcting=False).kind is T
     assert checker.check(wrong, correcting=False).kind is W

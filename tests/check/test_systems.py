@@ -10,14 +10,13 @@ from pathlib import Path
 from store import every
 from typer.testing import CliRunner
 
-import freebody
+from freebody import catalogue
 from freebody.check import Verdict
 from freebody.check.file import Judged, judge, read
 from freebody.cli import app
 from freebody.mechanism import Mechanism
 
-FOLDER = Path(freebody.__file__).parent / "systems"
-FILES = {path.parent.name: path for path in sorted(FOLDER.glob("*/statements.yaml"))}
+FILES = {system.id: system.statements for system in catalogue.systems() if system.statements.exists()}
 STATED = {
     "BLOCK": 8, "ARM": 5, "WEDGE": 11, "GUN": 9, "SLOPE": 6, "MOTOR": 4, "WHEEL": 4, "BAR": 14, "CART": 1, "LEGS": 1, "GEN": 2,
 }  # fmt: skip

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from textbook import BOOKS, Book
 
-import freebody as fb
+from freebody.catalogue import model_file
 from freebody.check import Checker, Kind
 from freebody.mechanism import Mechanism
-
-SYSTEMS = Path(fb.__file__).parent / "systems"
 
 
 def checker(name: str) -> Checker:
@@ -162,7 +158,7 @@ def test_reactions_that_are_not_determined_must_fit_whatever_they_are(text: str,
 
 
 def system(name: str) -> Checker:
-    return Checker(Mechanism.load(SYSTEMS / f"{name}.yaml"))
+    return Checker(Mechanism.load(model_file(name)))
 
 
 def test_a_number_of_the_start_is_true_only_there() -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import freebody as fb
 from freebody.core import ExpressionError, ModelError, MotionError, State
 
-MODELS = ["examples/four_bar.yaml", "systems/19.3.30/model.yaml", "systems/S19.22/model.yaml"]
+MODELS = ["examples/four_bar.yaml", "systems/19.3.30-rimless-wheel/model.yaml", "systems/S19.22-four-bar-torque/model.yaml"]
 REFUSALS = (MotionError, ModelError, ExpressionError, OverflowError, TypeError, ValueError)
 """What a caller may meet, those of Python for an argument that is no number among them; a panic is none of them."""
 numbers = st.one_of(st.floats(-10, 10), st.sampled_from([0.0, np.nan, np.inf, -np.inf, 1e308, 5e-324]))

@@ -17,7 +17,7 @@ from freebody.core import ModelError, MotionError
 
 ROOT = Path(__file__).parents[2]
 GUN = str(ROOT / "examples" / "new_gun.yaml")
-DRIVEN = str(ROOT / "python/freebody/systems/19.3.16/driven.yaml")
+DRIVEN = str(ROOT / "python/freebody/systems/19.3.16-block-with-a-rod/driven.yaml")
 # What only shows when the motion is computed, and the item that is to blame.
 AT_RUN_TIME = {
     "contradictory_motions": ("slow:", "fast:"),

@@ -26,8 +26,8 @@ ALONE = ("README.md", "docs/first_minutes.md", "docs/batch.md")
 AMONG = {
     "docs/python.md": dict,
     "docs/inverse.md": dict,
-    "docs/check.md": lambda: {"m": fb.load("systems/19.3.17/model.yaml")},
-    "docs/equations.md": lambda: {"m": fb.load("systems/19.3.17/model.yaml"), "generate": generate},
+    "docs/check.md": lambda: {"m": fb.load("systems/19.3.17-pendulum-on-a-cart/model.yaml")},
+    "docs/equations.md": lambda: {"m": fb.load("systems/19.3.17-pendulum-on-a-cart/model.yaml"), "generate": generate},
 }
 """Pages that take up what is said elsewhere, with what that is."""
 
@@ -67,7 +67,11 @@ def test_what_commands_print_is_current(path):
 @pytest.mark.parametrize("page", [*ALONE, *(pytest.param(page, marks=pytest.mark.long) for page in AMONG)])
 def test_python_runs(page, tmp_path, monkeypatch):
     """Where a newcomer stands: beside the examples and the catalogue, in a folder that can be written."""
-    for name, place in {"examples": "examples", "systems": "systems", "cart_pendulum.yaml": "systems/19.3.17/model.yaml"}.items():
+    for name, place in {
+        "examples": "examples",
+        "systems": "systems",
+        "cart_pendulum.yaml": "systems/19.3.17-pendulum-on-a-cart/model.yaml",
+    }.items():
         (tmp_path / name).symlink_to(ROOT / place)
     monkeypatch.chdir(tmp_path)
     monkeypatch.syspath_prepend(str(tmp_path))

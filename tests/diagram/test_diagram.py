@@ -16,7 +16,7 @@ from freebody.views.diagram.paper import round_below
 from freebody.views.diagram.rows import MARGIN
 from freebody.views.labels import Label, Obstacles, placed
 
-GUN = "systems/S19.17/model.yaml"
+GUN = "systems/S19.17-new-gun/model.yaml"
 TRACK = r"N_{\text{track}}"
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -151,7 +151,9 @@ def test_mistakes_are_said_in_a_line(arguments, said):
 
 def test_the_list_of_forces_is_printed_and_adds_up():
     """Forces at their points and couples, times the values, give m a at G and the moment about it."""
-    done = CliRunner().invoke(app, ["diagram", "systems/GEN-FOURBAR/model.yaml", "--json", "--of", "bc", "--of", "ab+bc"])
+    done = CliRunner().invoke(
+        app, ["diagram", "systems/GEN-FOURBAR-four-bar-positions/model.yaml", "--json", "--of", "bc", "--of", "ab+bc"]
+    )
     assert done.exit_code == 0, done.output
     for stated in json.loads(done.output):
         effective, sums = stated["effective"], np.zeros(3)
@@ -165,7 +167,7 @@ def test_the_list_of_forces_is_printed_and_adds_up():
 
 def test_a_scale_bar_says_its_newtons_in_full():
     """Of 20000 N, that a quarter car's tyre takes at a kerb; it was 2e+04 N."""
-    assert ">20000 N<" in Mechanism.load("systems/GEN-SUSP/one_sided.yaml").diagram(to_scale=True).svg()
+    assert ">20000 N<" in Mechanism.load("systems/GEN-SUSP-suspensions/one_sided.yaml").diagram(to_scale=True).svg()
 
 
 def test_a_pdf_has_pages(tmp_path):
@@ -192,7 +194,7 @@ def test_the_page_of_all_diagrams(tmp_path):
 def test_the_page_shows_the_first_impact_of_every_kind(tmp_path):
     """A wheel of eight feet that fall one after another has one kind; a foot and a stop at one time are two."""
     page = tmp_path / "page.html"
-    models = {"19.3.30": "systems/19.3.30/model.yaml", "GEN-STEP": "systems/GEN-STEP/floor.yaml"}
+    models = {"19.3.30": "systems/19.3.30-rimless-wheel/model.yaml", "GEN-STEP": "systems/GEN-STEP-one-foot/floor.yaml"}
     write_gallery([(name, Mechanism.load(path)) for name, path in models.items()], page)
     text = page.read_text(encoding="utf-8")
     assert re.findall(r"<h3>Impact (\d+) of the run, of ([^,]*),", text) == [("1", "foot[2]"), ("1", "other"), ("2", "foot")]

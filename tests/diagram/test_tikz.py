@@ -8,7 +8,11 @@ import pytest
 from freebody.mechanism import Mechanism
 from freebody.views.diagram.couples import CoupleArrow
 
-MODELS = {"systems/GEN-FOURBAR/model.yaml": False, "systems/19.3.20/pulleys.yaml": False, "systems/GEN-SUSP/half.yaml": True}
+MODELS = {
+    "systems/GEN-FOURBAR-four-bar-positions/model.yaml": False,
+    "systems/19.3.20-guide-and-pendulum/pulleys.yaml": False,
+    "systems/GEN-SUSP-suspensions/half.yaml": True,
+}
 PAGE = r"\documentclass{article}\usepackage{amsmath,amssymb,tikz}\usetikzlibrary{arrows.meta}\begin{document}\noindent\input{part}\end{document}"
 
 

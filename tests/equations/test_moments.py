@@ -23,9 +23,9 @@ run: {until: 0.3 s}
 """
 MOMENTS = {
     "examples/tossed_box.yaml": ["leash", 0.2, 0.42, 0.9],
-    "systems/19.3.9/model.yaml": ["cut", 1.0, "track leaves end"],
-    "systems/19.3.4/model.yaml": ["start", 0.5],
-    "systems/19.3.11/two.yaml": ["start", 0.1],
+    "systems/19.3.9-collar-flung-off/model.yaml": ["cut", 1.0, "track leaves end"],
+    "systems/19.3.4-cart-and-cut-string/model.yaml": ["start", 0.5],
+    "systems/19.3.11-gun-on-a-cart/two.yaml": ["start", 0.1],
     "examples/new_gun.yaml": [0.5],
 }
 

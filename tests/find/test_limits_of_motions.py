@@ -80,7 +80,7 @@ def test_what_has_no_limit_is_refused_with_what_was_seen():
 
 def test_a_limit_of_a_parameter():
     """The speed at which a rod that is tipped falls flat tends to √(3g/l) as it stands upright."""
-    rod = fb.Mechanism.load("python/freebody/systems/19.3.6/model.yaml")
+    rod = fb.Mechanism.load("python/freebody/systems/19.3.6-falling-rod-on-ice/model.yaml")
     found = rod.limit("omega(rod) @ flat", vary="tilt", begin=0.05, towards=0)
     assert found.value == pytest.approx(-math.sqrt(3 * 9.81 / 1.8), abs=max(found.value.error, 1e-9)) and found.value.error < 1e-7
     with pytest.raises(NoLimit, match="no limit of t @ flat is seen as tilt tends to 0"):

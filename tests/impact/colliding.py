@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from functools import cache
-from pathlib import Path
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.impact.impacts import Impact, impacts
-
-SYSTEMS = Path(fb.__file__).parent / "systems"
 
 BALL_ON_BAR = """
 gravity: none
@@ -175,7 +173,7 @@ def mechanism(name: str) -> fb.Mechanism:
     """A model of ``ALL``."""
     if name in TEXTS:
         return fb.Mechanism.loads(f"freebody: 1\n{TEXTS[name]}", name)
-    return fb.load(SYSTEMS / f"{name}.yaml")
+    return fb.load(model_file(name))
 
 
 @cache

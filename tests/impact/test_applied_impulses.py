@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import sympy
-from colliding import SYSTEMS
 from store import but_long
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.core import State
 from freebody.equations import Sym, evaluate, from_sympy
 from freebody.equations.solve import TooLarge
@@ -90,7 +90,7 @@ MODELS = ["19.3.17", "19.3.28", "S19.18", "S19.22", "EX-ARM", "EX-BLOCK", "GEN-S
 
 def at_rest(name):
     """A model at rest, its points that may move, and the velocity of one of them after a strike of 1 N·s."""
-    model = fb.load(SYSTEMS / name / "model.yaml")
+    model = fb.load(model_file(f"{name}/model"))
     start = model.start()[0]
     state = State(start.p, start.t, start.q, np.zeros_like(start.u))
     core = model.compile()
@@ -142,7 +142,7 @@ def test_where_symbols_fill_pages_the_equations_stand_in_numbers():
 
 
 def test_what_stays_finite_is_said_and_has_no_part():
-    said = topic(fb.load(SYSTEMS / "19.3.20" / "equilibrium.yaml"), "impact", point="bob.G").text()
+    said = topic(fb.load(model_file("19.3.20/equilibrium")), "impact", point="bob.G").text()
     assert "finite" in said and "spring" in said
 
 

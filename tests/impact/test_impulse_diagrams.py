@@ -11,6 +11,7 @@ from matplotlib.transforms import Bbox
 from store import every
 from typer.testing import CliRunner
 
+from freebody.catalogue import model_file
 from freebody.cli import app
 from freebody.views.diagram.arrows import Arrow
 from freebody.views.diagram.impulses import impulse_diagram
@@ -101,9 +102,8 @@ def test_to_scale_the_arrows_add_up(name):
 
 
 def test_the_command_writes_a_picture(tmp_path):
-    from colliding import SYSTEMS
 
-    model, file = str(SYSTEMS / "19.3.22" / "model.yaml"), tmp_path / "blow.svg"
+    model, file = str(model_file("19.3.22/model")), tmp_path / "blow.svg"
     done = CliRunner().invoke(app, ["diagram", model, "--impact", "1", "-o", str(file)])
     assert done.exit_code == 0, done.output
     assert "impulse diagrams" in file.read_text(encoding="utf-8")

@@ -34,6 +34,13 @@ def test_every_system_has_a_main_model_unless_it_asks_about_others():
         assert system.models[0].name == "model.yaml" if system.models else system.id in ("GEN-FORMS", "GEN-METHOD")
 
 
+def test_a_system_goes_by_its_id_and_its_folder_says_what_it_is():
+    for system in catalogue.systems():
+        assert re.fullmatch(r"(S?\d+(\.\d+)+|(EX|GEN)-[A-Z]+)", system.id)
+        assert re.fullmatch(r"(-[a-z]+)+", system.folder.name.removeprefix(system.id))
+        assert catalogue.find(system.id) == catalogue.find(system.folder.name.upper()) == system
+
+
 @every(MODELS)
 def test_every_model_says_how_long_it_runs(model):
     assert mechanism(model).run_plan(None, {}).until > 0

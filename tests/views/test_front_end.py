@@ -13,9 +13,9 @@ from freebody.views.report import write_report
 ROOT = Path(__file__).parents[2]
 REPORTS = {
     **{name: ROOT / "examples" / f"{name}.yaml" for name in ("four_bar", "new_gun", "tossed_box")},
-    "pulleys": ROOT / "systems" / "19.3.20" / "pulleys.yaml",
-    "walker": ROOT / "systems" / "GEN-STEP" / "model.yaml",
-    "car": ROOT / "systems" / "GEN-SUSP" / "half.yaml",
+    "pulleys": ROOT / "systems" / "19.3.20-guide-and-pendulum" / "pulleys.yaml",
+    "walker": ROOT / "systems" / "GEN-STEP-one-foot" / "model.yaml",
+    "car": ROOT / "systems" / "GEN-SUSP-suspensions" / "half.yaml",
 }
 
 

@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 
 ROOT = Path(__file__).parents[2]
 MODEL = ROOT / "examples" / "four_bar.yaml"
-SLIDER = ROOT / "systems" / "GEN-SLIDER" / "model.yaml"
+SLIDER = ROOT / "systems" / "GEN-SLIDER-slider-crank" / "model.yaml"
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,6 @@ every answer is computed by freebody when it is asked for, and stands beside a v
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
 from typing import Any
 
 from freebody.catalogue.answers import Answer, Asked, Question, ask
@@ -15,25 +14,9 @@ from freebody.catalogue.case import Case
 from freebody.catalogue.checks import free_questions
 from freebody.catalogue.processes import shared
 from freebody.catalogue.sentences import sentence
-from freebody.catalogue.system import System
+from freebody.catalogue.system import System, find, model_file, systems
 
-__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "rows", "run", "run_all", "systems"]
-
-FOLDER = Path(__file__).parent.parent / "systems"
-
-
-def systems() -> list[System]:
-    """All systems, in the order of their names."""
-    return [System(path.parent) for path in sorted(FOLDER.glob("*/questions.py"))]
-
-
-def find(identity: str) -> System:
-    """A system by its name; capitals do not matter."""
-    known = {system.id.lower(): system for system in systems()}
-    try:
-        return known[identity.lower()]
-    except KeyError:
-        raise KeyError(f"no system is called {identity!r}; there are {', '.join(s.id for s in known.values())}") from None
+__all__ = ["Answer", "Asked", "Case", "Question", "System", "ask", "find", "model_file", "rows", "run", "run_all", "systems"]
 
 
 def run(system: System) -> Iterator[Asked]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from freebody.catalogue.answers import Answer, formula
+from freebody.catalogue.system import model_file
 
 if TYPE_CHECKING:
     from freebody.mechanism import Mechanism
@@ -27,12 +28,12 @@ class Case:
         self._mechanisms: dict[str, Mechanism] = {}
 
     def mechanism(self, file: str = "model.yaml", **parameters: Any) -> Mechanism:
-        """A model of the system, some parameters overruled."""
+        """A model of the system, or by ``EX-ARM/model`` of another, some parameters overruled."""
         from freebody.mechanism import Mechanism
 
         name = _name(file, parameters)
         if name not in self._mechanisms:
-            mechanism = Mechanism.load(self.folder / file)
+            mechanism = Mechanism.load(model_file(file) if "/" in file else self.folder / file)
             mechanism.parameters.update(parameters)
             self._mechanisms[name] = mechanism
         return self._mechanisms[name]

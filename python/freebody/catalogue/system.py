@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
 from freebody.catalogue.answers import Question
+
+FOLDER = Path(__file__).parent.parent / "systems"
 
 
 @dataclass(frozen=True)
@@ -18,8 +21,8 @@ class System:
 
     @property
     def id(self) -> str:
-        """Name of the folder."""
-        return self.folder.name
+        """Name of the folder up to its words, ``S19.17`` of ``S19.17-new-gun``."""
+        return re.split("-(?=[a-z])", self.folder.name)[0]
 
     @property
     def title(self) -> str:
@@ -48,3 +51,24 @@ class System:
         module = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(module)
         return module
+
+
+def systems() -> list[System]:
+    """All systems, in the order of their names."""
+    return [System(path.parent) for path in sorted(FOLDER.glob("*/questions.py"))]
+
+
+def find(identity: str) -> System:
+    """A system by its id or its folder's name; capitals do not matter."""
+    there = systems()
+    known = {name.lower(): system for system in there for name in (system.id, system.folder.name)}
+    try:
+        return known[identity.lower()]
+    except KeyError:
+        raise KeyError(f"no system is called {identity!r}; there are {', '.join(system.id for system in there)}") from None
+
+
+def model_file(name: str) -> Path:
+    """The file of a model of the catalogue, by its system and its own name: ``S19.17/flight``."""
+    identity, _, stem = name.partition("/")
+    return find(identity).folder / f"{stem}.yaml"

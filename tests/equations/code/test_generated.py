@@ -14,37 +14,37 @@ import freebody as fb
 STATES = 20
 EQUAL = 1e-12
 TREES = [
-    "systems/EX-ARM/model.yaml",  # two links, absolute angles, motors
-    "systems/EX-ARM/relative.yaml",  # the same with relative angles
-    "systems/EX-BLOCK/model.yaml",
-    "systems/GEN-CHAIN/model.yaml",  # three bars
-    "systems/S19.17/model.yaml",  # a collar on a turning rod
-    "systems/S19.18/model.yaml",  # link: a pendulum on a slope
-    "systems/S19.19/model.yaml",  # springs, without gravity
-    "systems/19.3.3/polar.yaml",  # polar coordinates, springs
-    "systems/19.3.15/model.yaml",  # a pendulum on a cart
-    "systems/19.3.17/model.yaml",
-    "systems/19.3.20/model.yaml",
-    "systems/19.3.23/model.yaml",  # a part without mass
-    "systems/19.3.24/model.yaml",
-    "systems/S19.17/free_end.yaml",  # a joint that is released later
-    "systems/19.3.11/model.yaml",  # a curved slot that is left later
+    "systems/EX-ARM-two-link-arm/model.yaml",  # two links, absolute angles, motors
+    "systems/EX-ARM-two-link-arm/relative.yaml",  # the same with relative angles
+    "systems/EX-BLOCK-block-on-tipped-block/model.yaml",
+    "systems/GEN-CHAIN-open-chains/model.yaml",  # three bars
+    "systems/S19.17-new-gun/model.yaml",  # a collar on a turning rod
+    "systems/S19.18-pendulum-on-an-incline/model.yaml",  # link: a pendulum on a slope
+    "systems/S19.19-unbalanced-motor/model.yaml",  # springs, without gravity
+    "systems/19.3.3-two-long-springs/polar.yaml",  # polar coordinates, springs
+    "systems/19.3.15-rod-on-a-cart/model.yaml",  # a pendulum on a cart
+    "systems/19.3.17-pendulum-on-a-cart/model.yaml",
+    "systems/19.3.20-guide-and-pendulum/model.yaml",
+    "systems/19.3.23-massless-double-pendulum/model.yaml",  # a part without mass
+    "systems/19.3.24-straight-legs/model.yaml",
+    "systems/S19.17-new-gun/free_end.yaml",  # a joint that is released later
+    "systems/19.3.11-gun-on-a-cart/model.yaml",  # a curved slot that is left later
 ]
 LOOPS = [
-    "systems/19.3.30/hinged.yaml",  # a joint that is released later, its coordinate without a name
-    "systems/GEN-SLIDER/model.yaml",
-    "systems/S19.21/model.yaml",
-    "systems/S19.22/model.yaml",
+    "systems/19.3.30-rimless-wheel/hinged.yaml",  # a joint that is released later, its coordinate without a name
+    "systems/GEN-SLIDER-slider-crank/model.yaml",
+    "systems/S19.21-four-bar-inverse/model.yaml",
+    "systems/S19.22-four-bar-torque/model.yaml",
     "examples/four_bar.yaml",
 ]
 MOTIONS = [
-    "systems/19.3.16/driven.yaml",  # accelerations prescribed
-    "systems/19.3.19/shaken.yaml",  # a function of time
-    "systems/EX-ARM/held.yaml",
-    "systems/GEN-FOURBAR/model.yaml",  # loop and motion
-    "systems/GEN-FOURBAR/watt.yaml",  # two loops and a motion
-    "systems/S19.20/model.yaml",  # everything prescribed
-    "systems/S19.22/driven.yaml",
+    "systems/19.3.16-block-with-a-rod/driven.yaml",  # accelerations prescribed
+    "systems/19.3.19-pumped-string/shaken.yaml",  # a function of time
+    "systems/EX-ARM-two-link-arm/held.yaml",
+    "systems/GEN-FOURBAR-four-bar-positions/model.yaml",  # loop and motion
+    "systems/GEN-FOURBAR-four-bar-positions/watt.yaml",  # two loops and a motion
+    "systems/S19.20-wheel-on-a-rod/model.yaml",  # everything prescribed
+    "systems/S19.22-four-bar-torque/driven.yaml",
 ]
 MODELS = [*TREES, *LOOPS, *MOTIONS]
 
@@ -113,7 +113,9 @@ def test_accelerations_obey_the_constraints_whose_loads_do_no_work(path):
         assert np.abs(allowed @ held).max(initial=0.0) < 1e-12 * np.abs(held).max()
 
 
-@pytest.mark.parametrize("path", ["systems/GEN-CHAIN/model.yaml", "examples/four_bar.yaml", "systems/19.3.19/shaken.yaml"])
+@pytest.mark.parametrize(
+    "path", ["systems/GEN-CHAIN-open-chains/model.yaml", "examples/four_bar.yaml", "systems/19.3.19-pumped-string/shaken.yaml"]
+)
 def test_an_integrator_reproduces_the_run(path):
     from scipy.integrate import solve_ivp
 
@@ -149,9 +151,9 @@ def test_numbers_that_the_model_leaves_without_a_name_are_parameters():
 
 
 def test_defaults_are_those_of_the_model_and_of_changes():
-    mechanism = model("systems/S19.17/model.yaml")
+    mechanism = model("systems/S19.17-new-gun/model.yaml")
     state, _ = mechanism.start()
-    python, changed = in_python("systems/S19.17/model.yaml"), run(mechanism.code(l="2 m"))
+    python, changed = in_python("systems/S19.17-new-gun/model.yaml"), run(mechanism.code(l="2 m"))
     assert python.accelerations(state.q, state.u) == pytest.approx(mechanism.solve()._solved.accelerations, rel=1e-12)
     assert python.PARAMETERS["l"] == 1.0 and changed.PARAMETERS["l"] == 2.0
     assert "m2/3 in the model" in mechanism.code()
@@ -159,7 +161,7 @@ def test_defaults_are_those_of_the_model_and_of_changes():
 
 def test_what_is_zero_in_the_model_is_free_in_code():
     """S19.19 has no gravity, but a symbol for it: with it the guide carries both weights of the resting motor and its load."""
-    python = in_python("systems/S19.19/model.yaml")
+    python = in_python("systems/S19.19-unbalanced-motor/model.yaml")
     assert python.PARAMETERS["g"] == 0.0
     values = python.PARAMETERS | {"g": 2.0, "T": 0.0}
     hanging = [0.0, -np.pi / 2]  # the spring relaxed, the arm straight down

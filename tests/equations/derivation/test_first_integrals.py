@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.equations.language import read_text
 from freebody.symbolic.algebra import equal
 
@@ -43,7 +44,7 @@ def test_none_where_the_motion_is_uneven_or_damped_or_time_is_in_gravity(changed
 
 
 def test_they_stand_in_the_derivation():
-    fallen = fb.Mechanism.load("python/freebody/systems/19.3.20/free_fall.yaml")
+    fallen = fb.Mechanism.load("python/freebody/systems/19.3.20-guide-and-pendulum/free_fall.yaml")
     text = " ".join(fallen.equations(long=True).text().split())
     assert "momentum of y, less what its force gives it is conserved" in text
     assert "The energy of the motion relative to y is conserved: neither time nor y is in the equations of θ." in text
@@ -51,7 +52,7 @@ def test_they_stand_in_the_derivation():
 
 @pytest.mark.parametrize("system", ["S19.18", "19.3.17", "19.3.15", "19.3.18"])
 def test_they_are_constant_along_motions_of_the_catalogue(system):
-    model = fb.Mechanism.load(f"python/freebody/systems/{system}/model.yaml")
+    model = fb.Mechanism.load(model_file(f"{system}/model"))
     run = model.simulate(rtol=1e-12, until=1)
     for found in model.first_integrals():
         along = found.along(run)

@@ -63,7 +63,7 @@ def test_the_law_stands_in_vectors_before_its_scalar_equation():
     assert "α_spool = −x\u0308/R" in said and "R j × P i + P r e_z = R j × m x\u0308 i − (m k² x\u0308/R) e_z" in said
     said = page("tests/check/books/braking_car.yaml").text()
     assert "−P i + (N_wheels₁ − m g + N_wheels₂) j = m s̈ i" in said
-    said = page("python/freebody/systems/19.3.1/model.yaml").text()
+    said = page("python/freebody/systems/19.3.1-springy-leash/model.yaml").text()
     assert said.count("−k x i − k y j = m a_particle") == 1
 
 
@@ -74,7 +74,7 @@ def test_a_law_in_vectors_has_only_directions_that_the_page_introduces():
 
 
 def test_a_long_chain_goes_on_from_its_pins_and_says_once_what_is_alike():
-    said = page("python/freebody/systems/GEN-STEP/model.yaml").text()
+    said = page("python/freebody/systems/GEN-STEP-one-foot/model.yaml").text()
     assert "a_back_thigh = a_back_knee − " in said and said.count("`--long` has it") == 1
     assert "AMB about shoulder[2] for arm[2]\nWhat acts at the point" in said
 
@@ -117,16 +117,16 @@ def test_a_block_on_a_slope_has_balances_along_it_and_across():
 
 
 def test_a_string_has_its_length_squared_and_no_roots():
-    said = fb.load(ROOT / "systems/19.3.22/latch.yaml").equations().text(ascii=True)
+    said = fb.load(ROOT / "systems/19.3.22-colliding-carts/latch.yaml").equations().text(ascii=True)
     assert "(xB - C.x)^2 + C.y^2 = l^2" in said and "(xB - C.x) xB' + C.y C.y' = (xB - C.x) C.x'" in said and "sqrt" not in said
 
 
 def test_a_root_that_is_there_again_and_again_has_a_symbol():
     """Of a string over two eyelets the lengths beyond them."""
-    said = fb.load(ROOT / "systems/19.3.20/cable.yaml").equations().text()
+    said = fb.load(ROOT / "systems/19.3.20-guide-and-pendulum/cable.yaml").equations().text()
     assert "s₂ = √(bob.x² + bob.y²)" in said and "s₁ + s₂ = l" in said and said.count("√") == 2
     for form in ({"form": "brute"}, {"want": "bob.x"}):
-        said = fb.load(ROOT / "systems/19.3.20/cable.yaml").equations(**form).text()
+        said = fb.load(ROOT / "systems/19.3.20-guide-and-pendulum/cable.yaml").equations(**form).text()
         assert "s₂ = √(bob.x² + bob.y²)" in said and "s₂" in said.partition("s₂ =")[2]
 
 
@@ -137,7 +137,7 @@ def test_what_touches_where_a_coordinate_is_0_holds_it_there():
 
 
 def test_polar_coordinates_have_their_directions():
-    said = fb.load(ROOT / "systems/19.3.3/polar.yaml").equations().text(ascii=True)
+    said = fb.load(ROOT / "systems/19.3.3-two-long-springs/polar.yaml").equations().text(ascii=True)
     assert "a_P = (r'' - r (phi')^2) e_r + (r phi'' + 2 r' phi') e_φ" in said and "LMB along e_r for P" in said
 
 
@@ -163,7 +163,7 @@ FOUR_BAR = ROOT / "examples/four_bar.yaml"
 
 
 def test_tenths_and_fifths_are_decimal_numbers_beside_others_and_as_lengths():
-    said = page("python/freebody/systems/GEN-STEP/model.yaml").text()
+    said = page("python/freebody/systems/GEN-STEP-one-foot/model.yaml").text()
     assert "0.6 (ankle′′" in said and "⅗" not in said
     assert (
         "1.2 + c cos φ" in fb.load(FOUR_BAR).equations().text()
@@ -195,7 +195,7 @@ def test_a_rod_in_a_corner_has_one_equation_in_its_angle():
 
 
 def test_a_number_of_a_law_has_a_symbol():
-    said = fb.load(ROOT / "systems/GEN-FOURBAR/model.yaml").equations().text()
+    said = fb.load(ROOT / "systems/GEN-FOURBAR-four-bar-positions/model.yaml").equations().text()
     assert "θ = θ₀ + ω t" in said and "ω (1 rad/s)" in said
 
 

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.equations import from_sympy
 from freebody.equations.substitutions import substitutions_of
 from freebody.solve.symbolic_state import SymbolicState
 
-SYSTEMS = Path(fb.__file__).parent / "systems"
-
 
 def system(name: str) -> fb.Mechanism:
     """A model of the catalogue."""
-    return fb.load(SYSTEMS / name / "model.yaml")
+    return fb.load(model_file(f"{name}/model"))
 
 
 def random_subjects(mechanism: fb.Mechanism, number: int = 3, seed: int = 3) -> Iterator[SymbolicState]:

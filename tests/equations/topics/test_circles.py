@@ -1,11 +1,12 @@
 """Nothing that is printed says cos² + sin² of an angle where it could say 1."""
 
 from itertools import combinations
+from pathlib import Path
 
 import pytest
-from models import SYSTEMS
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.equations.derivation.derive import FORMS
 from freebody.equations.solve import TooLarge
 from freebody.equations.topics import TOPICS, NotHere, topic
@@ -13,11 +14,9 @@ from freebody.symbolic.algebra import pythagorean
 from freebody.symbolic.tree import Add, Fn, Sym, Tree, add, children, mul, number, power
 
 SOME = ("19.3.10", "19.3.17", "19.3.28", "GEN-FOURBAR", "S19.17", "S19.18")
-EXAMPLES = SYSTEMS.parents[2] / "examples"
-COLLIDING = [SYSTEMS / "19.3.22/latch.yaml", SYSTEMS / "19.3.30/hinged.yaml"]
-COLLIDING += [
-    pytest.param(path, marks=pytest.mark.long) for path in (SYSTEMS / "19.3.30/model.yaml", EXAMPLES / "tossed_box.yaml")
-]
+EXAMPLES = Path(__file__).parents[3] / "examples"
+COLLIDING = [model_file("19.3.22/latch"), model_file("19.3.30/hinged")]
+COLLIDING += [pytest.param(path, marks=pytest.mark.long) for path in (model_file("19.3.30/model"), EXAMPLES / "tossed_box.yaml")]
 
 
 def trees(part):
@@ -54,7 +53,7 @@ def test_a_circle_is_seen():
 @pytest.mark.parametrize("name", SOME)
 @pytest.mark.parametrize("kind", [*FORMS, *TOPICS])
 def test_no_squares_of_sine_and_cosine_are_added(name, kind):
-    mechanism = fb.load(SYSTEMS / name / "model.yaml")
+    mechanism = fb.load(model_file(f"{name}/model"))
     try:
         made = topic(mechanism, kind) if kind in TOPICS else mechanism.equations(kind)
     except (NotHere, TooLarge) as reason:
@@ -62,7 +61,7 @@ def test_no_squares_of_sine_and_cosine_are_added(name, kind):
     assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]
 
 
-@pytest.mark.parametrize("path", COLLIDING, ids=lambda path: f"{path.parent.name}/{path.stem}")
+@pytest.mark.parametrize("path", COLLIDING, ids=lambda path: path.stem)
 def test_none_are_added_to_an_impact(path):
     made = topic(fb.load(path), "impact")
     assert not [found for tree in trees(list(made.blocks)) for found in circles(tree)]

@@ -3,12 +3,12 @@ symbol knows anything, and add up to the motion of the point."""
 
 import numpy as np
 import pytest
-from models import SYSTEMS
 from random_models import drawn
 from store import every
 from test_random_topics import directions, turned
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.document.blocks import Equation, Heading, Vector
 from freebody.equations import TooLarge, evaluate
 from freebody.equations.derivation.directions import axes
@@ -106,7 +106,7 @@ def test_the_terms_are_those_of_the_bodies_and_add_up_to_the_motion_of_the_point
 
 
 def test_a_point_of_the_frame_itself_is_at_rest_in_it():
-    made = fb.load(SYSTEMS / "S19.17" / "model.yaml").equations(of="rod.end", frame="rod")
+    made = fb.load(model_file("S19.17/model")).equations(of="rod.end", frame="rod")
     assert {term.name for term in made.terms if not term.vanishes} == {
         "in the frame of rod",
         "transport",
@@ -116,7 +116,7 @@ def test_a_point_of_the_frame_itself_is_at_rest_in_it():
 
 
 def test_what_is_not_there_is_named():
-    collar = fb.load(SYSTEMS / "S19.17" / "model.yaml")
+    collar = fb.load(model_file("S19.17/model"))
     with pytest.raises(ValueError, match=r"no point is called 'rod\.Z'; there are .*rod\.A"):
         collar.equations(of="rod.Z")
     with pytest.raises(ValueError, match="no body is called 'hut'"):

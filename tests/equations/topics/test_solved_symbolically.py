@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from models import SYSTEMS, atwood, sliding_rod, spring_pendulum, system, tree
+from models import atwood, sliding_rod, spring_pendulum, system, tree
 from typer.testing import CliRunner
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.cli import app
 from freebody.equations import Num, Sym, evaluate, symbols, to_sympy
 from freebody.equations.answers import Answers, solve_in_letters
@@ -179,7 +180,7 @@ def test_what_defines_a_length_stands_for_it() -> None:
 
 def test_a_dead_point_is_answered_where_it_stands() -> None:
     """With its masses in line and its lengths whatever they are nothing moves it."""
-    answers = fb.load(SYSTEMS / "GEN-SLIDER" / "dead_point.yaml").solve_in_letters()
+    answers = fb.load(model_file("GEN-SLIDER/dead_point")).solve_in_letters()
     assert all(tree == Num(0) for tree in answers.values.values())
 
 
@@ -215,7 +216,7 @@ def test_limits_of_atwood() -> None:
 
 
 def test_the_command_solves_in_letters() -> None:
-    model = str(SYSTEMS / "19.3.17" / "model.yaml")
+    model = str(model_file("19.3.17/model"))
     asked = ["--form", "solved", "--for", "x,rod.tension", "--at-rest", "--set", "theta=45 deg", "--limit", "mc=inf"]
     done = CliRunner().invoke(app, ["equations", model, *asked])
     assert done.exit_code == 0 and "mp g/(2 mc + mp)" in done.output and "mc → ∞" in done.output

@@ -6,9 +6,9 @@ import json
 
 import numpy as np
 import pytest
-from models import SYSTEMS
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.equations.stability import stability
 from freebody.equations.topics import topic
 from freebody.symbolic.evaluate import evaluate
@@ -112,7 +112,7 @@ def test_upside_down_it_falls() -> None:
 
 def test_two_equal_rods_hang_from_each_other() -> None:
     """ω² = (3 ± 6/√7) g/l. Timoshenko & Young, Advanced Dynamics, of two bars."""
-    path = SYSTEMS / "19.3.28" / "model.yaml"
+    path = model_file("19.3.28/model")
     stated = topic(fb.load(path), "linear", phi1=0, phi2=0).text()
     l = fb.load(path).start()[0].p[[p["name"] for p in fb.load(path).source().metadata["parameters"]].index("l")]
     for sign in (1, -1):

@@ -6,12 +6,13 @@ from unicodedata import normalize
 
 import numpy as np
 import pytest
-from models import SYSTEMS, atwood, random_subjects, spring_pendulum, system
+from models import atwood, random_subjects, spring_pendulum, system
 from numpy.testing import assert_allclose
 from store import but_long
 from typer.testing import CliRunner
 
 import freebody as fb
+from freebody.catalogue import model_file
 from freebody.cli import app
 from freebody.core import State
 from freebody.document.blocks import Equation
@@ -210,7 +211,7 @@ def test_polar_form_of_a_particle(name: str) -> None:
 
 @pytest.mark.parametrize("name", but_long(["19.3.10", "S19.20"], "S19.20"))
 def test_every_topic_prints_for_the_catalogue_or_says_why_not(name: str) -> None:
-    mechanism = fb.load(SYSTEMS / name / "model.yaml")
+    mechanism = fb.load(model_file(f"{name}/model"))
     for each in TOPICS:
         try:
             made = topic(mechanism, each)
@@ -238,7 +239,7 @@ def test_the_command_line_lists_every_topic_with_its_options() -> None:
 
 
 def test_the_command_line_makes_a_topic() -> None:
-    asked = ["equations", str(SYSTEMS / "S19.17" / "model.yaml"), "--form"]
+    asked = ["equations", str(model_file("S19.17/model")), "--form"]
     done = CliRunner().invoke(app, [*asked, "frame", "--set", "point=collar.G"])
     assert done.exit_code == 0 and "Coriolis" in done.output, done.output
     assert CliRunner().invoke(app, [*asked, "hamilton"]).exit_code == 2

@@ -52,7 +52,7 @@ def turns(case):
 @ask("Does the closed chain have fewer degrees of freedom than joints?")
 def freedom(case):
     """S19.22's bars, which nothing drives."""
-    now = case.instant("../S19.22/model.yaml")
+    now = case.instant("S19.22/model")
     says, against = (
         "It has {} degree of freedom and {} joints.",
         "count: three bodies, two constraints a hinge; freedom 3·3 − 2·4",

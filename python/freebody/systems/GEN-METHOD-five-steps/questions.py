@@ -1,7 +1,7 @@
 """Five steps: free-body diagrams, configuration, balances, solved, integrated; three systems taken through all of them.
 
-``freebody equations systems/EX-ARM/model.yaml`` prints the derivation. By hand every mass centre is a sum of circular motions and of one
-along a line, Σ c e^(i (b + q)), so its velocity is Σ J_k q̇_k; virtual power of all bodies gives
+``freebody equations systems/EX-ARM-two-link-arm/model.yaml`` prints the derivation. By hand every mass centre is a sum of circular
+motions and of one along a line, Σ c e^(i (b + q)), so its velocity is Σ J_k q̇_k; virtual power of all bodies gives
 M = Re Σ m J̄ Jᵀ + Σ I, and the rest likewise of weights, couples and of −c q̇² e^(i (b + q)).
 """
 
@@ -65,7 +65,7 @@ STATE = ((0.4, 1.1), (0.7, -1.3))
 
 
 def model(name):
-    return f"../{name}/model.yaml"
+    return f"{name}/model"
 
 
 def moving(case, name):

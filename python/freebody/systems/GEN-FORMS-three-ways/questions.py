@@ -28,7 +28,7 @@ MOMENT = {"19.3.2": {"at": 0.1}}
 @cache
 def every(case):
     """The systems that have models of their own: mechanism and symbolic state at the start."""
-    mechanisms = [(each.id, case.mechanism(f"../{each.id}/model.yaml")) for each in systems() if each.models]
+    mechanisms = [(each.id, case.mechanism(f"{each.id}/model")) for each in systems() if each.models]
     return [(name, m, SymbolicState(m.source(), m.moment(**MOMENT.get(name, {}))[0])) for name, m in mechanisms]
 
 
@@ -117,7 +117,7 @@ def agreement(case):
     for word, form in forms.items():
         apart = {}
         for name, _, subject in every(case):
-            case.instant(f"../{name}/model.yaml", **MOMENT.get(name, {}))
+            case.instant(f"{name}/model", **MOMENT.get(name, {}))
             value, check = solved(form(subject).system, subject)
             apart[name] = float(np.max(np.abs(value - check), initial=0.0) / np.max(np.abs(check), initial=1.0))
         yield from nothing_left(f"{word} ones do", apart, "other route: articulated bodies, in numbers", 1e-11)
