@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from freebody.catalogue import model_file
 from freebody.cli import app
 from freebody.mechanism import Mechanism
 from freebody.views.diagram.gallery import write_gallery
@@ -173,7 +174,7 @@ def test_a_scale_bar_says_its_newtons_in_full():
 def test_a_pdf_has_pages(tmp_path):
     """Three bodies of a four-bar stand on one page, all seven of a walker on six, each no higher than the text of a page."""
     for model, pages in (("GEN-FOURBAR/model", 1), ("GEN-STEP/model", 6)):
-        file = Mechanism.load(f"systems/{model}.yaml").diagram().save(tmp_path / "fbd.pdf")
+        file = Mechanism.load(model_file(model)).diagram().save(tmp_path / "fbd.pdf")
         boxes = re.findall(rb"/MediaBox \[ ?0 0 ([0-9.]+) ([0-9.]+) ?\]", file.read_bytes())
         assert len(boxes) == pages
         assert all(float(height) <= 700 + 2 * MARGIN for _, height in boxes)
