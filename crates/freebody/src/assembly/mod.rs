@@ -2,6 +2,7 @@
 
 mod closing;
 mod continuation;
+mod released;
 
 use crate::dynamics::{DynamicsError, Workspace, OPEN};
 use crate::gauges::ModelExpr;
@@ -73,7 +74,8 @@ pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) ->
     let (q, others) = match &request.from {
         Some(from) => (follow(workspace, t, request, from)?, vec![]),
         None => {
-            let q = match attempt(workspace, t, request, &request.start) {
+            let start = released::start(workspace, t, request);
+            let q = match attempt(workspace, t, request, &start) {
                 Ok(q) if on_branch(workspace, t, &q, request) => q,
                 first => search(workspace, t, request, first)?,
             };

@@ -16,12 +16,13 @@ impl WoundString {
     fn radius<S: Scalar>(n: &Numbers<S>) -> S {
         n.of[0] * (S::one() - n.of[1].scale(2.0))
     }
-    /// Direction and free length of the tangent from the point to the drum. Within the drum there is none, and a search
-    /// for a start is led out of it.
+    /// Direction and free length of the tangent from the point to the drum. Within the drum there is none: a negative
+    /// length leads a search for a start out of it, and is no start.
     fn line<S: Scalar>(n: &Numbers<S>, r: &Relative<S>) -> (S, S) {
         let (at, radius) = (r.at(), Self::radius(n));
         let square = at.dot(at) - radius * radius;
-        let free = S::select(square.value() < 0.0, -square, square).sqrt();
+        let length = S::select(square.value() < 0.0, -square, square).sqrt();
+        let free = S::select(square.value() < 0.0, -length, length);
         (at.y.atan2(at.x) - radius.atan2(free), free)
     }
 }
