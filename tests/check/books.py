@@ -1,5 +1,5 @@
 """Mechanisms of textbooks with statements as students write them, right and with a slip, in two halves: none is made by a rule. The check
-was mended with those in ``books/``; those in ``books_unseen/`` were written by people who did not know it, and are for its score alone.
+was mended with those in ``books/``; those that people who do not know it write for its score alone are put into ``books_unseen/``.
 
 A file holds a ``model``, ``letters``, and ``statements``: what is said, the ``verdict`` that a person came to, and the ``correction``
 that a tutor would give. Both were written down before the program had seen them.

@@ -43,7 +43,8 @@ def test_it_is_read_as_it_is_meant(said: str) -> None:
     name, word, text = SAID[said]
     checker(name).correcting = word == "if"
     verdict = judged_alone(checker(name), text)
-    assert verdict.kind is WORDS[word], str(verdict)
+    assumed = word == "if" and verdict.ok and verdict.assumption  # told, and not held against it
+    assert verdict.kind is WORDS[word] or assumed, str(verdict)
 
 
 def test_a_doubtful_reading_is_shown() -> None:

@@ -18,6 +18,7 @@ from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Node, Quotient, Sym, walk
 
+from .assumptions import free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
@@ -39,6 +40,9 @@ if TYPE_CHECKING:
 _PATIENT = 10.0  # s, within which an event is waited for where the model does not say how long it runs
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
+_BECOMES = {"taut": "taut|tight|stretched|straight", "slack": "slack|loose", "stick": "rolls|rolling|sticks|grips"}
+"""What changes in words."""
+_GIVEN = re.compile(r"\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
@@ -106,6 +110,8 @@ class Checker:
     def _without_laws(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where what cannot be read begins with a law, and says something behind it; where both can be read, about both."""
         for other, law in without_laws(text):
+            if (said := _GIVEN.fullmatch(law)) and free_parameter(said[1], self, letters or {}) and self.hypothesis == ALL:
+                return self.check(f"if {law}: {other}", letters, *how)
             with suppress(StatementError):
                 found = self.check(other, letters, *how)
                 if law or found.kind is not Kind.DIMENSIONS:
@@ -192,6 +198,19 @@ class Checker:
         found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or _alike(e["name"], word) for word in said)]
         found = found or (self.sampler.spec["events"] if _ENDS.search(words) else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
+
+    def becoming(self, words: str) -> str | None:
+        """The part that on the model's own motion becomes first of all what words say of it: taut, slack, or that it rolls."""
+        for kind, said in _BECOMES.items():
+            if not re.search(rf"\b(?:{said})\b", words):
+                continue
+            run, _ = self.moment("end")
+            firsts = {change.of[0]: change.kind for change in reversed(run.changes) if change.of and change.t > run.t[0]}
+            found = [name for name, first in firsts.items() if first == kind]
+            named = [name for name in found if any(_alike(name, word) for word in re.findall(r"\w+", words))]
+            if len(named or found) == 1:
+                return (named or found)[0]
+        return None
 
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
         """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, with sizes of vectors, and

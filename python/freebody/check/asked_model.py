@@ -91,12 +91,12 @@ class AskedModel:
             state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
         found = state_of(self.mechanism, state, self.core, **self.moment) if not self.stated else state
         is_new = found.history is None and self.restricted  # what holds there shows as it begins to move
-        return replace(self._run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
+        return replace(self.run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
 
     @cached_property
     def starts_to_move(self) -> bool:
         """Whether it is at rest at its moment, and every coordinate of it moves soon after."""
-        soon = self._run(self.own, 0.1 / self.rate).end
+        soon = self.run(self.own, 0.1 / self.rate).end
         before, after = (np.abs(state.u) / (self.rate * self.sizes) for state in (self.own, soon))
         return bool(np.all(before <= _AT_REST) and np.all(after > _AT_REST))
 
@@ -108,20 +108,22 @@ class AskedModel:
 
     @cached_property
     def is_held(self) -> bool:
-        """Whether friction of joints or a limit that is closed decides what moves."""
+        """Whether friction of joints or a limit that is closed, and does not stretch, decides what moves."""
         rough = any(joint.get("friction") for joint in self.spec["joints"])
-        return rough or not all(x.is_open for x in self.core.instant(self.own if self.moment else self.first).limits.values())
+        elastic = {string["name"] for string in self.spec["strings"] if string.get("stiffness") is not None}
+        limits = self.core.instant(self.own if self.moment else self.first).limits
+        return rough or not all(limit.is_open for name, limit in limits.items() if name not in elastic)
 
     def at_moment_with(self, values: Mapping[str, float]) -> State:
         """The state at the moment with other parameters. Raises ``MotionError`` and ``ModelProblem``."""
-        return self._at_moment(self._started(values))
+        return self._at_moment(self.started(values))
 
     @cached_property
     def _puts_in_place(self) -> bool:
         """Whether events fasten parts where they are: with other parameters these are elsewhere."""
         return any("engage" in action for event in self.spec["events"] for action in event["then"] if isinstance(action, Mapping))
 
-    def _run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
+    def run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)
 
     @cached_property
@@ -139,7 +141,7 @@ class AskedModel:
         words = initial_state(self.start, self.core, self.changes)
         return self.core.assemble(words.pop("p"), self.begins, **words)[0]
 
-    def _started(self, values: Mapping[str, float]) -> State:
+    def started(self, values: Mapping[str, float]) -> State:
         """The start with other parameters, its loops in the same assembly. Raises ``MotionError`` and ``ModelProblem``."""
         words = initial_state(self.start, self.core, self.changes | values)
         if self.loops:
@@ -182,7 +184,7 @@ class AskedModel:
     def _places(self) -> list[int]:
         """Coordinates that say where closed loops are: those that the start gives as far as they are free, then those that move most."""
         given = [i for i, name in enumerate(self.names) if name in self.start.fixed or name in self.changes]
-        rows, found = self._free_rates.copy(), list[int]()
+        rows, found = self.free_rates.copy(), list[int]()
         for _ in range(rows.shape[1]):
             sizes = np.linalg.norm(rows, axis=1)
             found.append(next((i for i in given if sizes[i] > _DEPENDENT), int(np.argmax(sizes))))
@@ -238,7 +240,7 @@ class AskedModel:
         return mass**dimension.mass * self.length**dimension.length * self.rate ** (-dimension.time)
 
     @cached_property
-    def _free_rates(self) -> Array:
+    def free_rates(self) -> Array:
         """Rates over ``sizes`` that can be given at will, (n, f), one a column: those by which loops stay closed, what touches goes on
         touching, and what is locked or driven stays so."""
         free = [motion["name"] for motion in self.spec["motions"] if motion["level"] == "acceleration"]

@@ -38,14 +38,19 @@ LATE = 1e3
 SMALL = 1e-3
 """How small a coordinate is that is small, in rad or typical lengths of the model."""
 
-_WORDS: dict[str, dict[str, Any]] = {
+WORDS: dict[str, dict[str, Any]] = {
     "at rest": {"at_rest": True},
     "at the start": {"at_start": True},
     "the start is at rest": {"since": "rest"},
     "from the start": {"since": "start"},
     "without gravity": {"gravity": False},
+    "in the steady state": {"steady": True},
     "with these numbers": {"numbers": True, "zeros": False},
 }
+"""Hypotheses that are said in words alone."""
+_MORE = (">", "≥", ">=")
+_ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
+_MEASURED = re.compile(r"(?<![\w.])\d+(?:\.\d+)?\s+[A-Za-z°]")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
 OWN_NUMBERS = "these numbers of the model"
@@ -140,9 +145,13 @@ def first_order(case: Case, equation: Equation, family: Family) -> bool:
     def beside_terms(values: Mapping[str, Array]) -> float:
         """What is left of the equation beside the least of its terms, in the median."""
         left = np.abs(residual(equation, values).sides.residual).max(axis=1)
-        sizes = [np.abs(sampled(term, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
         with np.errstate(all="ignore"):
-            return float(np.max([np.median(left / size) for size in sizes], initial=0.0))
+            sizes = [np.abs(sampled(term, values)).reshape(len(left), -1).max(axis=1) for term in terms(equation, expand=True)]
+            there = np.isfinite([left, *sizes]).all(
+                axis=0
+            )  # where it has a value: what it is said of may not swing with any numbers
+            shares = [np.median((left / size)[there]) for size in sizes]
+        return float(np.max(shares, initial=0.0)) if there.sum() >= OFTEN else np.nan
 
     far, near = (beside_terms(case.values(each, count=_STATES)) for each in (larger, family))
     return bool(near < HOLDS or (near < _NEGLIGIBLE and near < far / 3))
@@ -259,9 +268,9 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
     """
     parts = [part.strip() for part in re.split(r",|\band\b", text) if part.strip()]
     if not parts:
-        raise ModelProblem("the hypothesis is empty", f"write one, like `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(_WORDS)}")
+        raise ModelProblem("the hypothesis is empty", f"write one, like `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(WORDS)}")
     if any("=" in part for part in parts):  # for a solid disk, k² = ½ R²: less is taken for granted without the words
-        known = {*_WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM}
+        known = {*WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM}
         parts = [part for part in parts if part in known or not _WORDS_ALONE.fullmatch(part)]
     return reduce(lambda given, part: _also(given, part, checker, declared), parts, checker.hypothesis)
 
@@ -278,14 +287,17 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if part == IN_EQUILIBRIUM:
         still = (f"accel({spell(name)})" for name in checker.sampler.names)
         return replace(given, at_rest=True, vanishing=(*given.vanishing, *still))
-    if part in _WORDS:
-        return replace(given, **_WORDS[part])
+    if part in WORDS:
+        return replace(given, **WORDS[part])
     if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(.+)", part):
         return _with_limit(given, found[1], found[2], checker, declared)
+    if found := _ABOVE.fullmatch(part):
+        more, less = (found[1], found[3]) if found[2] in _MORE else (found[3], found[1])
+        return replace(given, above=(*given.above, _meant(f"({more}) - ({less})", checker, declared)))
     if part.count("=") != 1:
-        raise ModelProblem(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(_WORDS)}")
+        raise ModelProblem(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(WORDS)}")
     left, right = (side.strip() for side in part.split("="))
-    if (name := _parameter(left, checker, declared)) is not None:
+    if (name := free_parameter(left, checker, declared)) is not None:
         return replace(given, held=(*given.held, (name, _meant(right, checker, declared))))
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
     asks_past = "⟦" in vanishing or re.search(r"(?<![\w.])t(?![\w.(])", vanishing)
@@ -298,7 +310,7 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
     value (``theta -> 0``: small motions, to first order)."""
     if name == "t" and value in _INFINITE:
         return replace(given, since="start", late=LATE)
-    found = _parameter(name, checker, declared)
+    found = free_parameter(name, checker, declared)
     if found is None and value not in _INFINITE:
         return replace(given, small=(*given.small, (_meant(f"({name}) - ({value})", checker, declared), SMALL)))
     if found is None:
@@ -316,7 +328,10 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
 
 
 def _meant(expression: str, checker: Checker, declared: Declared) -> str:
-    """An expression of the statement's symbols in the model language."""
+    """An expression of the statement's symbols in the model language; one with measures, 45 m/s, is read as a statement is."""
+    if _MEASURED.search(expression):
+        with suppress(StatementError, ModelProblem):
+            return checker.symbols(declared).expression(expression)
     try:
         return checker.symbols({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
     except ModelProblem as problem:
@@ -328,7 +343,7 @@ def _meant(expression: str, checker: Checker, declared: Declared) -> str:
             raise problem from None
 
 
-def _parameter(name: str, checker: Checker, declared: Declared) -> str | None:
+def free_parameter(name: str, checker: Checker, declared: Declared) -> str | None:
     """The free parameter of the model that a symbol stands for, or None."""
     known = checker.symbols(declared)
     found = known.meanings.get(name) or known.spelt(name)

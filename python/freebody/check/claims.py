@@ -20,7 +20,7 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
+from .assumptions import WORDS, family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
 from .correction import SECOND, corrections
@@ -73,16 +73,22 @@ def _defined(text: str) -> tuple[dict[str, str], str]:
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """Under a hypothesis."""
+    letters, condition = _letters_of(checker, declared, condition)
+    declared = {**declared, **letters}
+    if letters and not condition:
+        return checker.check(statement, declared, correcting=checker.correcting)
     try:
         given = family(condition, checker, declared)
     except ModelProblem as problem:
-        return _labelled(checker, declared, condition, statement, problem)
+        return _in_words(checker, declared, condition, statement, problem)
     verdict = checker.check(statement, declared, given)
-    if verdict.ok or given.since:
-        return replace(verdict, assumption=condition) if verdict.ok else verdict
+    if verdict.ok:
+        return replace(verdict, assumption=condition)
     others = []
-    if given.vanishing and verdict.kind is Kind.UNDECIDABLE:  # it may be so only where something switches
-        others = [(replace(given, since="start"), condition)]
+    if given.vanishing and verdict.kind is Kind.UNDECIDABLE:  # it may be so only where something switches, or has done so
+        others = [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
+    elif given.since:
+        return verdict
     elif given.at_rest and "at rest" in condition and _is_of_places(checker.case(statement, declared)):
         others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
     for other, words in others:
@@ -91,6 +97,41 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
             return replace(found, assumption=words)
         verdict = found if verdict.kind is Kind.UNDECIDABLE and found.kind is not verdict.kind else verdict
     return verdict
+
+
+def _letters_of(checker: Checker, declared: Declared, condition: str) -> tuple[dict[str, str], str]:
+    """The letters of the writer's own that a condition gives, ``u = x' cos ψ``, and what it says beside."""
+    found, rest = {}, []
+    for part in condition.split(","):
+        said = _NAME.fullmatch(part)
+        is_new = said is not None and said[1].isidentifier() and not _has_meaning(checker, declared, said[1])
+        found |= {said[1]: said[2]} if said and is_new else {}
+        rest += [] if is_new else [part]
+    return found, ",".join(rest).strip()
+
+
+def _has_meaning(checker: Checker, declared: Declared, name: str) -> bool:
+    """Whether a symbol has one in the model, or by what it usually is."""
+    try:
+        known = checker.symbols(declared)
+        return bool((program := known.read(f"{name} = 0")).equations and known.require(program))
+    except StatementError:
+        return False
+
+
+def _in_words(checker: Checker, declared: Declared, condition: str, statement: str, problem: ModelProblem) -> Verdict:
+    """Under a hypothesis of which a part is words: of what becomes of a part of the model, a label, or a moment."""
+    parts = [part.strip() for part in re.split(r",|\band\b", condition)]
+    for part in parts:
+        others = ", ".join(other for other in parts if other is not part)
+        under = f"if {others}: {statement}" if others else statement
+        if _IN_WORDS.fullmatch(part) and (name := checker.becoming(part)):
+            return _beside_event(checker, declared, "", "after", name, under)
+    words = [part for part in parts if _IN_WORDS.fullmatch(part) and part not in WORDS]
+    if not words or len(words) == len(parts):
+        return _labelled(checker, declared, condition, statement, problem)
+    under = f"if {', '.join(part for part in parts if part not in words)}: {statement}"
+    return _labelled(checker, declared, ", ".join(words), under, problem)
 
 
 def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
@@ -137,6 +178,14 @@ def _beside_event(checker: Checker, declared: Declared, just: str, side: str, ev
         return verdict
     until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it
     return until if until.ok or (until.mends and not verdict.mends) else verdict
+
+
+def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
+    """An equation that each natural frequency satisfies."""
+    count = checker.vibration.count
+    names = [f"ω_{i}" for i in range(1, count + 1)] if count > 1 else ["ω_n"]
+    verdicts = [checker.check(_OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names]  # type: ignore[misc]
+    return next((verdict for verdict in verdicts if not verdict.ok), verdicts[0])
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
@@ -351,6 +400,8 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
+_OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
+_IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
@@ -366,6 +417,7 @@ _WHOLE = {
 _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
+    (re.compile(r"frequencies:(.+)", re.S), _frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),

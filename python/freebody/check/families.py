@@ -27,9 +27,10 @@ class Family:
     """Which motions: ``held`` are parameters with a number of their own (SI, or an expression of others), ``numbers`` holds all
     at the model's, ``at_rest`` has all rates 0, ``at_start`` stays where the model starts, ``zeros`` lets parameters that are 0
     in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
-    expressions of configuration and, linearly, rates that are 0; ``small`` are expressions of configuration with the size that
+    expressions of configuration and, linearly, rates that are 0, ``above`` such that are more; ``small`` are expressions of configuration with the size that
     they and their rates have at most. ``since``: motions that begin where the model does, with its rates (``start``) or without
-    (``rest``), and last so many times the time typical of the model if it is to be ``late``."""
+    (``rest``), and last so many times the time typical of the model if it is to be ``late``; they end where something switches, or go
+    on ``through`` that. ``steady``: they repeat with what drives them."""
 
     held: tuple[tuple[str, float | str], ...] = ()
     numbers: bool = False
@@ -39,9 +40,12 @@ class Family:
     gravity: bool = True
     scaled: tuple[tuple[str, float], ...] = ()
     vanishing: tuple[str, ...] = ()
+    above: tuple[str, ...] = ()
     small: tuple[tuple[str, float], ...] = ()
     since: str = ""
     late: float = 0.0
+    through: bool = False
+    steady: bool = False
 
 
 ALL = Family()

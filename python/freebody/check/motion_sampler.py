@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -25,6 +25,8 @@ from .asked_model import AskedModel
 from .budget import Budget
 from .families import ALL, Family, NoMotion, Samples, at_start
 from .sides import changes_side
+from .steady import steady_state
+from .stretches import first_zero, stretches
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -52,11 +54,12 @@ _SHORT_LOOP = 4  # coordinates, up to which a loop is taken far
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
-_LONG = 12.0  # of the time typical of the model: where within that something vanishes on a run it is found
-_LONGER = 0.3, 2.0, _LONG  # such runs one after the other: most of what vanishes does so soon
+_LONG = 12.0  # of the time typical of the model: how long a run is followed at least
+_STAGES = tuple(0.3 * 2.0**k for k in range(10))  # of the same time, one after the other: most of what vanishes does so soon
+_FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
+_FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
-_LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
-"""Times at which it is looked for between two, how often again, and how near they may come."""
+_PARTS = 4  # stretches of a motion that goes on through what switches
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 
 
@@ -87,7 +90,7 @@ class MotionSampler(AskedModel):
             except MotionError as error:
                 raise NoMotion(f"the model does not start: {error.what}") from None
             there = "".join(f"has `{_stated(text)}` and " for text in family.vanishing)
-            there += "no freedom is left in it to arrange that, and it " if family.vanishing and not self._free_rates.size else ""
+            there += "no freedom is left in it to arrange that, and it " if family.vanishing and not self.free_rates.size else ""
             why = "is not singular, on a limit or of another mode than its start"
             raise NoMotion(f"no motion of this model was found that {there}{why}")
         return self._families[key]
@@ -110,6 +113,8 @@ class MotionSampler(AskedModel):
             if len(found) >= _FEWER and spent > _SHARE:
                 return found
             for failed in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
+                if process_time() - began > _MOST * seconds:
+                    break
                 with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
                     if (made := self._made(rng, self._parameters(rng, family), family, _NEARER**failed)) is not None:
                         found.append(made)
@@ -120,7 +125,9 @@ class MotionSampler(AskedModel):
         self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float
     ) -> tuple[State, State | None] | None:
         start = None
-        driven = bool(family.vanishing and self.spec["motions"]) and not self._free_rates.size
+        if family.steady:
+            return (found, None) if (found := steady_state(self, rng, values, _EXACT)) else None
+        driven = bool(family.vanishing and self.spec["motions"]) and not self.free_rates.size
         if (family.since or driven) and not family.at_start:
             found, start = self._since_start(rng, values, family)
         elif self.restricted:
@@ -128,7 +135,7 @@ class MotionSampler(AskedModel):
         elif self.rolls_in_loop and not family.at_start:
             found, start = self._rolled_on(rng, values, family)
         else:
-            found = self._started(values) if family.at_start else self._anywhere(rng, values, family, reach)
+            found = self.started(values) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
         lost = [
             text
@@ -137,7 +144,13 @@ class MotionSampler(AskedModel):
         ]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{_stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
-        return None if lost or not found else (found, start)
+        if lost or not found or any(value <= 0 for value in self._read(family.above, found, start)):
+            return None
+        return found, start
+
+    def _read(self, texts: Sequence[str], state: State, start: State | None) -> list[float]:
+        """Expressions in a state, with what is asked of the start of its motion."""
+        return self.core.evaluate([at_start(text, self.core, start) if start else text for text in texts], state).tolist()
 
     def _vanishes(self, text: str, state: State) -> bool:
         """Whether an expression is 0 there."""
@@ -182,18 +195,19 @@ class MotionSampler(AskedModel):
 
     def _rolled_on(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
         """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
-        start = self._at_moment(self._started(values), self._rates(rng, replace(family, at_rest=False)))
+        start = self._at_moment(self.started(values), self._rates(rng, replace(family, at_rest=False)))
         conditions, n = self._conditions(rng, family), len(self.names)
         places = [text for text in conditions if not self.core.derivatives([text], start)[0, n + 1 : 2 * n + 1].any()]
-        for long in _LONGER if places else (rng.uniform(*_LONGER[:2]),):
-            motion = self._run(start, long / self.rate, _EXACT)
-            t = self._first_zero(places[0], motion, start) if places else motion.end.t
-            if t is not None:
+        there = start if places and self._vanishes(places[0], start) else None
+        for motion, _ in self._followed(start, _STAGES if places else (rng.uniform(_STAGES[0], _FURTHER),)):
+            found = self._first(places[0], motion, stretches(motion)) if places else motion.end
+            there = found or there
+            if found is not None:
                 break
-        else:
+        if there is None:
             return None, start
         rates = self._rates(rng, family)
-        state, _ = self.core.assemble(start.p, t, guess=self._named(motion.state(t).q), rates=rates)
+        state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
         return self._judging(self._arranged(conditions, state, list(rates))), start
 
     def _judging(self, state: State) -> State | None:
@@ -260,7 +274,7 @@ class MotionSampler(AskedModel):
         n = len(self.names)
         drawn = self.rate * self.sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
         order = rng.permutation(n)
-        chosen = sorted(order[independent(self._free_rates[order])].tolist())
+        chosen = sorted(order[independent(self.free_rates[order])].tolist())
         return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
     def _vanished(self, text: str, state: State, free: Sequence[str]) -> State:
@@ -293,9 +307,9 @@ class MotionSampler(AskedModel):
         else a little after the moment, as long as nothing switches."""
         late = 0.0
         if family.at_start:
-            state = self._at_moment(self._started(values))
+            state = self._at_moment(self.started(values))
         else:
-            own, random = self._at_moment(self._started(values)) if self._puts_in_place else self.own, rng.random() < _ELSEWHERE
+            own, random = self._at_moment(self.started(values)) if self._puts_in_place else self.own, rng.random() < _ELSEWHERE
             q = own.q + _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
             rates, there = self._rates(rng, family), self._named(own.u)
             if not (random or family.at_rest):
@@ -305,37 +319,60 @@ class MotionSampler(AskedModel):
             state = self._arranged(self._conditions(rng, family), state, list(rates))
         if "before" in self.moment:
             return self._sampled(state)
-        motion = self._run(state, max(late, 1e-6 / self.rate))
+        motion = self.run(state, max(late, 1e-6 / self.rate))
         return self._sampled(motion.state(state.t + min(late, 0.9 * (motion.end.t - state.t))))
 
     def _since_start(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
-        """A state on a run from the model's own start with random numbers, with the rates there or at rest, from the moment on and
-        before anything switches, where what vanishes first does so; and that start."""
+        """A state on a run from the model's own start with random numbers, with the rates there or at rest, from the moment on, where
+        what vanishes first does so; before anything switches, or ``through`` that. And that start."""
         start = self._at_moment(
-            self._started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
+            self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
-        long = family.late or (_LONG if family.vanishing else _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random())
-        motion = self._run(start, long / self.rate, _EXACT)
-        ends = min([motion.end.t, *(change.t for change in motion.changes if change.t > start.t)])
-        if family.late and ends < start.t + 0.99 * long / self.rate:
-            return None, start
-        ends = self.staying(motion, start.t, ends)
-        there = (at_start(text, self.core, start) for text in family.vanishing)
-        middle = motion.state((start.t + ends) / 2)  # what is 0 there and at the start, too, is asked of no moment
-        first = next((text for text in there if not (self._vanishes(text, start) and self._vanishes(text, middle))), None)
-        if first is None:
-            return self._sampled(motion.state(start.t + 0.99 * (ends - start.t))), start
-        t = self._first_zero(first, motion, start, ends)
-        return (None if t is None else self._sampled(start if t == start.t else motion.state(t))), start
+        conditions = [at_start(text, self.core, start) for text in family.vanishing]
+        usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
+        first = conditions
+        for motion, goes_on in self._followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):
+            parts = stretches(motion)[: _PARTS if family.through else 1]
+            begins, ends = parts[0][0], self.staying(motion, parts[0][0], parts[-1][1])
+            parts = [(one, min(other, ends)) for one, other in parts if one < ends] or parts[:1]
+            if begins == start.t:  # what is 0 there and in the middle, too, is asked of no moment
+                middle = motion.state((begins + ends) / 2)
+                first = [text for text in conditions if not (self._vanishes(text, start) and self._vanishes(text, middle))][:1]
+            if not first:
+                one, other = parts[rng.integers(len(parts))]
+                if family.late and not goes_on:
+                    break
+                return self._sampled(motion.state(one + 0.99 * min(usual / self.rate, other - one)), family.through), start
+            if (found := self._first(first[0], motion, parts)) is not None:
+                return self._sampled(found, family.through), start
+            if ends < motion.end.t and not family.through:
+                break
+        return (self._sampled(start) if first and self._vanishes(first[0], start) else None), start
 
-    def _first_zero(self, text: str, motion: Trajectory, start: State, ends: float | None = None) -> float | None:
-        """When an expression is first 0 behind the start of a motion; at the start, where it is only so there."""
-        t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], start.t, motion.end.t if ends is None else ends)
-        return start.t if t is None and self._vanishes(text, start) else t
+    def _followed(self, start: State, longs: Sequence[float]) -> Iterator[tuple[Trajectory, bool]]:
+        """The motion from a start in stages that are so many times the time typical of the model long, the later ones as long as that
+        takes few steps; each, and whether it goes on."""
+        begins, steps = start.t, 0
+        for long in longs:
+            motion = self.run(start, long / self.rate, _EXACT)
+            goes_on, steps = motion.end.t >= start.t + 0.99 * long / self.rate, steps + len(motion.steps)
+            yield motion, goes_on
+            if not goes_on or (steps > _FEW_STEPS and motion.end.t > begins + _LONG / self.rate):
+                return
+            start = motion.end
 
-    def _sampled(self, found: State) -> State | None:
-        """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge."""
-        if self.restricted:
+    def _first(self, text: str, motion: Trajectory, parts: Sequence[tuple[float, float]]) -> State | None:
+        """Where an expression is first 0 behind the beginning of a motion."""
+        for begins, ends in parts:
+            t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], begins, ends)
+            if t is not None and self._vanishes(text, found := motion.state(t)):  # it has not jumped there
+                return found
+        return None
+
+    def _sampled(self, found: State, through: bool = False) -> State | None:
+        """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge; ``through`` what
+        switches something else may hold."""
+        if self.restricted and not through:
             if not touching(found) <= touching(self.own) or changes_side(self.core, self._squares, self.own.q, found):
                 return None
             if not same_mode(self.core.free_bodies(found), self._loads):
@@ -352,23 +389,6 @@ def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
     """Derivatives of several numbers, a row each, by central differences."""
     columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T if columns else np.zeros((1, 0))
-
-
-def first_zero(of: Callable[[Array], Array], begins: float, ends: float) -> float | None:
-    """Where a function of time, read at many times at once, first goes through 0 behind its beginning; None where it does not."""
-    times = np.linspace(begins, ends, _LOOKS)
-    for _ in range(_FINER):
-        values = of(times)
-        crossings = np.flatnonzero((values[1:-1] * values[2:] <= 0) & (values[1:-1] != 0)) + 1
-        if not len(crossings) and values[0] * values[1] < 0:
-            crossings = np.zeros(1, int)
-        if not len(crossings):
-            return None
-        a, b = times[crossings[0]], times[crossings[0] + 1]
-        if b - a <= _SHORTEST * (abs(b) + ends - begins):
-            return float(b - (b - a) * values[crossings[0] + 1] / (values[crossings[0] + 1] - values[crossings[0]]))
-        times = np.linspace(a, b, _LOOKS)
-    return float(times[-1])
 
 
 def _about(rng: np.random.Generator) -> float:

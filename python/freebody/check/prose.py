@@ -88,6 +88,12 @@ _LIMITLESS = re.compile(r"(?:∫|\\int)(?!\s*(?:\\limits\s*)?[_^₀-₉])(?=[^=;
 """An integral over time without limits is one from the start."""
 _OF_WHAT = re.compile(r"(?<=[\w)}²³])\s+(?:for|of) the [a-z]+(?: [a-z]+)*\s*\Z")
 """``… for the free end``."""
+_WHERE_WHAT = re.compile(r",?\s+where\s+(?=[^=<>]*[A-Za-z]{3})[^=<>:]*\Z")
+"""``…, where x, y is the place of the weight``."""
+_AND_THERE = re.compile(
+    r"(?:[,;]|[,;]?\s+and)\s+(?:at|for|on|of) the (?!start|end|moment|instant|same)[a-z]+[,:]?\s+(?=[^:=]*=[^:]*\Z)"
+)
+"""``… and at the lever P b = T_2 a``."""
 _THEN = re.compile(r"(?m)^(\s*(?:if|when)\b[^:\n]*?),?\s+then\s+(?=[^:\n]*[=<>≈≤≥])")
 _JUST_IT = re.compile(r"\b((?:just|immediately)\s+(?:after|before))\s+(?:it|that|this)\b[:,]?\s+")
 _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
@@ -142,6 +148,8 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _EXTREME.sub(r"_{\1}", said)
     said = _LIMITLESS.sub(lambda found: f"∫_0^t{found[1]}", said)
     said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
+    said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
+    said = _AND_THERE.sub(lambda found: f"\n{told(found, 'a remark, and not judged')}", said)
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _REST_AT.sub(r"\1, \2_0 = \3", _FROM_REST.sub("if the start is at rest", said))
     said = _THESE_NUMBERS.sub("if with these numbers", said)

@@ -15,7 +15,7 @@ from freebody.model.writer import Writer
 from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Sym, substitute, walk
+from freebody.symbolic.tree import Num, Sym, Unit, exchange, substitute, walk
 
 from .language.dimensions import misfit
 from .language.elimination import Elimination
@@ -188,7 +188,10 @@ class Symbols:
             if len(said) != 1:
                 raise ModelProblem(f"`{symbol.key}` cannot stand in a condition")
             given[symbol] = Sym(f"({said[0]})")
-        return written(substitute(line.left, given))
+        found = substitute(line.left, given)
+        for unit in [n for n in walk(found) if isinstance(n, Unit)]:
+            found = exchange(found, unit, Num(unit.size))
+        return written(found)
 
     # --- building ------------------------------------------------------------------------------
 

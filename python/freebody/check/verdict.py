@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import chain, islice
@@ -10,8 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.model.errors import ModelProblem
 from freebody.solve.rich_tables import PlainText
+from freebody.symbolic.differentiate import rate
 from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import is_zero
+from freebody.symbolic.tree import Num, Pow, Sym
 
 from .assumptions import FROM_START, OWN_NUMBERS, assumption, leaves_out, linearised, of_family, tiny
 from .case import Case
@@ -31,6 +37,8 @@ if TYPE_CHECKING:
 _FAR = 2.0  # size of a correction from which on one is looked for among the balances
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
+_SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
+"""What has no sign."""
 _FEW = 0.1  # share of such states
 _GLANCE = 3  # states, on which most of what is wrong shows
 _ROUND_OFF = 1e-9  # of the largest component of an equation: one that stays below is 0
@@ -293,17 +301,41 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
 
 
 def _from_start(case: Case, equation: Equation) -> Verdict | None:
-    """That it is true of motions from the start of the model, where its letters are of these, or where that is at rest and everything moves
-    from there, so that a term which is left out is 0; else None."""
-    given = case.hypothesis
-    since = replace(case, hypothesis=replace(given, since="start"), known={})
-    said = replace(given, vanishing=()) == ALL and not says_a_figure(equation)
-    if said and not case.meaning.speaks_of_start(equation):
-        said = case.sampler.starts_to_move and of_family(case, equation, since.hypothesis, _GLANCE)
-    if not said or not of_family(case, equation, since.hypothesis, SAMPLES):
+    """That it is true of motions from the start of the model, also through what switches on them, where its letters are of these; where that
+    is at rest and everything moves from there, so that a term which is left out is 0; where what it says is 0 never changes; or where a
+    size in it has the sign that it has on these. Else None."""
+    given, figure = case.hypothesis, says_a_figure(equation)
+    if replace(given, vanishing=(), held=(), numbers=False, zeros=True) != ALL or (figure and not given.vanishing):
         return None
-    verdict = judged_one(since, equation)
-    return replace(verdict, assumption=FROM_START) if verdict.ok else None
+    since = replace(given, since="start")
+    glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)
+    known = figure or case.meaning.speaks_of_start(equation)
+    if not (known or _never_changes(case, equation) or _but_for_sign(case, equation) or glance()):
+        return None
+    for family in (since, replace(since, through=True)):
+        if of_family(case, equation, family, SAMPLES):
+            verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
+            return replace(verdict, assumption=FROM_START) if verdict.ok else None
+    return None
+
+
+def _never_changes(case: Case, equation: Equation) -> bool:
+    """Whether by what its sides differ is constant on every motion, though both change."""
+    with suppress(StatementError, NoMotion, ModelProblem):
+        slope = Equation(*(rate(side, case.meaning.symbols.constants) for side in (equation.left, equation.right)))
+        needed = [n for n in symbols_in(slope) if n.key not in case.values()]
+        changes = not (is_zero(slope.left) and is_zero(slope.right))
+        return changes and not needed and case.residual(slope).worst < HOLDS
+    return False
+
+
+def _but_for_sign(case: Case, equation: Equation) -> bool:
+    """Whether sizes of velocities stand in it, and its sides are equal but for their sign."""
+    known = case.meaning
+    if equation.relation != "=" or not any(_SIZE.search(text) for n in symbols_in(equation) for text in known.texts(Sym(n.name))):
+        return False
+    two = Num(2.0, "2")
+    return holds(case, Equation(Pow(equation.left, two), Pow(equation.right, two)))
 
 
 def _as_figures(case: Case, equation: Equation) -> Verdict | None:

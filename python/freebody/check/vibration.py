@@ -81,6 +81,11 @@ class Vibration:
         }
 
     @property
+    def count(self) -> int:
+        """How many natural frequencies it has."""
+        return sum(name.startswith("natural frequency") for name in self._own) if self.rest else 0
+
+    @property
     def place(self) -> str:
         """Where that is, in words."""
         core, rest = self.sampler.core, self.rest

@@ -9,18 +9,33 @@ from .language.glyphs import CONDITION
 
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
-_BEFORE = re.compile(rf"({_STARTS}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
-_LABELLED = re.compile(rf"\A[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)")
+_SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
+_BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
+_LABELLED = re.compile(
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until)\b)[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)"
+)
+_ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
+"""``at t = 0 (at rest, beam level)``."""
+_FREQUENCIES = re.compile(
+    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)\s*\Z"
+)
 _NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
-_SMALL = re.compile(r"\A\s*(small (?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?)\s*:(?!=)")
-"""``small θ:``, without a word before it; a small block is no angle."""
+_SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
+_SMALL = re.compile(rf"\A\s*small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
+"""``small θ:``, ``small φ, s:``, without a word before it; a small block is no angle."""
+_TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
+"""``φ → 0:``."""
+_STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
 _BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
 _PARTS = re.compile(r",|\band\b")
+_WHEN = re.compile(r"\s+(?:when|where|while|with)\s+")
+_ABOUT = re.compile(r"\s*about\s[^=]*=")
+"""Of a vibration: ``about x = m g/k``."""
 _SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
 _BESIDE = re.compile(rf"(?:{_INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))\S.*")
 _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
@@ -32,6 +47,7 @@ _INFINITY = re.compile(r"([-+]?)\s*(?:\\infty|∞|infinity)")
 _START = re.compile(
     r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release(?: from rest)?|beginning)|being released|it is released)"
 )
+_STEADY = re.compile(r"(?:(?:in|for|at)\s+)?(?:the\s+)?steady(?:[\s-]+state)?(?:\s+(?:motion|vibration|response|state))?")
 _CONSTANT = re.compile(
     r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
     r"(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
@@ -43,6 +59,10 @@ _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=cons
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|\\[\[\]]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
+_GIVEN_FIRST = re.compile(
+    rf"((?:[^\W\d][\w{{}}\\]*\s*=\s*\d+(?:\.\d+)?(?:\s+[A-Za-z°][^\s,;]*|°)?(?:\s*,\s*|\s+and\s+|\s*(?=;)))+);\s*((?:{_STARTS})\b.+)",
+    re.S,
+)
 """``m = 2 kg, r = 0.1 m: a = 3.2 m/s²``."""
 _NUMBERED = re.compile(r"([^=:;\n]+)=([^=:;\n]+)")
 _TWICE = {"1": re.compile(r"(?<=\w)_?\{?[1₁]\}?(?!\w)"), "2": re.compile(r"(?<=\w)_?\{?[2₂]\}?(?!\w)")}
@@ -72,7 +92,7 @@ def with_condition_first(text: str) -> str:
         return f"constant: {found[1]} {'-' if found[2] == '+' else '+'} ({found[3]})"
     if found := _CONSTANT_FIRST.fullmatch(said):
         return f"constant: {found[1]}"
-    if found := _GIVEN.fullmatch(said):
+    if found := _GIVEN.fullmatch(said) or _GIVEN_FIRST.fullmatch(said):
         return f"if {found[1]}: {found[2]}"
     if found := _LIMIT.fullmatch(said):
         return f"as {next(filter(None, found.groups()[:3]))}: {found[4]}"
@@ -92,14 +112,23 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _SMALL.sub(r"for \1:", _LABELLED.sub("", text))
+    text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", _SMALL.sub(_all_small, _LABELLED.sub("", text))))
+    label, colon, rest = text.partition(":")
+    if colon and "=" in rest and (found := _FREQUENCIES.search(label)):
+        before = label[: found.start()].strip()
+        return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
     if not found:
         return text
-    word, said, statement = " ".join(found[1].split()), _NAMED_PLACE.sub(r"\1", _plainly(found[2])), found[3]
+    word, said, statement = (
+        " ".join(found[1].split()),
+        _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1", _plainly(found[2])))),
+        found[3],
+    )
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
-    parts = [part for part in _PARTS.split(said) if not _SUM.match(part)]
+    parts = [part for part in _PARTS.split(said) if not (_SUM.match(part) or _ABOUT.match(part))]
+    parts[0] = "from the start" if word == "from" else parts[0]
     said = ",".join(parts)
     if len(parts) > 1 and (beside := next((p for p in (f"{word} {parts[0]}", *parts[1:]) if _BESIDE.fullmatch(p.strip())), None)):
         others = [_condition(p) for p in (f"{word} {parts[0]}", *parts[1:]) if p is not beside]
@@ -123,6 +152,12 @@ def as_claim(text: str) -> str:
     return f"if {', '.join(parts)}: {statement}"
 
 
+def _all_small(found: re.Match[str]) -> str:
+    """``for small φ, small s:``."""
+    names = filter(None, (part.strip() for part in _PARTS.split(found[1])))
+    return f"for {', '.join(f'small {name}' for name in names)}:"
+
+
 def _plainly(condition: str) -> str:
     """A condition with arrows and infinities of one kind, without LaTeX's blanks."""
     return _INFINITY.sub(r"\1inf", _ARROW.sub(" -> ", condition.strip().replace(r"\,", " ").strip("$ ")))
@@ -140,6 +175,8 @@ def _condition(part: str) -> str:
         return "at the start"
     if re.fullmatch(r"(?:in |at )?(?:static )?equilibrium", said):
         return "in equilibrium"
+    if _STEADY.fullmatch(said):
+        return "in the steady state"
     return "at rest" if said == "rest" else said
 
 

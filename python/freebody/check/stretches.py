@@ -1,0 +1,37 @@
+"""Stretches of a motion between what switches on it, and where on one something first vanishes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+
+from freebody.core import Array, Trajectory
+
+_LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
+"""Times at which it is looked for between two, how often again, and how near they may come."""
+
+
+def stretches(motion: Trajectory) -> list[tuple[float, float]]:
+    """Beginning and end of each."""
+    begins, ends = float(motion.steps[0]), motion.end.t
+    inside = (change.t for change in motion.changes if begins < change.t < ends)
+    return list(pairwise(dict.fromkeys((begins, *inside, ends)))) or [(begins, ends)]
+
+
+def first_zero(of: Callable[[Array], Array], begins: float, ends: float) -> float | None:
+    """Where a function of time, read at many times at once, first goes through 0 behind its beginning; None where it does not."""
+    times = np.linspace(begins, ends, _LOOKS)
+    for _ in range(_FINER):
+        values = of(times)
+        crossings = np.flatnonzero((values[1:-1] * values[2:] <= 0) & (values[1:-1] != 0)) + 1
+        if not len(crossings) and values[0] * values[1] < 0:
+            crossings = np.zeros(1, int)
+        if not len(crossings):
+            return None
+        a, b = times[crossings[0]], times[crossings[0] + 1]
+        if b - a <= _SHORTEST * (abs(b) + ends - begins):
+            return float(b - (b - a) * values[crossings[0] + 1] / (values[crossings[0] + 1] - values[crossings[0]]))
+        times = np.linspace(a, b, _LOOKS)
+    return float(times[-1])
