@@ -98,10 +98,10 @@ def test_powers_of_ten_are_raised_and_nothing_else_is_markup():
 
 
 def test_lines_that_are_alike_are_one():
-    rows = [("tap", f"{t}", "touch", "") for t in range(7)] + [("knock", "9", "touch", "")]
-    table = Table("Events", ("event", "t / s", "kind", "direction"), rows, alike=(0, 2))
+    rows = [("tap", f"{t}", "touch") for t in range(7)] + [("knock", "9", "touch")]
+    table = Table("Events", ("event", "t / s", "kind"), rows, alike=(0, 2))
     (line, folded), (none, single) = table.groups
-    assert line == ["tap, 7 times", "0 to 6", "touch", ""] and folded == rows[:7]
+    assert line == ["tap, 7 times", "0 to 6", "touch"] and folded == rows[:7]
     assert none is None and single == rows[7:]
 
 

@@ -87,12 +87,12 @@ def beside(run: Run) -> list[Table]:
         value = r.note if r.value is None else f"{_figure(r.value, 8, r.unit)} {_unit(r.unit)}".strip()
         when = f"{_figure(r.t)} ({r.note})" if r.note and r.value is not None else _figure(r.t)
         reported.append((label, value, when))
-    ways = {1: "rising", -1: "falling"}
-    events = [(e.name, _figure(time(e.t), 9), e.kind, ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
+    ways = {1: " ↑", -1: " ↓"}
+    events = [(e.name, _figure(time(e.t), 9), e.kind + ways.get(e.direction, "")) for e in run.events[:_EVENTS]]
     remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
     tables = (
         Table("Report", ("quantity", "value", "at t / s"), reported),
-        Table("Events", ("event", "t / s", "kind", "direction"), events, remark, alike=(0, 2)),
+        Table("Events", ("event", "t / s", "kind"), events, remark, alike=(0, 2)),
     )
     return [table for table in tables if table.rows]
 
