@@ -36,6 +36,7 @@ from freebody.symbolic.evaluate import Array
 _CONSTANT = re.compile(r"(?:.*:)?\s*constant:(.+)", re.S)
 _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
+_TENDS = re.compile(r"→|->")
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
 
 
@@ -99,8 +100,8 @@ class Book:
         return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})
 
     def _equation(self, text: str) -> str:
-        """What is said without the words that say of which motions; of a constant, that it is 0."""
-        return _CONDITION.sub("", _CONSTANT.sub(r"\1 = 0", self._plain(text)))
+        """What is said without the words that say of which motions; of a constant, that it is 0; of a limit, that it is reached."""
+        return _TENDS.sub("=", _CONDITION.sub("", _CONSTANT.sub(r"\1 = 0", self._plain(text))))
 
     def _plain(self, text: str) -> str:
         """What is said, with its condition first and without remarks."""

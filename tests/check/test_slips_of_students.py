@@ -47,6 +47,80 @@ SLIPS = {
         "just after: V = m (1 + e) v0/(M + m + 12 m d²/L²)",
         "is left out",
     ),
+    "stretch of the whole length": (
+        "slingshot_bands",
+        "T + V = const: ½ m v² + ½ (k_1 + k_2)(x² + a²) = const",
+        "½ m v² + ½ (k_1 + k_2)(√(x² + a²) − l_0)² = const",
+        "another quantity",
+    ),
+    "speed on what moves": (
+        "ship_with_moving_weight",
+        "if c = 0: ½ I_O φ'² + ½ m s'² − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",
+        "if c = 0: ½ I_O φ'² + ½ m [(s' − h φ')² + s² φ'²] − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",
+        "is left out",
+    ),
+    "energy for momentum": (
+        "skater_draws_in_arms",
+        "½ (J + 2 m r²) θ'² = const",
+        "(J + 2 m r²) θ' = const",
+        "the power is another",
+    ),
+    "no constant": (
+        "child_pumps_swing",
+        "constant: ½ m (r'² + r² θ'²) − m g r cos θ",
+        "d/dt(½ m (r'² + r² θ'²) − m g r cos θ) = −T r'",
+        "that changes it",
+    ),
+    "one of two alike": (
+        "skater_draws_in_arms",
+        "(J + m r²) ω = (J + m r_0²) ω_0",
+        "(J + 2 m r²) ω = (J + 2 m r_0²) ω_0",
+        "throughout",
+    ),
+    "what is below a root": (
+        "superball_bounce",
+        "just after the impact: v_y = e √(2 g h)",
+        "just after the impact: v_y = e √(2 g (h − R))",
+        "another quantity",
+    ),
+    "an angle of the start": (
+        "curling_stones",
+        "just after the impact: (x_B' − x_A') cos β + (y_B' − y_A') sin β = e v_0",
+        "just after the impact: (x_B' − x_A') cos β + (y_B' − y_A') sin β = e v_0 cos β",
+        "a factor is forgotten",
+    ),
+    "after a long time": ("fluid_coupling", "as t → ∞: θ1' − θ2' → T/b", "as t → ∞: θ1' − θ2' → T/c", "another quantity"),
+    "small lengths": (
+        "slingshot_bands",
+        "for small x: m x'' + (k_1 + k_2) x = 0",
+        "for small x: m x'' + (k_1 + k_2)(1 − l_0/a) x = 0",
+        "is left out",
+    ),
+    "at an event": (
+        "disc_clutch",
+        "when the clutch grips: ½ J_1 ω_1² + ½ J_2 ω_2² = J_1 ω_0²/(2 (J_1 + J_2))",
+        "when the clutch grips: ½ J_1 ω_1² + ½ J_2 ω_2² = J_1² ω_0²/(2 (J_1 + J_2))",
+        "a factor is forgotten",
+    ),
+    "both parts of an acceleration": (
+        "two_rotor_drone",
+        "l φ'' + g sin φ = 0",
+        "l φ'' + x'' cos φ + y'' sin φ + g sin φ = 0",
+        "is left out",
+    ),
+    "differentiated by half": (
+        "ice_yacht",
+        "y'' cos ψ − x'' sin ψ = 0",
+        "y'' cos ψ − x'' sin ψ − ψ' (x' cos ψ + y' sin ψ) = 0",
+        "is left out",
+    ),
+    "a letter of the model": ("collar_and_counterweight", "z' = −y'", "z' = −y y'/s", "a factor is forgotten"),
+    "a letter for a sum": (
+        "ship_with_moving_weight",
+        "if c = 0: ½ I_O φ'² + ½ m (s'² + s² φ'²) − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",
+        "if c = 0: ½ I_O φ'² + ½ m [(s' − h φ')² + s² φ'²] − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",
+        "",
+    ),
 }
 
 

@@ -278,19 +278,20 @@ def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
     """The verdict about equations; where they are not true, but are in another way in which they can be read, of that reading."""
     judging = copy(checker)
     judging.correcting = False
-    first = _judged(judging, text, letters)
+    case = judging.case(text, letters)
+    first = _judged(judging, text, letters, case)
     if first.ok:
         return first
     for other, tight, note in checker.readings(text, letters or {}):
-        found = _judged(judging, text, {**(letters or {}), **other}, tight)
+        said = {**(letters or {}), **other}
+        found = _judged(judging, text, said, judging.case(text, said, tight=tight))
         if found.ok:
             return replace(found, notes=(*found.notes, *note))
-    return _judged(checker, text, letters) if checker.correcting else first
+    return _judged(checker, text, letters, replace(case, correcting=True)) if checker.correcting else first
 
 
-def _judged(checker: Checker, text: str, letters: Declared | None, tight: bool = False) -> Verdict:
-    """The verdict about equations, read in one way."""
-    case = checker.case(text, letters, tight=tight)
+def _judged(checker: Checker, text: str, letters: Declared | None, case: Case) -> Verdict:
+    """The verdict about equations, read as in a case."""
     if case.program.units and (found := _in_figures(checker.case(text, letters, units=False))):
         return found
     if (error := misfit(case.program, case.meaning.symbols.dimensions)) is None:

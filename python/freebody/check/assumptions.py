@@ -103,7 +103,11 @@ def _is_of_higher_order(case: Case, equation: Equation) -> bool:
 
 
 def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
-    """The statement of motions so small that sines are angles, in words; None where no angle stands outside of sines and cosines."""
+    """The statement of motions so small that sines are angles, in words; None where it is not of such ones already, and no angle stands outside
+    of sines and cosines."""
+    if given := case.hypothesis.small:
+        nearer = replace(case.hypothesis, small=tuple((text, size * _TINY / SMALL) for text, size in given))
+        return "", replace(case, hypothesis=nearer, known={})
     if not _has_bare_angles(case, equation):
         return None
     words, family = _small(case, equation, _TINY)

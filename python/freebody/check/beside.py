@@ -58,11 +58,25 @@ def difference(said: Sequence[Term], true: Sequence[Term]) -> Difference:
             alone.append((node, value))
         else:
             del rest[place]
-    left = sum((factor * value for _, value in rest.values()), start=np.zeros(1))
-    if len(alone) == 1 and rest and np.allclose(alone[0][1], left, rtol=_SAME, atol=_SAME * np.abs(left).max()):
-        alone, rest = [], {}
+    if alone and (lost := _lacking(said, true)) is not None:
+        return lost
     missing = (multiplied(node, float(factor)) for node, _ in rest.values())
     return Difference(tuple(node for node in missing if node is not None), tuple(n for n, _ in alone), len(said) - len(alone))
+
+
+def _lacking(said: Sequence[Term], true: Sequence[Term]) -> Difference | None:
+    """What is lacking where all terms together are made of those of the balance, as where a letter stands for a sum; else None."""
+    rows, whole = np.array([value for _, value in true]).T, sum(value for _, value in said)
+    if rows.ndim != 2 or len(rows) < rows.shape[1]:
+        return None
+    shares, *_ = np.linalg.lstsq(rows, whole, rcond=_SAME)
+    if np.abs(rows @ shares - whole).max() > _SAME * np.abs(rows).max():
+        return None
+    numbers = np.round(shares, 6)
+    factor = max((n for n in numbers.tolist() if n), key=numbers.tolist().count, default=0.0)
+    kept = np.isclose(numbers, factor)
+    missing = [multiplied(node, float(factor - n)) for (node, _), n, same in zip(true, numbers, kept, strict=True) if not same]
+    return None if None in missing else Difference(tuple(n for n in missing if n is not None), (), int(kept.sum()))
 
 
 def _ratio(one: Array, other: Array) -> float | None:
@@ -76,7 +90,12 @@ def _ratio(one: Array, other: Array) -> float | None:
 def said_terms(equation: Equation, values: Mapping[str, Array]) -> list[Term]:
     """The terms of a statement, all on one side and multiplied out."""
     found = [*addends(equation.left, expand=True), *((-sign, term) for sign, term in addends(equation.right, expand=True))]
-    return [(node if sign > 0 else Negative(node), sign * sampled(node, values)) for sign, node in found]
+    return [(signed(sign, node), sign * sampled(node, values)) for sign, node in found]
+
+
+def signed(sign: int, node: Node) -> Node:
+    """A term with its sign."""
+    return node if sign > 0 else Negative(node)
 
 
 class Letters:

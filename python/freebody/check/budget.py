@@ -41,6 +41,13 @@ class Budget:
                 return
             yield each
 
+    def with_rest(self, part: float) -> float:
+        """The part of the whole that is gone when a part of what is left is."""
+        if math.isnan(self.begins) or math.isinf(self.seconds):
+            return part
+        gone = min((process_time() - self.begins) / self.seconds, 1.0)
+        return gone + part * (1 - gone)
+
     def lasts(self, part: float = 1.0) -> bool:
         """Whether there is time, or a ``part`` of it, left."""
         self.begins = process_time() if math.isnan(self.begins) else self.begins

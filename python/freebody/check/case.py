@@ -15,6 +15,7 @@ import numpy as np
 
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelProblem
+from freebody.run.moments import Unreached
 from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
@@ -105,9 +106,11 @@ class StatementSymbols:
         return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
 
     @property
-    def asks_extremes(self) -> bool:
-        """Whether it reads what is largest or least on a motion, which takes long to find."""
-        return any(_EXTREME.search(text) for n in self.required for text in self._one(n).texts)
+    def takes_long(self) -> bool:
+        """Whether it reads what takes long to find: what is largest or least on a motion, or of a vibration."""
+        return any(self._one(n).kind == "vibration" for n in self.required) or any(
+            _EXTREME.search(text) for n in self.required for text in self._one(n).texts
+        )
 
     def speaks_of_start(self, equation: Equation) -> bool:
         """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
@@ -147,13 +150,14 @@ class StatementSymbols:
         taken = {*parameters, *coordinates}
         directions = map(Sym, self.symbols.of_kind("declared", "direction"))
         vectors = [n for n in (*self.used, *directions) if self._one(n).is_vector]
-        known = dict.fromkeys([*self.used, *map(Sym, self.symbols.of_kind("declared"))])
+        known = dict.fromkeys([*self.used, *map(Sym, self.symbols.of_kind("declared", "gauge"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
         groups = (parameters, coordinates, others, vectors)
         plain = [{n: self._dimension(n) for n in group} for group in groups]
         named = [n for n in others if n in self.used or n.name in self.symbols.own]
         angles = {n for n in (*parameters, *coordinates, *named) if self._one(n).dimension == ANGLE}
+        angles |= {n for n in parameters if plain[0][n] == NUMBER_ONLY and (n in self._turning or self._turns(n))}
         angular = frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY})
         return Vocabulary(*plain, angular=angular, letters=frozenset(map(Sym, self.symbols.own)))
 
@@ -173,6 +177,10 @@ class StatementSymbols:
         if dimension is None:
             return NUMBER_ONLY if name in self.sampler.free_parameters or Sym(symbol.name) in self._turning else None
         return dimension._replace(angle=0)
+
+    def _turns(self, parameter: Sym) -> bool:
+        """Whether a parameter without a unit stands in a sine or cosine of the model."""
+        return bool(re.search(rf"\b(sin|cos|tan)\((?:[^()]*[^\w.])?{re.escape(parameter.name)}(?![\w.])", self._mechanics))
 
     @cached_property
     def _turning(self) -> frozenset[Sym]:
@@ -262,7 +270,7 @@ class Case:
 
     def samples(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Samples:
         """True states of a family. Raises ``NoMotion``."""
-        return self.sampler.samples(family or self.hypothesis, min(count, _FEWER) if self.meaning.asks_extremes else count, fresh)
+        return self.sampler.samples(family or self.hypothesis, min(count, _FEWER) if self.meaning.takes_long else count, fresh)
 
     def values(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Mapping[str, Array]:
         """The symbols on true states of a family. Raises ``NoMotion``."""
@@ -274,7 +282,7 @@ class Case:
     @cached_property
     def admissible(self) -> Mapping[str, Array]:
         """The symbols on states at which no balance holds; none where there are no such states."""
-        with suppress(NoMotion, ModelProblem, ModelError, MotionError, StatementError):
+        with suppress(NoMotion, Unreached, ModelProblem, ModelError, MotionError, StatementError):
             return self.meaning.values(self.sampler.admissible.samples(ALL, _ADMISSIBLE))
         return {}
 

@@ -259,7 +259,7 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     # What a hypothesis makes 0 has no size of its own there, only round-off.
     usual = float(np.median(magnitude(node, case.values(ALL)))) if case.hypothesis.vanishing else 0.0
     for sample in case.samples(count=_RUNS).states:
-        if len(runs) >= _ENOUGH and worst > _CLEARLY:
+        if len(runs) >= _ENOUGH and worst > _CLEARLY and not case.correcting:
             break
         along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
         values = case.meaning.values(along)

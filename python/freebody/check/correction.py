@@ -13,15 +13,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.symbolic.dimensions import Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, is_zero, walk
 
 from .coefficients import tidied
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
 from .families import NoMotion
 from .fitted_edits import FittedEdits
+from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
@@ -32,6 +34,7 @@ from .stated import Correction, stated
 if TYPE_CHECKING:
     from .case import Case
     from .families import Family
+    from .vocabulary import Vocabulary
 
 EQUAL = 0.35
 """Edits whose sizes differ by less are equally small."""
@@ -48,7 +51,7 @@ FIRST, SECOND = 0.5, 0.8
 """Parts of the budget after which a first search ends, and one that comes after it."""
 _CONFIRMING = 0.1  # of it, for what was found by then
 _OF_BALANCE = 0.5  # more, where motions alone were spoken of, for what only a balance makes true
-_FRESH = 1
+_FRESH, _FRESH_STATES = 1, 16
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
@@ -87,7 +90,8 @@ Step = Callable[["_Search"], Iterator[_Found]]
 
 def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator[Correction]:
     """The smallest corrections of an equation, equally small ones together; nothing where no one or two edits make it true. They are
-    looked for within a ``part`` of the budget."""
+    looked for within a ``part`` of what is left of the budget."""
+    part = case.budget.with_rest(part)
     given, families = case.hypothesis, [(case.hypothesis, "")]
     said = " ".join(text for symbol in symbols_in(equation) for text in case.meaning.texts(Sym(symbol.name)))
     unsaid = case.sampler.free_parameters.keys() - set(re.findall(r"\w+", said)) if given.zeros else ()
@@ -155,7 +159,9 @@ class _Search:
             self.values, self.vocabulary, self.within, _BLUR if family.small or family.scaled else 1.0, bool(family.small)
         )
         self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
-        self.holds, self._near = (_LIMIT, _LIMIT) if family.scaled else (_LINEAR if family.small else HOLDS, _PROMISING)
+        self.holds, self._near = (
+            (_LIMIT, _LIMIT) if family.scaled or family.late else (_LINEAR if family.small else HOLDS, _PROMISING)
+        )
         self.right = self._worst(equation, self.values) < self.holds
 
     def singles(self) -> Iterator[_Found]:
@@ -168,7 +174,7 @@ class _Search:
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
             self.differentiated,
-            forgotten_factors(self.equation, self.vocabulary),
+            () if readable else forgotten_factors(self.equation, self.vocabulary),
         )
         return (_Found((edit,)) for edit in self._promising(found))
 
@@ -206,7 +212,8 @@ class _Search:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
         kept: dict[tuple[float, ...], list[_Found]] = {}
         alike: dict[tuple[Any, ...], tuple[float, ...]] = {}
-        least = 0.0
+        least, found = 0.0, list(found)
+        alone = len(found) == 1  # then nothing else may say the same
         for tried, (size, each) in enumerate(self._ranked(found)):
             if tried >= MOST and not self.lasts():
                 break
@@ -220,15 +227,17 @@ class _Search:
             if mark is None or idle or vacuous or self._changes_the_subject(each) or not self.fit(each.after):
                 continue
             place = self._place(each)
-            mark = alike.setdefault(self._beside_balances(each.after) or place or mark, mark)
+            mark = mark if alone else alike.setdefault(self._beside_balances(each.after) or place or mark, mark)
             if place and mark in kept:
                 continue  # in other letters
             if mark in kept or self._confirmed(each.after):
                 least = size if not kept else least
                 kept.setdefault(mark, []).append(each)
         chosen = [min(same, key=self._oddness) for same in kept.values()]
-        if chosen and self.case.is_kinematic(chosen[0].after):  # then no balance is asked for
+        if len(chosen) > 1 and self.case.is_kinematic(chosen[0].after):  # then no balance is asked for
             chosen = [each for each in chosen if self.case.is_kinematic(each.after)]
+        if chosen and len(chosen[0].edits) == 1:
+            chosen = [each for each in chosen if len(each.edits) == 1]
         return chosen[:MOST]
 
     def _ranked(self, found: Iterable[_Found]) -> Iterator[tuple[float, _Found]]:
@@ -250,7 +259,9 @@ class _Search:
         lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
         mechanics = any(its is not None and (its.mass or its.time == -2) for its in lost)
         two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
-        return (two and bool(solved) and not solved & own) or ((two or mechanics) and self.case.is_kinematic(found.after))
+        return (two and bool(solved) and not solved & own) or (
+            (two or mechanics) and not self._is_constraint and self.case.is_kinematic(found.after)
+        )
 
     def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
         """What is left of an equation where no balance holds; nothing where that is nothing."""
@@ -296,10 +307,24 @@ class _Search:
 
     def _size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
+        new = symbols_in(found.after)
+        if self._is_of_other_dimension(found.after) or any(n.key not in self.said and not np.any(self.few[n.key]) for n in new):
+            return np.inf
         odd = sum(map(self._likelihood.lack, found.edits))
         odd += _OF_BALANCE * (self._is_constraint and not self.case.is_kinematic(found.after))
         odd += _WITHIN * any(map(self.differentiated.is_within, found.edits))
         return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
+
+    def _is_of_other_dimension(self, after: Equation) -> bool:
+        """Whether an equation is no longer of what it was of, where one side is 0."""
+        given = self._dimension
+        its = None if given is None else _dimension(after, self.vocabulary)
+        return its is not None and its != given and bool(is_zero(after.left) or is_zero(after.right))
+
+    @cached_property
+    def _dimension(self) -> Known:
+        """What the equation given is of; None where that is not known."""
+        return _dimension(self.equation, self.vocabulary) if self.fit(self.equation) else None
 
     def _is_idle(self, edit: Edit, beside_another: bool) -> bool:
         """Whether an edit puts 0 in the place of something."""
@@ -318,12 +343,12 @@ class _Search:
 
     @cached_property
     def _likelihood(self) -> Likelihood:
-        return Likelihood(self.equation, self.vocabulary, self.few, self.other)
+        return Likelihood(self.equation, self.vocabulary, self.few, self.other, bool(self.family.vanishing))
 
     @cached_property
     def fresh(self) -> Mapping[str, Array]:
         """The symbols on other true states."""
-        return _where_known(self.equation, self.case.values(self.family, _FRESH))
+        return _where_known(self.equation, self.case.values(self.family, _FRESH, _FRESH_STATES))
 
     def _confirmed(self, equation: Equation) -> bool:
         holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
@@ -348,7 +373,9 @@ class _Search:
         places = self.other if {n.key for n in symbols_in(equation)} - self.given else self.free
         found = self._residual(equation, places)
         defines = {*symbols_in(equation)} <= {*self.vocabulary.parameters}
-        if defines and found and found.worst < HOLDS:  # what a parameter is may be what was asked
+        if (
+            (defines or self.family.at_start) and found and found.worst < HOLDS
+        ):  # what a parameter is, or a force at one instant, may be asked
             places, found = self.free, self._residual(equation, self.free)
         if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
             return None
@@ -385,6 +412,12 @@ def _where_known(equation: Equation, values: Mapping[str, Array]) -> Mapping[str
     found = [np.isfinite(values[n.key]) for n in symbols_in(equation) if n.key in values]
     known = np.all([each.reshape(len(each), -1).all(axis=1) for each in found], axis=0)
     return values if np.all(known) or np.sum(known) < OFTEN else {key: value[known] for key, value in values.items()}
+
+
+def _dimension(equation: Equation, vocabulary: Vocabulary) -> Known:
+    """What the terms of an equation are of, as far as that is known."""
+    found = (dimension(term, vocabulary.dimensions) for term in terms(equation))
+    return next((each for each in found if each is not None), None)
 
 
 _SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)

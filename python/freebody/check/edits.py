@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import TypeVar
 
-from freebody.symbolic.dimensions import LENGTH, MASS, Dimension
+from freebody.symbolic.dimensions import LENGTH, MASS, NUMBER_ONLY, Dimension
 from freebody.symbolic.tree import (
     Add,
     Column,
@@ -44,9 +44,11 @@ _LARGER = {
     "extra term": 0.1,
     "missing term": 0.2,
     "convention": 0.1,
-    "other term": 1.0,
+    "other term": 1.3,
 }
 """By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
+_HALF = 0.05
+"""By how much it is less likely that a mass is half of what it is than that it is there twice."""
 _ELSEWHERE = 0.4
 """By how much an angle is less likely to be measured from a body of which nothing was said."""
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
@@ -112,10 +114,14 @@ def other_figures(equation: Equation) -> Iterator[Edit]:
 
 
 def _parts(equation: Equation) -> list[tuple[Node, bool]]:
-    """Every part once, and whether it is added to something."""
+    """Every part once, and whether it is added to something; sides first, then their terms, and so on inwards."""
     sums = [node for node in walk(equation) if isinstance(node, Equation | Add | Column | Matrix)]
     addends = {id(part) for node in sums for part in children(node) if isinstance(node, Add) or not isinstance(part, Add)}
-    parts = {id(node): node for node in walk(equation) if node is not equation and not is_zero(node)}
+    parts: dict[int, Node] = {}
+    level = list(children(equation))
+    while level:
+        parts |= {id(node): node for node in level if not is_zero(node)}
+        level = [part for node in level for part in children(node)]
     return [(node, key in addends) for key, node in parts.items()]
 
 
@@ -349,11 +355,15 @@ def _is_number(node: Node) -> bool:
 
 
 def _sizes(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """A length that stands more than once, each time half or twice, as radius and diameter, or another one."""
-    found = [n for n in walk(equation) if isinstance(n, Sym) and vocabulary.parameters.get(n) == LENGTH]
+    """A quantity of the model that stands more than once, each time half or twice, as radius and diameter, or one of two alike, or another
+    length."""
+    known = vocabulary.parameters
+    found = [n for n in walk(equation) if isinstance(n, Sym) and known.get(n) not in (None, NUMBER_ONLY) and n.name != "g"]
     for one in dict.fromkeys(n for n in found if found.count(n) > 1):
-        for other in (Mul((Num(2.0, "2"), one)), Quotient(one, Num(2.0, "2")), *vocabulary.alike(one)):
-            yield _everywhere(equation, {one: other}, f"`{spell(one)}` should be `{spell(other)}` each time")
+        others = vocabulary.alike(one) if known[one] == LENGTH else []
+        for other in (Mul((Num(2.0, "2"), one)), Quotient(one, Num(2.0, "2")), *others):
+            edit = _everywhere(equation, {one: other}, f"`{spell(one)}` should be `{spell(other)}` each time")
+            yield replace(edit, extra=_HALF * (isinstance(other, Quotient) and known[one] != LENGTH))
 
 
 def _other_angles(equation: Equation, plain: Sym, vocabulary: Vocabulary) -> Iterator[Edit]:

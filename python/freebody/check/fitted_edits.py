@@ -32,6 +32,8 @@ _LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
+_TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
+_NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LENGTHS = 5  # of which sums and differences are thought of
 
 
@@ -53,27 +55,32 @@ class FittedEdits:
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
-        quotients = [n for n in walk(equation) if isinstance(n, Quotient)]
-        whole = {id(part) for n in (*quotients, equation) for part in children(n) if not isinstance(part, Num)}
         with np.errstate(all="ignore"):
             yield from shared_ratios(equation, self.values, self.vocabulary, self.blur)
-            for required in self.within(required_terms(equation, self.values)):
-                yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
-                node = required.node  # a number, or a fraction of two
-                parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
-                found = self._constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
-                if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
-                    yield Edit.at(equation, "factor", required.node, number)
-                if required.addend:
-                    yield from self._factors(equation, required)
-                yield from self._squares.edits(equation, required)
-                yield from self._weights(equation, required)
-                if isinstance(node, Add):
-                    yield from self._parts(equation, required)
-                if isinstance(node, Add) or id(node) in whole:
-                    yield from self._missing(equation, required)
-                if node in (equation.left, equation.right) and not any(symbols_in(n.bottom) for n in quotients):
-                    yield from self._denominator(equation, required)
+            yield from self.of_parts(equation, required_terms(equation, self.values))
+
+    def of_parts(self, equation: Equation, needed: Iterable[RequiredTerm]) -> Iterator[Edit]:
+        """The edits after which parts of an equation are what is needed."""
+        quotients = [n for n in walk(equation) if isinstance(n, Quotient)]
+        whole = {id(part) for n in (*quotients, equation) for part in children(n) if not isinstance(part, Num)}
+        for required in self.within(needed):
+            yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
+            node = required.node  # a number, or a fraction of two
+            parts = (node.top, node.bottom) if isinstance(node, Quotient) else (node,)
+            found = self._constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
+            if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
+                yield Edit.at(equation, "factor", required.node, number)
+            if required.addend:
+                yield from self._forgotten(equation, required)
+                yield from self._factors(equation, required)
+            yield from self._squares.edits(equation, required)
+            yield from self._weights(equation, required)
+            if isinstance(node, Add):
+                yield from self._parts(equation, required)
+            if isinstance(node, Add) or id(node) in whole:
+                yield from self._missing(equation, required)
+            if node in (equation.left, equation.right) and not any(symbols_in(n.bottom) for n in quotients):
+                yield from self._denominator(equation, required)
 
     def other_terms(self, equation: Equation) -> Iterator[Edit]:
         """Terms that should be quite other ones."""
@@ -174,6 +181,28 @@ class FittedEdits:
             own = 0.05 if any(isinstance(n, Num) for n in walk(node)) else 0.0
             yield Edit.at(equation, "factor", node, new, own)
 
+    def _forgotten(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """A term that lacks a sine or cosine, a symbol, or what is made of two."""
+        if required.factor is None or not np.isfinite(required.factor).all():
+            return
+        factors, rows = self._single
+        off = np.abs(rows - required.factor).max(axis=1)
+        for place in np.flatnonzero(off <= _SAME * self.blur * np.abs(required.factor).max()).tolist():
+            size = 0.0 if place < len(self.vocabulary.single_factors) else 0.2
+            yield Edit.at(
+                equation, "missing factor", required.node, Mul((required.node, factors[place]), span=required.node.span), size
+            )
+
+    @cached_property
+    def _single(self) -> tuple[list[Node], Array]:
+        """Factors that are easily forgotten, and their values."""
+        nodes = [*self.vocabulary.single_factors, *self.vocabulary.double_factors]
+        rows = np.full((len(nodes), len(next(iter(self.values.values())))), np.nan)
+        for row, node in zip(rows, nodes, strict=True):
+            if {n.key for n in symbols_in(node)} <= self.values.keys() and (value := sampled(node, self.values)).ndim == 1:
+                row[:] = value
+        return nodes, rows
+
     def _constant(self, values: Array) -> float | None:
         """The number that a factor is on all states; None where it is none."""
         if values.ndim != 1 or not np.isfinite(values).all():
@@ -186,7 +215,7 @@ class FittedEdits:
         if factor.ndim != 1:
             return
         number, own = powers_of(node)
-        sizes = [n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if n not in self.vocabulary.angular]
+        sizes = self.vocabulary.sizes
         still = [n for n in own if not isinstance(n, Sym) or n in sizes]
         lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), (), self.blur).powers(factor)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
@@ -219,6 +248,10 @@ class FittedEdits:
 
     # -- terms
 
+    def terms_equal_to(self, equation: Equation, wanted: Array) -> Iterator[Node]:
+        """Terms of the dimension of an equation whose values are the ``wanted`` ones."""
+        return self._monomials(equation).equal_to(wanted)
+
     def _missing(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A sum that lacks a term."""
         scalar = required.missing.ndim == 1
@@ -241,17 +274,19 @@ class FittedEdits:
             if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
                 more = Add((Num(1.0, "1"), term))
                 old, new = (other, Mul((more, other))) if isinstance(node, Sym) else (node, Quotient(node, more))
-                yield Edit("missing term", None, term, exchange(equation, old, new), 0.02 * depth(term))
+                answers = any(isinstance(_bare(side), Sym) for side in (equation.left, equation.right))
+                size = 0.02 * depth(term) + _NO_ANSWER * (not answers)
+                yield Edit("missing term", None, term, exchange(equation, old, new), size)
 
     def _monomials(self, equation: Equation) -> Monomials:
         """The terms that an equation may lack."""
         if equation not in self._terms:
             known, said = self.vocabulary, symbols_in(equation)
-            sizes = [n for n in (*known.parameters, *known.coordinates) if n not in known.angular]
+            sizes = known.sizes
             sums = [n for n in walk(equation) if isinstance(n, Add) and {_bare(term) for term in n.terms} <= {*sizes}]
             lengths = [n for n in known.parameters if known.dimension(n) == LENGTH]
             pairs = combinations(lengths[:_MOST_LENGTHS], 2)
-            bases = sorted(sizes, key=lambda n: (n in known.coordinates, n not in said))
+            bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said))
             pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
             own = [n for n in bases if n in said]
             every = known.shapes(self._of(equation), [n for n in said if n in known.others], self._angles(equation))
@@ -287,7 +322,7 @@ class FittedEdits:
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
                     after = exchange(equation, required.node, more(required.node, *lost))
-                    yield Edit("missing term", None, Add(tuple(lost)), after, 1.2 + 0.02 * sum(map(depth, lost)))
+                    yield Edit("missing term", None, Add(tuple(lost)), after, _TWO_TERMS + 0.02 * sum(map(depth, lost)))
 
     def _matching(self, equation: Equation, wanted: Array, less: Dimension = NUMBER_ONLY) -> Iterator[Node]:
         """Terms that are ``wanted`` but for a number, of the dimension of the equation over ``less``; vectors are a number times a

@@ -12,7 +12,7 @@ import numpy as np
 from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, is_zero, walk
+from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, addends, is_zero, walk
 
 from .edits import FIGURES, Edit
 from .language.dimensions import dimension
@@ -53,6 +53,9 @@ _MIXED = 1.0  # for an acceleration or a force in an energy or a momentum
 _FORGOTTEN = 0.3  # for a number before a weight or a mass times its acceleration
 _ONCE = 0.15  # for a term that has no place, and is not counted twice
 _SOLVED = 0.2  # for another quantity in the place of that which is alone on a side
+_PRESSES = 0.3  # for a force in the place of a weight, of which the equation did not speak
+_INSIDE = 0.25  # for a part of a bracket that has no place there: what is too much mostly stands by itself
+_BOUND = 0.2  # for a term that is lacking at one instant, where many are equal
 _UNDECLARED = 0.6  # for a reaction without a letter in the place of a weight
 _NEW_RATE = 0.05  # for a rate of which the equation did not speak, which is easily taken for another
 _NEW = 0.15  # for any other quantity of which it did not speak, more for a force
@@ -63,11 +66,18 @@ _SAME = 1e-9
 
 
 class Likelihood:
-    """That of the edits of one equation; ``values`` are those of true states, ``elsewhere`` of others."""
+    """That of the edits of one equation; ``values`` are those of true states, ``elsewhere`` of others. ``at_instant``: it is of one, where a number
+    is the answer, and a term is easily made of what is bound there."""
 
     def __init__(
-        self, equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Array], elsewhere: Mapping[str, Array]
+        self,
+        equation: Equation,
+        vocabulary: Vocabulary,
+        values: Mapping[str, Array],
+        elsewhere: Mapping[str, Array],
+        at_instant: bool = False,
     ) -> None:
+        self._at_instant = at_instant
         self.equation, self.vocabulary, self.values, self.elsewhere = equation, vocabulary, values, elsewhere
         self._said = equation.symbols
         self._sides = [_bare(side) for side in (equation.left, equation.right)]
@@ -77,19 +87,24 @@ class Likelihood:
         0, another name of the same or of its opposite."""
         if edit.new is None:
             return self._of_extra_term(edit.old) if edit.kind == "extra term" and edit.old is not None else 0.0
+        if _cancels(edit.after) and not _cancels(self.equation):
+            return math.inf
         if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
             return math.inf
         match edit.kind, edit.old, edit.new:
             case "factor", Node() as old, new:
                 usual = _ODD if is_constraint(self.equation, self.vocabulary) else _USUAL
                 odd = _of_number(old, new, self.values, usual)
+                odd = min(odd, _USUAL) if self._at_instant else odd
                 return odd + _FORGOTTEN * (odd > 0 and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
                 return self._of_symbols(new)
             case "missing term" | "other term", _, new:
-                return self._of_term(edit.kind, new)
+                return _BOUND * self._at_instant + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
+            case "missing factor", Node() as old, new:
+                return self._of_factor(old, new)
         return 0.0
 
     def _of_extra_term(self, term: Node) -> float:
@@ -97,7 +112,8 @@ class Likelihood:
         other = next((side for side in self._sides if side is not _bare(term)), None)
         alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
         solved = alone or (isinstance(term, Sym) and term in self._sides)
-        return _ODD * solved + _ONCE * (not self._is_there(term, but=term))
+        inside = all(part is not term and _bare(part) is not term for side in self._sides for part in _terms_of(side))
+        return _ODD * solved + _ONCE * (not self._is_there(term, but=term)) + _INSIDE * inside
 
     def _of_symbol(self, old: Sym, new: Sym) -> float:
         known = self.vocabulary
@@ -118,7 +134,18 @@ class Likelihood:
             return _NEW * len(unsaid)
         if isinstance(new, Add):
             return _NEW * sum(3 if known.is_rate(n) else 1 + (n in known.others and n not in known.letters) for n in unsaid)
-        return _UNDECLARED * sum(n in known.others and n not in known.letters for n in unsaid)
+        return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
+
+    def _of_factor(self, old: Node, new: Node) -> float:
+        """Of a factor that is no parameter and of which nothing was said, or a place below a line, and of a term for a quite other one."""
+        known, (_, before), (_, after) = self.vocabulary, powers_of(old), powers_of(new)
+        unsaid = {n for base in after for n in base.symbols} - self._said
+        places = [base for base, n in after.items() if n < 0 <= before.get(base, 0) and _is_place(base, known)]
+        lost = [base for base, n in before.items() if n and not after.get(base)]
+        gained = [base for base, n in after.items() if n and not before.get(base)]
+        strange = len(places) + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
+        divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
+        return _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:
         strange = len([*self._strange(term, kind == "missing term")])
@@ -223,8 +250,27 @@ class Likelihood:
         return alone and symbol not in self._said
 
 
+def _terms_of(side: Node) -> tuple[Node, ...]:
+    return side.terms if isinstance(side, Add) else (side,)
+
+
 def _bare(node: Node) -> Node:
     return node.of if isinstance(node, Negative) else node
+
+
+def _cancels(equation: Equation) -> bool:
+    """Whether a term stands in a sum beside its opposite."""
+    for node in walk(equation):
+        if isinstance(node, Add):
+            found = addends(node)
+            if any(sign > 0 and (-1, term) in found for sign, term in found):
+                return True
+    return False
+
+
+def _is_place(base: Node, known: Vocabulary) -> bool:
+    """Whether a coordinate stands in it, or an expression with one."""
+    return any(n in known.coordinates for n in base.symbols)
 
 
 def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,12 @@ from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, 
 
 from .language.statements import Equation
 
+_INVERSES: Mapping[str, Callable[[Array], Array]] = {
+    "sqrt": lambda root: np.where(root >= 0, root**2, np.nan),
+    "exp": np.log,
+    "ln": np.exp,
+}
+"""What a function is of, by its value."""
 _PARALLEL = 1e-9  # sine of the angle below which two vectors have one direction
 
 
@@ -48,18 +54,19 @@ def required_terms(equation: Equation, values: Mapping[str, Array]) -> Iterator[
             return  # a number beside a vector
         for side, value, other in ((equation.left, left, right), (equation.right, right, left)):
             if value is not None and value.ndim < 3:
-                yield from _inside(RequiredTerm(side, value, np.zeros_like(value) if other is None else other, True), values)
+                yield from parts_inside(RequiredTerm(side, value, np.zeros_like(value) if other is None else other, True), values)
 
 
-def _inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
+def parts_inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
+    """A part, and what the parts inside it would have to be."""
     yield required
     match required.node:
         case Add(terms=terms):
             parts = [(term, sampled(term, values)) for term in terms if not is_zero(term)]
             for term, value in parts:
-                yield from _inside(RequiredTerm(term, value, value + required.missing, True), values)
+                yield from parts_inside(RequiredTerm(term, value, value + required.missing, True), values)
         case Negative(of=of):
-            yield from _inside(RequiredTerm(of, -required.value, -required.needed, required.addend), values)
+            yield from parts_inside(RequiredTerm(of, -required.value, -required.needed, required.addend), values)
         case Mul(factors=factors):
             yield from _factors(required, factors, values)
         case Dot(left=left, right=right):
@@ -70,7 +77,11 @@ def _inside(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[Req
             value = sampled(base, values)
             root = np.abs(required.needed) ** (1 / n) * np.sign(value)
             if value.ndim == 1 and np.all(required.needed >= 0):
-                yield from _inside(RequiredTerm(base, value, root), values)
+                yield from parts_inside(RequiredTerm(base, value, root), values)
+        case Fn(name=function, args=(of,)) if function in _INVERSES and required.needed.ndim == 1:
+            needed = _INVERSES[function](required.needed)
+            if np.isfinite(needed).all():
+                yield from parts_inside(RequiredTerm(of, sampled(of, values), needed), values)
 
 
 def _factors(required: RequiredTerm, factors: tuple[Node, ...], values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
@@ -89,7 +100,7 @@ def _factors(required: RequiredTerm, factors: tuple[Node, ...], values: Mapping[
             along = RequiredTerm(factor, vector, required.needed).factor
             wanted = None if along is None else along / scalars
         if wanted is not None:
-            yield from _inside(RequiredTerm(factor, value, wanted), values)
+            yield from parts_inside(RequiredTerm(factor, value, wanted), values)
 
 
 def _quotient(required: RequiredTerm, top: Node, bottom: Node, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
@@ -97,6 +108,6 @@ def _quotient(required: RequiredTerm, top: Node, bottom: Node, values: Mapping[s
         return  # ½ is one figure
     above, below = sampled(top, values), sampled(bottom, values)
     if below.ndim == 1:
-        yield from _inside(RequiredTerm(top, above, required.needed * spread(below, above)), values)
+        yield from parts_inside(RequiredTerm(top, above, required.needed * spread(below, above)), values)
         if (factor := required.factor) is not None:
-            yield from _inside(RequiredTerm(bottom, below, below / factor), values)
+            yield from parts_inside(RequiredTerm(bottom, below, below / factor), values)

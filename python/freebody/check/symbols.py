@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -91,6 +92,7 @@ class Symbols:
         self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
         self.unjudged: set[str] = set()  # arrows behind what is no vector
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
+        self._measure_gauges()
         for name, said in (declared or {}).items():
             try:
                 self.declare(name, said)
@@ -215,6 +217,13 @@ class Symbols:
         for name, meaning in self._reactions().items():
             out.setdefault(name, meaning)
         return out
+
+    def _measure_gauges(self) -> None:
+        """Gauges have the dimension of their expression, where that has one."""
+        for gauge in self.spec["gauges"]:
+            if (own := self.meanings.get(gauge["name"])) is not None and own.dimension is None:
+                with suppress(ModelProblem):
+                    self.meanings[gauge["name"]] = replace(own, dimension=self.measure(str(gauge["value"]))[1])
 
     def _reactions(self) -> dict[str, Meaning]:
         """Forces by the names of what makes them, in two spellings."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -14,11 +15,12 @@ from freebody.run.records import Array
 from freebody.symbolic.evaluate import sampled
 
 from .case import Case
-from .families import Samples
+from .families import AT_START, NoMotion, Samples
 from .figures import ROUND, corrected_figures, figures, rounding
 from .language.parser import parse
 from .language.statements import Equation
 from .residual import Sides, equation_sides
+from .stated import Correction
 from .user_symbols import OF_START
 from .verdict import Evidence, Kind, Verdict
 
@@ -49,10 +51,19 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
             return Verdict(Kind.UNDECIDABLE, statement, reason + run.accuracy.sentence)
         if np.any(off > allowed * (1 + ROUND)):
             seen = Evidence.at(sides, values, 0, float(off.max()), 1)
-            corrections, last = corrected_figures(equation, values)
+            others, last = corrected_figures(equation, values)
+            mends = others or _symbolically(checker, declared, moment, statement)
             reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}" + (": off in the last digit" if last else "")
-            return Verdict(Kind.WRONG, statement, reason, mends=corrections, evidence=seen)
+            return Verdict(Kind.WRONG, statement, reason, mends=mends, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
+
+
+def _symbolically(checker: Checker, declared: Declared, event: str, statement: str) -> tuple[Correction, ...]:
+    """The corrections of a statement in symbols at an event, of motions with any parameters."""
+    with suppress(ModelProblem, NoMotion):
+        there = checker.beside("after", event, {}) if checker.correcting else None
+        return there.check(statement, declared, AT_START).mends if there else ()
+    return ()
 
 
 def report(checker: Checker, declared: Declared, label: str, figure: str) -> Verdict:

@@ -52,6 +52,12 @@ class Vocabulary:
         group = next((group for group in groups if plain in group), {})
         return [Sym(n.name, symbol.dots) for n in group if n != plain and group[n] == group[plain]]
 
+    @cached_property
+    def sizes(self) -> list[Sym]:
+        """What products are made of that is no angle: parameters, coordinates, and letters for lengths and inertias that change."""
+        still = [n for n in self.others if (its := self.dimension(n)) is not None and its != NUMBER_ONLY and not its.time]
+        return [n for n in (*self.parameters, *self.coordinates, *still) if n not in self.angular]
+
     # -- factors
 
     @cached_property
@@ -136,7 +142,8 @@ class Vocabulary:
         if wanted is None or wanted.time != _OF_POWER:
             return
         rates = [Sym(q.name, 1) for q in self.coordinates] + [n for n in self.others if self.is_rate(n)]
-        loads = [Sym(q.name, 2) for q in self.coordinates] + [n for n in self.others if self.is_load(n)]
+        loads = [Sym(q.name, 2) for q in self.coordinates]
+        loads += [n for n in self.others if self.is_load(n) or self.dimension(n) is None]
         for rate, load in product(rates, loads):
             yield (rate, load), _joined([self.dimension(rate), self.dimension(load)])
 
