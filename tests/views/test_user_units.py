@@ -139,3 +139,30 @@ def test_columns_of_choice_have_their_units_in_their_heads(tmp_path):
     assert last == [0.1, *table.iloc[-1]] == pytest.approx([0.1, 10.0, 0.0, 19.62 / POUND_FORCE])
     with pytest.raises(ValueError, match=r"written as \.csv or \.svg, not '\.nc'"):
         run.save(tmp_path / "table.nc", "track.F")
+
+
+RESTING = """
+freebody: 1
+parameters: {k: 98.1 N/m, c: 1 N*s/m, F: 1 N, Omega: 10 rad/s}
+bodies: {block: {shape: particle, mass: 1 kg}}
+joints: {track: {type: slot, point: block.centre, along: {through: ground.O, angle: 90 deg}, coordinate: s}}
+forces: {spring: {type: spring, along: s, stiffness: k}, push: {type: law, along: s, value: F*sin(Omega*t) - c*rate(s)}}
+initial: {s: -0.1 m}
+"""
+
+
+def test_rest_and_motions_that_come_back_are_in_units_of_choice(tmp_path):
+    """A weight on a spring rests at −m g/k = −0.1 m; pushed to and fro it comes back after 2 π/10 s."""
+    (still := tmp_path / "still.yaml").write_text(RESTING.replace("F*sin(Omega*t)", "0"))
+    (pushed := tmp_path / "pushed.yaml").write_text(RESTING)
+
+    def told(*asked: object) -> list[str]:
+        done = CliRunner().invoke(app, [*map(str, asked), "--units", "mm, ms"])
+        assert done.exit_code == 0, done.output
+        return done.output.split()
+
+    words = told("stability", still)
+    assert words[words.index("s") : words.index("s") + 3] == ["s", "-100", "mm"]
+    words = told("periodic", pushed, "--period", "2*pi/Omega")
+    assert words[words.index("after") + 1 :][:2] == ["628.318530718", "ms,"]
+    assert words[words.index("s") + 2] == "mm"

@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from freebody.cli.models import opened, pairs, ranges
-from freebody.cli.options import AsJson, Changes, Model
+from freebody.cli.options import AsJson, Changes, Model, Units
 from freebody.cli.terminal import print_json
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
+    from rich.table import Table
+
+    from freebody.periodic.ask import Periodic
     from freebody.periodic.boundary import Crossing
     from freebody.periodic.limit import Limit
     from freebody.periodic.motion import PeriodicMotion
@@ -41,6 +44,7 @@ def periodic(
     ] = None,
     symbolic: Annotated[bool, typer.Option("--symbolic", help="The map in symbols, where it is short.")] = False,
     changes: Changes = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Find periodic motions by Newton's method from the start of the model, with the multipliers of perturbations."""
@@ -52,20 +56,20 @@ def periodic(
         print(found.json() if as_json else found.text())
     elif limit:
         ((name, first),) = pairs([limit]).items()
-        _show_limit(name, asked.limit(name, first), as_json)
+        _show_limit(name, asked.limit(name, first), asked, as_json)
     elif boundary:
         ((name, bounds),) = ranges([boundary], "--boundary").items()
-        _show_crossings(name, asked.boundary(name, bounds), as_json)
+        _show_crossings(name, asked.boundary(name, bounds), asked, as_json)
     else:
-        _show_motions(asked.find_all(ranges(within, "--within"), starts) if within else [asked.find()], as_json)
+        _show_motions(asked.find_all(ranges(within, "--within"), starts) if within else [asked.find()], asked, as_json)
 
 
-def _show_motions(found: Sequence[PeriodicMotion], as_json: bool) -> None:
+def _show_motions(found: Sequence[PeriodicMotion], asked: Periodic, as_json: bool) -> None:
     from rich.console import Console
 
+    from freebody.model.user_units import shown
     from freebody.periodic.motion import PeriodicMotions
-    from freebody.solve.figures import figure
-    from freebody.solve.rich_tables import table
+    from freebody.solve.rich_tables import figure_in, table
 
     sought = found.sentence if isinstance(found, PeriodicMotions) else "Newton's method from the start of the model"
     if as_json:
@@ -74,18 +78,17 @@ def _show_motions(found: Sequence[PeriodicMotion], as_json: bool) -> None:
     console = Console(highlight=False, soft_wrap=True)
     console.print(f"{sought}\n")
     for each in found:
-        starts = [(name, figure(value, 12)) for name, value in each.values.items()]
-        console.print(table("starts with", ["name", "value [SI]"], starts))
-        console.print(f"comes back after {figure(each.period, 12)} s, {'stable' if each.stable else 'not stable'}\n")
+        console.print(_values("starts with", {name: (value, asked.unit_of(name)) for name, value in each.values.items()}))
+        time = f"{figure_in('s', each.period, 12)} {shown('s').unit}"
+        console.print(f"comes back after {time}, {'stable' if each.stable else 'not stable'}\n")
         rows = [[f"{mu:.10g}" if abs(mu.imag) else f"{mu.real:.10g}", float(abs(mu))] for mu in each.multipliers.tolist()]
         console.print(table("multipliers", ["multiplier", "modulus"], rows))
         console.print(table("checked", ["", "differs by"], [[name, float(value)] for name, value in each.checks.items()]))
 
 
-def _show_limit(name: str, found: Limit, as_json: bool) -> None:
+def _show_limit(name: str, found: Limit, asked: Periodic, as_json: bool) -> None:
     from rich.console import Console
 
-    from freebody.solve.figures import figure
     from freebody.solve.rich_tables import table
 
     if as_json:
@@ -93,12 +96,20 @@ def _show_limit(name: str, found: Limit, as_json: bool) -> None:
         print_json({"values": dict(found.values), "period": found.period, "multipliers": multipliers, "estimate": found.error})
         return
     console = Console(highlight=False, soft_wrap=True)
-    rows = [(name, figure(value, 12)) for name, value in [*found.values.items(), ("period", found.period)]]
-    console.print(table(f"as {name} → 0", ["name", "value [SI]"], rows))
+    values = {each: (value, asked.unit_of(each)) for each, value in found.values.items()}
+    console.print(_values(f"as {name} → 0", values | {"period": (found.period, "s")}))
     console.print(
         table("multipliers", ["multiplier", "modulus"], [[f"{x:.8g}", float(abs(x))] for x in found.multipliers.tolist()])
     )
     console.print(f"estimate of the error, from the last two extrapolations: {found.error:.0e}")
+
+
+def _values(title: str, values: Mapping[str, tuple[float, str]]) -> Table:
+    """Values in units of SI, with twelve digits, as they are shown."""
+    from freebody.solve.rich_tables import figure_in, table
+
+    rows = [(name, figure_in(unit, value, 12), unit) for name, (value, unit) in values.items()]
+    return table(title, ["name", "value", "unit"], rows, ["value"])
 
 
 def _motion(found: PeriodicMotion) -> dict[str, Any]:
@@ -108,11 +119,11 @@ def _motion(found: PeriodicMotion) -> dict[str, Any]:
             "slopes": found.slopes.tolist(), "checks": checks}  # fmt: skip
 
 
-def _show_crossings(name: str, found: list[Crossing], as_json: bool) -> None:
+def _show_crossings(name: str, found: list[Crossing], asked: Periodic, as_json: bool) -> None:
     from rich.console import Console
 
-    from freebody.solve.figures import figure
-    from freebody.solve.rich_tables import table
+    from freebody.model.user_units import shown
+    from freebody.solve.rich_tables import figure_in, table
 
     if as_json:
         print_json([{"value": each.value, "kind": each.kind, "miss": each.miss} for each in found])
@@ -121,5 +132,7 @@ def _show_crossings(name: str, found: list[Crossing], as_json: bool) -> None:
     if not found:
         console.print("no multiplier reaches the unit circle within these bounds")
         return
-    rows = [[figure(each.value, 12), each.kind, each.miss] for each in found]
-    console.print(table("boundaries of stability", [f"{name} [SI]", "a multiplier leaves the unit circle", "condition"], rows))
+    unit = asked.unit_of(name)
+    head = f"{name} [{shown(unit).unit}]" if unit else name
+    rows = [[figure_in(unit, each.value, 12), each.kind, each.miss] for each in found]
+    console.print(table("boundaries of stability", [head, "a multiplier leaves the unit circle", "condition"], rows))

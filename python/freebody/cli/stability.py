@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from freebody.cli.models import opened, pairs, ranges, written
-from freebody.cli.options import AsJson, Changes, Model
+from freebody.cli.options import AsJson, Changes, Model, Units
 from freebody.cli.terminal import print_json
 from freebody.cli.user_errors import UserError
 
@@ -29,6 +29,7 @@ def stability(
     output: Annotated[Path | None, typer.Option("-o", help="The modes, drawn or as a film: {views.modes}.")] = None,
     plot: Annotated[Path | None, typer.Option(help="Draw the frequency response: {views.draw}.")] = None,
     changes: Changes = None,
+    units: Units = None,
     as_json: AsJson = False,
 ) -> None:
     """Equilibria and their stability, modes, frequency response, gains for given poles."""

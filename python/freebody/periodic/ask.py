@@ -99,11 +99,15 @@ class Periodic:
 
     def _value(self, name: str, given: Any) -> float:
         """A value of an unknown or a parameter in SI."""
+        return quantity(name, given, self.unit_of(name))
+
+    def unit_of(self, name: str) -> str:
+        """The unit of SI of an unknown or a parameter; "" where it is not known."""
         metadata = self.map.mechanism.compile().metadata
         units = {each["name"]: each["unit"] for each in metadata["parameters"]}
         for each in metadata["coordinates"]:
             units |= {quote(each["name"]): each["dimension"], f"rate({quote(each['name'])})": f"{each['dimension']}/s"}
-        return quantity(name, given, units.get(name, ""))
+        return units.get(name, "")
 
 
 def periodic(

@@ -82,7 +82,9 @@ class Curves(PlainText):
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         for i, curve in enumerate(self.curves, 1):
-            names = curve.equilibria[0].space.coordinates
+            first = curve.equilibria[0]
+            units = {c["name"]: c["dimension"] for c in first.source.metadata["coordinates"]}
+            names = [f"{name} [{units[name]}]" for name in first.space.coordinates]
             points = [(x, *rest.coordinates.values(), rest.stability) for x, rest in _told(curve)]
             head = f"{self.parameter} [{self.unit}]" if self.unit else self.parameter
             yield table(f"curve {i} of {len(self.curves)}", [head, *names, ""], points, [head, *names])
@@ -190,7 +192,7 @@ def mode_tables(rest: Equilibrium) -> Iterator[Any]:
         abreast = modes[first : first + _ABREAST]
         shapes = [(name, *(_phasor(each.shape[name]) for _, each in abreast)) for name in rest.space.coordinates]
         heads = [f"mode {i}" for i, _ in abreast]
-        yield table("" if first else "shapes", ["", *heads], shapes, heads)
+        yield table("" if first else "shapes, SI", ["", *heads], shapes, heads)
 
 
 def _phasor(amplitude: complex) -> str:
