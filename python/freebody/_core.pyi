@@ -95,7 +95,7 @@ class Mechanism:
         history: Any,
         beginning: State | None,
     ) -> tuple[Array, Array, dict[str, Any]]:
-        """q, u, and ``{"branch": [str], "adjusted": [str], "gap": float}``."""
+        """q, u, and ``{"branch": [str], "adjusted": [str], "behind": [str], "gap": float}``."""
 
     def instant(self, state: State, route: str) -> dict[str, Any]: ...
     def free_bodies(self, state: State) -> dict[str, Any]: ...

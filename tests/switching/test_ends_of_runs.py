@@ -164,3 +164,17 @@ run: {{until: 9}}
     word, _, own = path.partition(".")
     assert all(f"the law of the {word[:-1]} `{own}`" in end.sentence and "`friction`" in end.sentence for end in ends)
     assert [end.t for end in ends] == pytest.approx([ends[-1].t] * len(ends), abs=1e-2)
+
+
+@pytest.mark.parametrize(("angle", "is_behind"), [(-90, False), (90, True)])
+def test_a_line_that_goes_the_wrong_way_round_is_told(angle, is_behind):
+    """The top of a ladder is just on the wall, on either side of which no gap tells that the ladder is."""
+    made = model(f"""
+parameters: {{l: 4 m, start: 70 deg}}
+ground: {{lines: {{floor: {{through: O, angle: 0}}, wall: {{through: O, angle: {angle} deg}}}}}}
+bodies: {{ladder: {{shape: rod, length: l, mass: 10 kg, points: {{A: start, B: end}}}}}}
+contacts: {{floor: {{of: [ladder.A, ground.floor]}}, wall: {{of: [ladder.B, ground.wall]}}}}
+initial: {{points: {{ladder.A: [l*cos(start), 0], ladder.B: [0, l*sin(start)]}}, at_rest: true}}
+""")
+    _, notes = made.start()
+    assert any("wall: `ladder` touches the line, and its mass centre is behind it" in note for note in notes) is is_behind

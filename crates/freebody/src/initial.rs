@@ -101,7 +101,8 @@ impl Compiled {
 }
 
 impl Assembled {
-    /// `branch`: the assembly taken and the others, where there are several; `adjusted`: what is not as guessed.
+    /// `branch`: the assembly taken and the others, where there are several; `adjusted`: what is not as guessed; `behind`:
+    /// contacts on whose wrong side a body seems to be.
     pub fn notes(&self, m: &Mechanism, asked: &Initial) -> Value {
         let name = |i: usize| &m.coordinate(i).name;
         let values = |q: &[f64]| {
@@ -117,6 +118,6 @@ impl Assembled {
             let guess = asked.guess.get(name).filter(|guess| (*guess - x).abs() > AS_GUESSED)?;
             Some(format!("{name}: guess {guess:.6}, assembled {x:.9}"))
         });
-        json!({"branch": branch, "adjusted": adjusted.collect::<Vec<_>>(), "gap": self.gap})
+        json!({"branch": branch, "adjusted": adjusted.collect::<Vec<_>>(), "behind": self.behind, "gap": self.gap})
     }
 }

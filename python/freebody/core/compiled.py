@@ -161,7 +161,7 @@ class CompiledModel:
         position of the loops with what is fixed, so that it is of the same assembly."""
         asked = (fixed or {}, guess or {}, rates or {}, points or {}, branch or {})
         q, u, notes = self.mechanism.assemble(p, t, *map(dict, asked), history, beginning and beginning.arrays)
-        return State(p, t, q, u, history), [*notes["adjusted"], *notes["branch"]]
+        return State(p, t, q, u, history), [*notes["adjusted"], *notes["branch"], *notes["behind"]]
 
     def as_it_holds(self, state: State) -> tuple[CompiledModel, State]:
         """The mechanism without its events, and a state before which nothing moved in its coordinates: joints that events release or

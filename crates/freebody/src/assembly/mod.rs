@@ -56,6 +56,8 @@ pub struct Assembled {
     pub gap: f64,
     /// Coordinates of the other assemblies that were found, when the state is fully determined.
     pub others: Vec<Vec<f64>>,
+    /// A sentence for each contact on whose wrong side a body seems to be.
+    pub behind: Vec<String>,
 }
 
 /// Part of a radian, or of the characteristic length, within which two configurations are the same.
@@ -89,7 +91,8 @@ pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) ->
     let laws: Vec<&ModelExpr> = request.near.iter().map(|(_, law, _)| law).collect();
     let values = workspace.evaluate(&laws, &[])?;
     let near = request.near.iter().map(|(name, ..)| name.clone()).zip(values).collect();
-    Ok(Assembled { q, u, near, gap, others })
+    let behind = workspace.behind_lines();
+    Ok(Assembled { q, u, near, gap, others, behind })
 }
 
 /// One attempt from one start: first drawn to what should be near, then closed exactly.

@@ -6,8 +6,9 @@ use super::{compliant_force, DynamicsError, Source, Workspace};
 use crate::bound_values::BoundValues;
 use crate::joints::Joint as _;
 use crate::kinematics::{Config, MotionView, Travel, TravelView};
-use crate::mechanism::{Gap, Group, Mechanism, Part};
+use crate::mechanism::{Gap, Group, Mechanism, Part, Profile};
 use crate::mode::{Border, ContactMode, ContactState, Feature, Mode};
+use crate::plane::{vec2, Turn};
 use crate::scalar::Ball;
 
 /// Depth, over the characteristic length, to which a unilateral constraint may be violated at the start.
@@ -88,6 +89,31 @@ impl Workspace<'_> {
             }
         }
         Ok(mode)
+    }
+
+    /// A sentence for each contact of a point that is just on a straight line while the mass centre of its body is
+    /// behind it: as where the line goes the wrong way round, which no gap tells.
+    pub(crate) fn behind_lines(&self) -> Vec<String> {
+        let (m, at) = (self.m, self.at());
+        let behind = m.unilateral.iter().enumerate().filter_map(|(l, constraint)| {
+            let Gap::ContactPair(pair) = &constraint.gap else { return None };
+            let (Profile::Line(line), None) = (&pair.against, pair.disk.radius) else { return None };
+            let (body, surface) = (m.body_of(pair.disk.centre), at.k.pose[m.body_of(line.site)]);
+            let pose = at.k.pose[body];
+            let along = Turn::by(surface.turn.angle + at.n.values[line.angle]).apply(vec2(1.0, 0.0));
+            let centre = pose.at + pose.turn.apply(at.n.centre[body]);
+            let height = along.cross(centre - surface.at - surface.turn.apply(at.n.arms[line.site]));
+            let touches = self.mode().contacts[l].mode != ContactMode::Off
+                && self.constraint_gap(l).abs() < SHALLOW * self.length;
+            (body > 0 && touches && height < -SHALLOW * self.length).then(|| {
+                let (contact, name) = (&m.groups[constraint.group].name, &m.bodies[body].name);
+                format!(
+                    "{contact}: `{name}` touches the line, and its mass centre is behind it: a line is free on its \
+                     left, as one goes along it; where that is the wrong side, turn it by 180 deg"
+                )
+            })
+        });
+        behind.collect()
     }
 
     /// Refuses a state in which a unilateral constraint without a spring is violated: what should have closed it was
