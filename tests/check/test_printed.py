@@ -124,7 +124,7 @@ def _printed(block: Block, document: Document) -> Iterator[str]:
 def test_every_printed_equation_is_read_back_as_true(model: fb.Mechanism, form: str, long: bool) -> None:
     checker, document = Checker(model), model.equations(form, long=long)
     lines = list(dict.fromkeys(text for block in _stated(document) for text in _printed(block, document)))
-    assert len(lines) > (8 if long else 1)
+    assert len(lines) > (8 if long else 1) or (not long and "too long to be read" in document.text())
     for line in lines:
         assert checker.check(line).kind is Kind.TRUE, line
 

@@ -106,14 +106,15 @@ _LABEL = re.compile(
     rf"|^\s*{_SENSE}{_SUM}[^:;\n]*=\s*(?:0|[^:;\n]*(?:a|α|M_?\{{?k)[^:;\n]*);|^\s*{_SENSE}(?={_SUM})"
     r"|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?:(?<=\s\s)|\\q?quad\s*)\(\d+\w?\)\s*$"
 )
-_FITTED = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$)(.*?)\$\}", re.DOTALL)
+_LAID_OUT = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$|\{\\allowdisplaybreaks\b)(.*?)(\$\}|(?<=\\end\{align\})\})", re.DOTALL)
+"""What fits a formula to the width, or lets it go on overleaf, and the formula."""
 
 
 def glyphs(text: str) -> list[Glyph]:
-    """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and what fits the width
+    """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and how it is laid out
     read as blanks. Raises ``StatementError``."""
-    fitted = _FITTED.sub(lambda found: f"{' ' * len(found[1])}{found[2]}  ", _COMMENT.sub(_blank, text))
-    return _carried_on(_pointing(_Reader(_LABEL.sub(_blank, fitted)).all()))
+    bare = _LAID_OUT.sub(lambda found: f"{' ' * len(found[1])}{found[2]}{' ' * len(found[3])}", _COMMENT.sub(_blank, text))
+    return _carried_on(_pointing(_Reader(_LABEL.sub(_blank, bare)).all()))
 
 
 def _pointing(row: list[Glyph]) -> list[Glyph]:
