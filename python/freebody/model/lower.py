@@ -224,7 +224,7 @@ def _elements(outlines: Outlines, write: Writer) -> None:
         if force.type == table_friction.OF_PLATE:
             table_friction.lies(write, outlines, name, force, written)
         if force.type in table_friction.WORDS:
-            table_friction.rest(write, name, force, model.motions, written)
+            table_friction.rest(write, name, force, written)
     for name, motion in model.motions.items():
         path: Path = ("motions", name)
         of, dimension = write.expression((*path, "of"), motion.of), write.dimension(motion.of)

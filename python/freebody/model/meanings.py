@@ -40,6 +40,8 @@ class Meanings:
     curves: set[str] = field(default_factory=set)
     tables: set[str] = field(default_factory=set)
     events: set[str] = field(default_factory=set)
+    is_driven: bool = False
+    """Whether a motion is prescribed, in any part."""
 
     def called(self, kind: str) -> set[str]:
         """The full names of all points, lines, curves, bodies or strings."""
@@ -93,7 +95,7 @@ class Meanings:
 
 def meanings(root: Scope) -> Meanings:
     """The names of a model; those used twice or that cannot be names are complained about."""
-    found = Meanings()
+    found = Meanings(is_driven=any(scope.model.motions for scope in root.all()))
     for scope in root.all():
         _Declarations(found, scope).all()
     return found
@@ -133,7 +135,7 @@ class _Declarations:
         for name, force in m.forces.items():
             self.owner(name, "force", ("forces", name), cards.forces()[force.type].readings)
             if force.type in table_friction.WORDS:
-                for event in (table_friction.resting(name), *table_friction.holding(name, force, m.motions)):
+                for event in (table_friction.resting(name), *table_friction.holding(name, force, found.is_driven)):
                     self.event(event, f"the force `{name}`")
         for section, kind in _LIMITED.items():
             for name in getattr(m, section):

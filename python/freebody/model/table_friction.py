@@ -3,7 +3,6 @@ comes to."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import Spec
@@ -26,10 +25,10 @@ def resting(name: str) -> str:
     return f"{name} rests"
 
 
-def holding(name: str, force: elements.Element, motions: Collection[str]) -> dict[str, str]:
+def holding(name: str, force: elements.Element, is_driven: bool) -> dict[str, str]:
     """The events at which one of several points of a body stays where it is while others slide, each with its point; none where
-    ``motions`` are prescribed, which carry points on through rest."""
-    points = elements.given(force, "points") or [] if force.type != OF_PLATE and not motions else []
+    a motion is prescribed, which may carry points on through rest."""
+    points = elements.given(force, "points") or [] if force.type != OF_PLATE and not is_driven else []
     return {f"{name} holds {point}": point for point in points if len(points) > 1}
 
 
@@ -51,12 +50,12 @@ def lies(write: Writer, outlines: Outlines, name: str, force: elements.Element, 
         written["with"]["area"] = write.circle(path, area)
 
 
-def rest(write: Writer, name: str, force: elements.Element, motions: Collection[str], written: Spec) -> None:
+def rest(write: Writer, name: str, force: elements.Element, written: Spec) -> None:
     """The events that end a run where what a force, which has been ``written``, rubs on has all but stopped, or one of its points
     has: what friction at rest holds is not decided."""
     fields = written["with"]
     whens = {resting(name): f"{_speed(fields)} - ({fields.get('rest_speed', 1e-10)})"}
-    for event, point in zip(holding(name, force, motions), fields.get("points", ()), strict=False):
+    for event, point in zip(holding(name, force, write.meanings.is_driven), fields.get("points", ()), strict=False):
         whens[event] = f"{_speed({'points': [point]})} - {HELD}*{_speed(fields)}"
     plain = {"direction": -1, "condition": None, "opening": False, "guard": True}
     for event, when in whens.items():
