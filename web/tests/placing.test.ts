@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { type Labelled, LabelPlaces, widthOf } from "../src/loads/placing";
+import { type Labelled, LabelPlaces, SCALES, widthOf } from "../src/loads/placing";
 
 const arrow = (key: string, x: number, dx: number, dy: number): Labelled => ({ key, label: `m_${key} g`, at: [x, 100], by: [dx, dy] });
 
@@ -26,4 +26,10 @@ test("a label stays on its side while its arrow turns a little", () => {
 
 test("what is hardly seen has no label", () => {
   expect(new LabelPlaces().of([arrow("a", 100, 3, 0)], 400, 300).size).toBe(0);
+});
+
+test("no label lies on the scales in the corner", () => {
+  const down = arrow("block", 60, 0, 190);
+  const [x, y] = new LabelPlaces().of([down], 400, 300, SCALES).get("block")!;
+  expect(x - widthOf("m_block g") / 2 >= SCALES.wide || y <= 300 - SCALES.high).toBe(true);
 });

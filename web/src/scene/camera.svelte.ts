@@ -1,6 +1,7 @@
 import type { Point, Scene } from "../data/types";
 
 const ROOM = { aside: 40, above: 30, below: 62 }; // px, for arrows and the scales
+const LEAST = 40; // px, however narrow the stage
 
 const SYMBOL = { least: 6, most: 12 }; // px
 
@@ -36,7 +37,7 @@ export class Camera {
   /** Pixels a metre when everything fits. */
   get fit(): number {
     const [wide, tall] = [this.width - 2 * ROOM.aside, this.height - ROOM.above - ROOM.below];
-    return Math.max(1, Math.min(wide / this.#box.wide, tall / this.#box.tall));
+    return Math.min(Math.max(wide, LEAST) / this.#box.wide, Math.max(tall, LEAST) / this.#box.tall);
   }
 
   /** Pixels a metre. */
