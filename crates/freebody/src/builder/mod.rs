@@ -12,7 +12,7 @@ pub use names::{chosen, distance, unknown, Names, Reach, Scope};
 use crate::error::CompileError;
 use crate::expr::Message;
 use crate::gauges::ModelExpr;
-use crate::mechanism::{Mechanism, ValueId};
+use crate::mechanism::{Marker, Mechanism, ValueId};
 use crate::spec::{Number, Spec};
 
 impl CompileError {
@@ -55,6 +55,17 @@ impl Builder<'_> {
     pub(crate) fn value(&mut self, law: ModelExpr) -> ValueId {
         self.m.values.push(law);
         self.m.values.len() - 1
+    }
+
+    /// A site with a direction.
+    pub(crate) fn marker(&mut self, site: usize, direction: ModelExpr) -> Marker {
+        let turned = direction != ModelExpr::constant(0.0);
+        Marker { site, angle: self.value(direction), turned }
+    }
+
+    /// The same, along the axes of its body.
+    pub(crate) fn straight_marker(&mut self, site: usize) -> Marker {
+        self.marker(site, ModelExpr::constant(0.0))
     }
 
     /// A new slot, of a length.

@@ -26,8 +26,7 @@ impl Builder<'_> {
                 return Err(CompileError::new(path, "a line has an angle or a second point, not both", "leave one out"))
             }
         };
-        let marker = Marker { site, angle: self.value(direction.clone()) };
-        Ok((marker, direction))
+        Ok((self.marker(site, direction.clone()), direction))
     }
 
     /// Direction, in their body's frame, from one site to another of the same body.

@@ -23,7 +23,6 @@ impl Sides {
     /// Reads one field into its marker, curve or numbers.
     fn read(&mut self, fields: &mut Fields, field: &Field) -> Result<()> {
         let (name, is_length) = (field.name, field.dimension == Some("m"));
-        let straight = |fields: &mut Fields, site| Marker { site, angle: fields.c.value(ModelExpr::constant(0.0)) };
         let marker = match (field.role, field.kind) {
             (Role::Number, FieldKind::Numbers) => {
                 self.numbers.extend(fields.numbers(name)?.into_iter().map(|law| (law, is_length)));
@@ -39,19 +38,19 @@ impl Sides {
             }
             (Role::Both, _) => {
                 let [p, q] = fields.two_sites(name)?;
-                self.first = Some(straight(fields, p));
-                straight(fields, q)
+                self.first = Some(fields.c.straight_marker(p));
+                fields.c.straight_marker(q)
             }
             (_, FieldKind::Line) => fields.line(name)?,
             (_, FieldKind::Circle) => {
                 let (site, radius) = fields.circle(name)?;
                 self.numbers.push((radius, true));
-                straight(fields, site)
+                fields.c.straight_marker(site)
             }
             (_, FieldKind::Points) => self.two_points(fields, name)?,
             _ => {
                 let site = fields.site(name)?;
-                straight(fields, site)
+                fields.c.straight_marker(site)
             }
         };
         match field.role {
@@ -67,7 +66,7 @@ impl Sides {
         let path = format!("{}.{name}", fields.path);
         let [dx, dy] = fields.c.offset(&path, p, q)?;
         self.numbers.push((dx.clone().hypot(dy.clone()), true));
-        Ok(Marker { site: p, angle: fields.c.value(dy.atan2(dx)) })
+        Ok(fields.c.marker(p, dy.atan2(dx)))
     }
 }
 
@@ -183,7 +182,8 @@ impl Builder<'_> {
 
     fn at_origin(&mut self, body: usize) -> Marker {
         let name = &self.m.bodies[body].name;
-        Marker { site: self.names.sites[&format!("{name}.origin")], angle: self.value(ModelExpr::constant(0.0)) }
+        let site = self.names.sites[&format!("{name}.origin")];
+        self.straight_marker(site)
     }
 
     /// The coordinates of a joint: named by the model in the order of the card, or after the joint.
@@ -295,7 +295,7 @@ impl Builder<'_> {
         let zero = self.value(ModelExpr::constant(0.0));
         let body = self.m.bodies.len();
         let site = self.site(body, crate::mechanism::PointLocation::At([zero, zero]));
-        let pin = Marker { site, angle: zero };
+        let pin = self.straight_marker(site);
         let parent = self.m.body_of(self.m.joints[joint].first.site);
         let carried = self.m.bodies[self.m.body_of(old.site)].name.clone();
         let j = &mut self.m.joints[joint];

@@ -1,7 +1,7 @@
 //! What loads on bodies do on the joint coordinates of the tree.
 
 use crate::kinematics::StateView;
-use crate::plane::{Twist, Wrench};
+use crate::plane::{Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
 
 /// The part of loads on bodies that does work on each joint coordinate: Jᵀ w.
@@ -34,7 +34,9 @@ pub(super) fn visit_ancestors<S: Scalar>(
     }
 }
 
-/// How large the power of a load may be on its way to cancelling, levers being of the characteristic length.
+/// How large the power of a load may be on its way to cancelling, levers being of the characteristic length; vectors by the
+/// sum of their components.
 pub(super) fn size_of_power(load: Wrench, motion: Twist, length: f64) -> f64 {
-    load.f.norm() * (motion.v.norm() + length * motion.w.abs()) + (load.m * motion.w).abs()
+    let size = |v: Vec2| v.x.abs() + v.y.abs();
+    size(load.f) * (size(motion.v) + length * motion.w.abs()) + (load.m * motion.w).abs()
 }

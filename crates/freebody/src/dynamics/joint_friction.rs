@@ -4,6 +4,7 @@
 //! The load of a joint depends on its friction and the friction on its load. Where it slides both are found in turns;
 //! as long as friction does not jam the joint each turn brings them closer.
 
+use super::minimal::Wanted;
 use super::rows::joint_friction_row;
 use super::{compliant_force, ContactTolerances, DynamicsError, Route, SolvedView, Source, Workspace};
 use crate::kinematics::StateView;
@@ -90,7 +91,7 @@ impl Workspace<'_> {
                 return Ok(());
             }
             self.joint_friction_forces = wanted;
-            self.solve_once(route)?;
+            self.solve_once(route, Wanted::Reactions)?;
         }
         Err(self.self_locking())
     }

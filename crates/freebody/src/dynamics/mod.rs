@@ -35,6 +35,7 @@ mod rows;
 mod scales;
 mod solved_view;
 mod term_scales;
+mod tree_matrices;
 mod tree_motion;
 mod unloaded;
 
@@ -66,6 +67,7 @@ use crate::mechanism::{self, Mechanism, Part};
 use crate::mode::{ContactMode, Mode};
 use crate::plane::{Twist, Vec2, Wrench};
 use generalized_force::{generalized_force, size_of_power, visit_ancestors};
+use minimal::Wanted;
 
 /// How the equations of an instant are set up and solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -220,6 +222,7 @@ impl<'m> Workspace<'m> {
     pub fn rebind(&mut self, p: &[f64]) {
         self.n = self.m.bind(p);
         self.placed.is_known = false;
+        self.forget_factors();
         self.length = self.m.characteristic_length(&self.n).unwrap_or(self.length);
         self.reaches = gaps::reaches(self.m, &self.n);
     }
@@ -235,6 +238,7 @@ impl<'m> Workspace<'m> {
         self.placed.bearing = None;
         if self.placed.mode != *mode {
             self.placed.mode = mode.clone();
+            self.forget_factors();
         }
     }
 
@@ -258,8 +262,11 @@ impl<'m> Workspace<'m> {
     /// Gives the states with a rate of their own their values.
     pub fn set_states(&mut self, states: &[f64]) {
         let known = &mut self.n.p[self.m.first_state()..];
-        self.placed.is_known &= *known == *states;
-        known.copy_from_slice(states);
+        if *known != *states {
+            known.copy_from_slice(states);
+            self.placed.is_known = false;
+            self.forget_factors();
+        }
     }
 
     /// The rates of the states with a rate of their own.
@@ -292,8 +299,9 @@ impl<'m> Workspace<'m> {
         self.solve_by(self.cheapest())
     }
 
-    /// Solves the present state for its accelerations and the powers of drives. The flank on which gears bear changes
-    /// none of them unless something rubs or is pressed, so the reactions found may be those of the other flank.
+    /// Solves the present state for its accelerations and the powers of drives, and for no reactions of the tree. The flank on which
+    /// gears bear changes none of them unless something rubs or is pressed, so the multipliers found may be those of the other
+    /// flank.
     ///
     /// # Errors
     /// As [`Workspace::solve`].
@@ -302,7 +310,7 @@ impl<'m> Workspace<'m> {
             return self.solve();
         }
         self.placed.bearing = None;
-        self.solve_once(self.cheapest())
+        self.solve_once(self.cheapest(), Wanted::Motion)
     }
 
     fn cheapest(&self) -> Route {
@@ -316,12 +324,12 @@ impl<'m> Workspace<'m> {
     pub fn solve_by(&mut self, route: Route) -> Result<(), DynamicsError> {
         self.placed.bearing = None;
         self.joint_friction_forces.fill(0.0);
-        self.solve_once(route)?;
+        self.solve_once(route, Wanted::Reactions)?;
         // To the other flank, and back again where teeth would pull there too.
         for _ in 0..2 {
             let Some(mode) = self.other_gear_flanks() else { break };
             self.placed.bearing = Some(mode);
-            self.solve_once(route)?;
+            self.solve_once(route, Wanted::Reactions)?;
         }
         match self.m.joint_friction.is_empty() {
             true => Ok(()),
@@ -329,7 +337,8 @@ impl<'m> Workspace<'m> {
         }
     }
 
-    fn solve_once(&mut self, route: Route) -> Result<(), DynamicsError> {
+    /// Solves the present state for what is wanted, gears bearing on the flanks that the mode says.
+    fn solve_once(&mut self, route: Route, wanted: Wanted) -> Result<(), DynamicsError> {
         let at = self.placed.view(self.m, &self.n, &self.k);
         loads::centre_arms(at, &mut self.arms);
         loads::loads(at, &self.arms, &mut self.loads);
@@ -348,7 +357,7 @@ impl<'m> Workspace<'m> {
                     s.joint_wrenches[i] = wrench
                 })
             }
-            Route::Minimal => self.solve_minimal(),
+            Route::Minimal => self.solve_minimal(wanted),
             Route::NewtonEuler => self.solve_newton_euler(),
             Route::Constraints => self.solve_constraints(),
         }

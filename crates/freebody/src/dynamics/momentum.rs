@@ -7,6 +7,7 @@ use crate::scalar::Scalar;
 
 /// The momentum of a body about its mass centre, which moves at `v`, as it turns at `w`: m v and I ω. With
 /// accelerations in place of velocities its rate of momentum, with jumps of them an impulse.
+#[inline]
 pub fn momentum<S: Scalar>(at: StateView<'_, S>, body: usize, v: Vec2<S>, w: S) -> Wrench<S> {
     let turning = if at.m.bodies[body].particle { S::zero() } else { at.n.inertia[body] * w };
     Wrench { f: v * at.n.mass[body], m: turning }
@@ -23,7 +24,8 @@ pub fn momentum_rate<S: Scalar>(at: StateView<'_, S>, body: usize, acceleration:
 /// The same at its joint origin.
 #[inline]
 pub fn inertia_wrench<S: Scalar>(at: StateView<'_, S>, body: usize, acceleration: Twist<S>) -> Wrench<S> {
-    momentum_rate(at, body, acceleration).seen_from(at.centre_arm(body))
+    let (arm, w) = (at.centre_arm(body), at.k.twist[body].w);
+    momentum(at, body, acceleration.acceleration_at(arm, w), acceleration.w).seen_from(arm)
 }
 
 /// What is left of the balance of momentum of every body, at its joint origin: the loads on it and those of the rows

@@ -1,7 +1,8 @@
 //! Back onto the closed loops: corrections of positions and velocities that change the motion least.
 
-use super::minimal::{row_scales, rows_in_coordinates, Force};
+use super::minimal::{Force, Memory, Wanted};
 use super::rows::closing_rows_into;
+use super::tree_matrices::{gradients, row_scales};
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
@@ -22,6 +23,10 @@ const UNMOVED: f64 = 1e-9;
 const FAR: f64 = 1e4;
 /// Part of the fastest rate below which what is left of a rate asked for is round-off.
 const UNMET: f64 = 1e-8;
+/// Displacement, in the units of the coordinates, within which factored equations close gaps that are no larger themselves,
+const NEAR: f64 = 1e-7;
+/// and part of the velocities that may be wrong in their correction by factors of another state.
+const UNSEEN: f64 = 1e-16;
 /// Square of the independence of rows below which a gap is left rather than closed from afar.
 const DAMPING: f64 = 1e-8;
 
@@ -105,7 +110,7 @@ impl Workspace<'_> {
             last = gap;
             let asked: Vec<f64> = self.rows.iter().map(|row| self.gap(row).map_or(0.0, |g| -g)).collect();
             let present: Vec<bool> = self.rows.iter().map(|row| self.gap(row).is_some()).collect();
-            let least = self.correction(&asked, &present)?;
+            let least = self.correction(&asked, &present, NEAR)?;
             let mut step = self.rates_of(&least);
             // Contacts that all but depend on each other keep their gaps, lest the bodies go far, and up, to close
             // them.
@@ -138,26 +143,35 @@ impl Workspace<'_> {
             return Ok(0.0);
         }
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
-        let step = self.correction(&asked, &present)?;
+        let fastest = self.placed.u.iter().zip(self.units()).map(|(u, unit)| (u / unit).abs()).fold(0.0, f64::max);
+        let rates = self.rows.iter().zip(&asked).map(|(row, asked)| (asked / self.row_unit(row)).abs());
+        let near = NEAR.min(UNSEEN * fastest / rates.fold(0.0, f64::max));
+        let step = self.correction(&asked, &present, near)?;
         let step = self.rates_of(&step);
         u.iter_mut().zip(&step).for_each(|(u, d)| *u += d);
         Ok(self.size_of(&step))
     }
 
     /// The motion that changes the present rows by `asked`, least in the metric of the masses; least in plain scaled
-    /// coordinates where a free motion has no mass.
-    fn correction(&mut self, asked: &[f64], present: &[bool]) -> Result<Vec<f64>, DynamicsError> {
+    /// coordinates where a free motion has no mass. Equations factored at a state as `near` as that do.
+    fn correction(&mut self, asked: &[f64], present: &[bool], near: f64) -> Result<Vec<f64>, DynamicsError> {
         if self.many_loops && present.iter().all(|&p| p) {
             return self.sparse_correction(asked, &[]);
         }
         let mut keep = present.iter();
         self.rows.retain(|_| *keep.next().expect("one for each row"));
         let asked: Vec<f64> = asked.iter().zip(present).filter(|(_, &p)| p).map(|(a, _)| *a).collect();
-        super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
-        match self.factor(Force::Gradient) {
-            Ok(()) => Ok(self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked).a),
-            Err(_) => Ok(self.least_motion(&self.rows, &asked)),
+        if !self.is_factored(near) {
+            super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
+            if self.factor_for(Wanted::Motion, Force::Gradient).is_err() {
+                return Ok(self.least_motion(&self.rows, &asked));
+            }
         }
+        let Memory { force, found, islands, .. } = &mut self.memory;
+        force.clear();
+        force.resize(self.m.freedom(), 0.0);
+        self.dense.solve_into(force, &asked, found, islands);
+        Ok(found.a.clone())
     }
 
     /// The least motion, in scaled coordinates, that changes `rows` by `asked` as nearly as possible.
@@ -195,7 +209,7 @@ impl Workspace<'_> {
             // Ranks decide where loops depend on each other, or on what is asked for.
             _ => {
                 let sparse = std::mem::replace(&mut self.many_loops, false);
-                let step = self.correction(&asked, &present);
+                let step = self.correction(&asked, &present, 0.0);
                 self.many_loops = sparse;
                 step?
             }
@@ -301,8 +315,7 @@ impl Workspace<'_> {
 
     /// Rows by scaled coordinates, each of order one, with the scales of rows and coordinates.
     fn scaled(&self, rows: &[Row]) -> (Matrix, Vec<f64>, Vec<f64>) {
-        let mut g = Matrix::default();
-        rows_in_coordinates(self.at(), rows, self.length, [&mut g, &mut Matrix::default(), &mut Matrix::default()]);
+        let g = gradients(self.at(), rows, self.length);
         let columns = self.units();
         let scales: Vec<f64> = row_scales(&g, &columns).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);
@@ -314,7 +327,7 @@ impl Workspace<'_> {
         let going = crate::kinematics::MotionView { at: self.at(), bodies: None, accelerations: None };
         let jet = crate::kinematics::jet(&going, gauge);
         Row {
-            source: Source::Drive(usize::MAX),
+            source: Source::TARGET,
             value: Some(jet.d0 - value),
             rate: Some(jet.d1 - rate),
             bias: 0.0,
@@ -335,7 +348,8 @@ impl Workspace<'_> {
             let (least, most) = norms.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
             return least / most;
         }
-        Orthogonal::factor(&scaled).rank().kept
+        self.dense.independence.refactor(&scaled);
+        self.dense.independence.rank().kept
     }
 
     /// Rows in units of the characteristic length, and their rank.
@@ -347,8 +361,7 @@ impl Workspace<'_> {
 
     /// Rows by coordinates, each over its unit, coordinates in theirs.
     fn in_units(&self, rows: &[Row]) -> Matrix {
-        let mut g = Matrix::default();
-        rows_in_coordinates(self.at(), rows, self.length, [&mut g, &mut Matrix::default(), &mut Matrix::default()]);
+        let g = gradients(self.at(), rows, self.length);
         let columns = self.units();
         let units: Vec<f64> = rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
         Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j])

@@ -4,8 +4,9 @@
 //! (Bᵀλ = 0), touches it (Wojtyra 2005, *Joint reaction forces in multibody systems with redundant constraints*).
 
 use super::contact_modes::{force_on_first, REST};
-use super::minimal::{joint_wrenches, row_scales, rows_in_coordinates, Force};
+use super::minimal::{joint_wrenches, Force};
 use super::rows::closing_rows;
+use super::tree_matrices::{gradients, row_scales};
 use super::{Route, Row, SolvedView, Source, Workspace};
 use crate::kinematics::StateView;
 use crate::mechanism::{DriveKind, Mechanism, Part};
@@ -188,8 +189,7 @@ impl Workspace<'_> {
         if rows.is_empty() || self.m.freedom() == 0 {
             return (0, false);
         }
-        let mut g = Matrix::default();
-        rows_in_coordinates(self.at(), &rows, self.length, [&mut g, &mut Matrix::default(), &mut Matrix::default()]);
+        let g = gradients(self.at(), &rows, self.length);
         let columns = self.units();
         let scales: Vec<f64> = row_scales(&g, &columns).collect();
         let scaled = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * scales[i] * columns[j]);

@@ -6,15 +6,16 @@
 
 use crate::expr::Env;
 use crate::gauges::ModelExpr;
+use crate::joints::Relative;
 use crate::kinematics::{gradient, jet, relative, JointView, MotionView, Poses, SeededView, State, StateView};
 use crate::mechanism::{Drive, DriveGauges, Friction, FrictionSource, Joint, Level, Part};
 use crate::mode::ContactMode;
-use crate::plane::{vec2, Twist, Vec2, Wrench};
+use crate::plane::{vec2, Pose, Turn, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
 use smallvec::{smallvec, SmallVec};
 
-/// Loads on bodies, at their joint origins; rarely on more than two.
-pub type BodyWrenches<S> = SmallVec<[(usize, Wrench<S>); 2]>;
+/// Loads on bodies, at their joint origins; rarely on more than four.
+pub type BodyWrenches<S> = SmallVec<[(usize, Wrench<S>); 4]>;
 
 /// Where a row comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -29,6 +30,11 @@ pub enum Source {
     Friction(usize),
     /// A joint, or a unilateral constraint with a spring, with friction and does not slide.
     JointFriction(usize),
+}
+
+impl Source {
+    /// That of rows that hold gauges at values or rates.
+    pub(super) const TARGET: Source = Source::Drive(usize::MAX);
 }
 
 /// One row.
@@ -197,7 +203,9 @@ fn slide_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> BodyWrenches<S>
 pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, out: &mut Vec<Row<S>>) {
     let joint = &at.m.joints[index];
     let going = MotionView { at, bodies: base, accelerations: None };
-    let (_, place) = relative(joint, at.m, &going);
+    let (axes, place) = relative(joint, at.m, &going);
+    let (axes, now) = values(&axes, &place);
+    let point = axes.place(now.at());
     let view = JointView::in_mode(at, index, Jet::constant);
     if let Some(coefficients) = view.rate_row(&place) {
         let rates = [place.x, place.y, place.angle];
@@ -206,47 +214,42 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
             rate += c.d0 * r.d1;
             bias += c.d0 * r.d2 + c.d1 * r.d1;
         }
-        let (axes, place) = relative(joint, at.m, &at);
         let [x, y, angle] = coefficients.map(|c| c.d0);
-        let motion = pair(at, joint, axes.place(place.at()), Wrench { f: axes.turn.apply(vec2(x, y)), m: angle });
+        let motion = pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle });
         let source = Source::Joint(index, 0);
         out.push(Row { source, value: None, rate: Some(rate), bias, motion, force: None });
         return;
     }
     let jets = view.residual(&place);
-    let loads = joint_loads(at, index);
+    let seeded = Relative {
+        x: Dual::<3, S>::variable(now.x, 0),
+        y: Dual::variable(now.y, 1),
+        angle: Dual::variable(now.angle, 2),
+    };
+    let slopes = JointView::in_mode(at, index, Dual::constant).residual(&seeded);
     for &row in &joint.rows {
+        let [x, y, angle] = slopes[row].du;
         out.push(Row {
             source: Source::Joint(index, row),
             value: Some(jets[row].d0),
             rate: Some(jets[row].d1),
             bias: jets[row].d2,
-            motion: loads[row].clone(),
+            motion: pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle }),
             force: None,
         });
     }
 }
 
-/// The loads of a unit multiplier of each row of a joint's card.
-fn joint_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> SmallVec<[BodyWrenches<S>; 3]> {
-    let joint = &at.m.joints[index];
-    let (axes, place) = relative(joint, at.m, &at);
-    let seeded = crate::joints::Relative {
-        x: Dual::<3, S>::variable(place.x, 0),
-        y: Dual::variable(place.y, 1),
-        angle: Dual::variable(place.angle, 2),
-    };
-    let rows = JointView::in_mode(at, index, Dual::constant).residual(&seeded);
-    let point = axes.place(place.at());
-    rows.iter()
-        .map(|row| {
-            let [x, y, angle] = row.du;
-            pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle })
-        })
-        .collect()
+/// Where a pose and a relative place are that move.
+#[inline(always)]
+fn values<S: Scalar>(pose: &Pose<Jet<S>>, place: &Relative<Jet<S>>) -> (Pose<S>, Relative<S>) {
+    let turn = Turn { angle: pose.turn.angle.d0, cos: pose.turn.cos.d0, sin: pose.turn.sin.d0 };
+    let at = vec2(pose.at.x.d0, pose.at.y.d0);
+    (Pose { at, turn }, Relative { x: place.x.d0, y: place.y.d0, angle: place.angle.d0 })
 }
 
 /// A load on the second body at a place, and its opposite on the first, each at its body's joint origin.
+#[inline(always)]
 pub fn pair<S: Scalar>(at: StateView<'_, S>, joint: &Joint, place: Vec2<S>, load: Wrench<S>) -> BodyWrenches<S> {
     let [a, b] = at.m.ends(joint);
     let mut wrenches = smallvec![];

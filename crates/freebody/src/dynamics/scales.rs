@@ -1,6 +1,6 @@
 //! The mechanism's own length and rate, by which is judged what is long, near, fast and small.
 
-use super::minimal::column_scales;
+use super::tree_matrices::column_scales;
 use super::Workspace;
 use crate::bound_values::BoundValues;
 use crate::mechanism::{FrictionSource, Mechanism};

@@ -25,7 +25,7 @@ pub trait Env<S, L> {
 }
 
 impl<L> Expr<L> {
-    /// Its value. Nothing is allocated for up to 32 operations.
+    /// Its value. Nothing is allocated for up to 128 operations.
     ///
     /// All arms are evaluated but only the chosen one counts, so that what is undefined in another
     /// (a root of a negative number, a division by 0) does no harm.
@@ -68,6 +68,7 @@ impl<L> Expr<L> {
         match count {
             0..=8 => read(self.fill(&mut [S::zero(); 8][..count], env)),
             9..=32 => read(self.fill(&mut [S::zero(); 32][..count], env)),
+            33..=128 => read(self.fill(&mut [S::zero(); 128][..count], env)),
             _ => read(self.fill(&mut vec![S::zero(); count], env)),
         }
     }

@@ -128,6 +128,7 @@ macro_rules! list {
             fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.residual(n, r)),* }
             }
+            #[inline]
             fn rate_row<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<[S; 3]> {
                 match self { $(Kind::$Joint => $module::$Joint.rate_row(n, r)),* }
             }

@@ -28,6 +28,7 @@ struct CurveView<'a, T> {
 
 impl<'a, T: Scalar> JointView<'a, T> {
     /// The joint with its numbers carried over by `to`.
+    #[inline(always)]
     pub fn new<S: Scalar>(m: &'a Mechanism, n: &BoundValues<S>, joint: &'a Joint, to: impl Fn(S) -> T) -> Self {
         let mut own = [T::zero(); MOST];
         for (number, &id) in own.iter_mut().zip(&joint.numbers) {
@@ -41,6 +42,7 @@ impl<'a, T: Scalar> JointView<'a, T> {
         JointView { joint, own, curve }
     }
     /// Joint `index` at a state: the teeth of a gear pair bear on the flank that its mode says.
+    #[inline(always)]
     pub fn in_mode<S: Scalar>(at: StateView<'a, S>, index: usize, to: impl Fn(S) -> T) -> Self {
         let mut view = JointView::new(at.m, at.n, &at.m.joints[index], to);
         if at.mode.bears_on_other_flank(index) {
@@ -48,6 +50,7 @@ impl<'a, T: Scalar> JointView<'a, T> {
         }
         view
     }
+    #[inline(always)]
     fn numbers(&self) -> JointNumbers<'_, T> {
         JointNumbers {
             of: &self.own[..self.joint.numbers.len()],
@@ -64,10 +67,12 @@ impl<'a, T: Scalar> JointView<'a, T> {
         }
     }
     /// All rows of the card.
+    #[inline(always)]
     pub fn residual(&self, r: &Relative<T>) -> Rows3<T> {
         self.joint.kind.residual(&self.numbers(), r).expect("a joint that closes a loop has a residual")
     }
     /// The coefficients of its row of rates, if it is one.
+    #[inline(always)]
     pub fn rate_row(&self, r: &Relative<T>) -> Option<[T; 3]> {
         self.joint.kind.rate_row(&self.numbers(), r)
     }

@@ -5,7 +5,7 @@ use crate::expr::Env;
 use crate::gauges::{ModelExpr, ModelVariable, Reading};
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
-use crate::plane::{Twist, Vec2, Wrench};
+use crate::plane::{Twist, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
 
 /// A configuration as an environment of expressions without time derivatives.
@@ -25,8 +25,8 @@ impl<T: Scalar, P: Poses<T>> Env<T, ModelVariable> for Config<'_, P> {
             ModelVariable::Parameter(i) => p.parameter(*i),
             ModelVariable::State(i) => p.state(*i),
             ModelVariable::Time => p.time(),
-            ModelVariable::X(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).x,
-            ModelVariable::Y(site) => p.pose(self.m.body_of(*site)).place(p.arm(*site)).y,
+            ModelVariable::X(site) => p.place(*site, self.m).x,
+            ModelVariable::Y(site) => p.place(*site, self.m).y,
             ModelVariable::Angle(body) => p.pose(*body).turn.angle,
             ModelVariable::Coordinate(joint, k) => p.coordinate(*joint, *k),
             ModelVariable::Local | ModelVariable::Reading(_) => {
@@ -103,13 +103,12 @@ impl<S: Scalar> Observed<'_, S> {
 
 impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
     fn variable(&self, variable: &ModelVariable) -> S {
-        let place = |site: usize| -> Vec2<S> { self.at.pose(self.at.m.body_of(site)).place(self.at.arm(site)) };
         match variable {
             ModelVariable::Parameter(i) => self.at.parameter(*i),
             ModelVariable::State(i) => self.at.state(*i),
             ModelVariable::Time => self.at.t,
-            ModelVariable::X(site) => place(*site).x,
-            ModelVariable::Y(site) => place(*site).y,
+            ModelVariable::X(site) => self.at.site(*site).x,
+            ModelVariable::Y(site) => self.at.site(*site).y,
             ModelVariable::Angle(body) => self.at.pose(*body).turn.angle,
             ModelVariable::Coordinate(joint, k) => self.at.coordinate(*joint, *k),
             ModelVariable::Reading(reading) => (self.read)(*reading),

@@ -102,7 +102,7 @@ impl<S: Scalar> Kinematics<S> {
         let joint = &m.joints[b.joint];
         let (near, far) = joint.sides(b.reversed);
         let (base, parent_twist) = (self.pose[b.parent], self.twist[b.parent]);
-        let axes = Turn::by(base.turn.angle + n.values[near.angle]);
+        let axes = near.axes(base.turn, n.values[near.angle]);
         let (mut at, mut rate) = ([S::zero(); 3], [S::zero(); 3]);
         for (k, c) in joint.coordinates.iter().enumerate() {
             let i = b.start + k;

@@ -24,10 +24,13 @@ pub trait Poses<T: Scalar> {
     fn time(&self) -> T;
     /// A coordinate of a joint, as its user reads it.
     fn coordinate(&self, joint: usize, k: usize) -> T;
+    /// The place of a site, fixed axes.
+    fn place(&self, site: usize, m: &Mechanism) -> Vec2<T> {
+        self.pose(m.body_of(site)).place(self.arm(site))
+    }
     /// The vector from one site to another, fixed axes.
     fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<T> {
-        let place = |site: usize| self.pose(m.body_of(site)).place(self.arm(site));
-        place(to) - place(from)
+        self.place(to, m) - self.place(from, m)
     }
 }
 
@@ -62,18 +65,21 @@ impl<S: Scalar> StateView<'_, S> {
     /// From the first point of a pin to where an event engaged it on the first body, fixed axes.
     pub fn pin_shift(&self, joint: usize) -> Vec2<S> {
         let first = &self.m.joints[joint].first;
-        let axes = Turn::by(self.pose(self.m.body_of(first.site)).turn.angle + self.n.values[first.angle]);
+        let axes = first.axes(self.pose(self.m.body_of(first.site)).turn, self.n.values[first.angle]);
         axes.apply(Vec2 { x: self.engaged_at(joint, 0), y: self.engaged_at(joint, 1) })
     }
 }
 
 impl<S: Scalar> Poses<S> for StateView<'_, S> {
+    #[inline(always)]
     fn pose(&self, body: usize) -> Pose<S> {
         self.k.pose[body]
     }
+    #[inline(always)]
     fn arm(&self, site: usize) -> Vec2<S> {
         self.n.arms[site]
     }
+    #[inline(always)]
     fn value(&self, id: usize) -> S {
         self.n.values[id]
     }
@@ -205,6 +211,7 @@ pub struct MotionView<'a, S> {
 }
 
 impl<S: Scalar> Poses<Jet<S>> for MotionView<'_, S> {
+    #[inline(always)]
     fn pose(&self, body: usize) -> Pose<Jet<S>> {
         let (pose, twist) = (self.at.k.pose[body], self.at.k.twist[body]);
         let acc = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]);
@@ -219,10 +226,12 @@ impl<S: Scalar> Poses<Jet<S>> for MotionView<'_, S> {
             },
         }
     }
+    #[inline(always)]
     fn arm(&self, site: usize) -> Vec2<Jet<S>> {
         let arm = self.at.n.arms[site];
         Vec2 { x: Jet::constant(arm.x), y: Jet::constant(arm.y) }
     }
+    #[inline(always)]
     fn value(&self, id: usize) -> Jet<S> {
         Jet::constant(self.at.n.values[id])
     }
@@ -236,10 +245,18 @@ impl<S: Scalar> Poses<Jet<S>> for MotionView<'_, S> {
     fn time(&self) -> Jet<S> {
         Jet::new(self.at.t, S::one(), S::zero())
     }
+    #[inline(always)]
+    fn place(&self, site: usize, m: &Mechanism) -> Vec2<Jet<S>> {
+        let body = m.body_of(site);
+        let (pose, twist) = (&self.at.k.pose[body], &self.at.k.twist[body]);
+        let arm = pose.turn.apply(self.at.n.arms[site]);
+        let (at, v) = (pose.at + arm, twist.at(arm));
+        let a = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]).acceleration_at(arm, twist.w);
+        Vec2 { x: Jet::new(at.x, v.x, a.x), y: Jet::new(at.y, v.y, a.y) }
+    }
     fn span(&self, from: usize, to: usize, m: &Mechanism) -> Vec2<Jet<S>> {
         let value = self.at.span(from, to, m);
-        let place = |site: usize| self.pose(m.body_of(site)).place(self.arm(site));
-        let by_places = place(to) - place(from);
+        let by_places = self.place(to, m) - self.place(from, m);
         Vec2 { x: Jet { d0: value.x, ..by_places.x }, y: Jet { d0: value.y, ..by_places.y } }
     }
     fn coordinate(&self, joint: usize, k: usize) -> Jet<S> {
@@ -386,11 +403,12 @@ pub(super) fn measured<S: Scalar, T: Scalar>(
 }
 
 /// The place of a joint's second marker as seen from its first, with the pose of the first marker.
+#[inline]
 pub fn relative<T: Scalar>(joint: &Joint, m: &Mechanism, poses: &impl Poses<T>) -> (Pose<T>, Relative<T>) {
     let [a, b] = m.ends(joint);
     let (first, second) = (poses.pose(a), poses.pose(b));
-    let axes = Turn::by(first.turn.angle + poses.value(joint.first.angle));
-    let from = first.place(poses.arm(joint.first.site));
+    let axes = joint.first.axes(first.turn, poses.value(joint.first.angle));
+    let from = poses.place(joint.first.site, m);
     let at = axes.undo(poses.span(joint.first.site, joint.second.site, m));
     let angle = second.turn.angle + poses.value(joint.second.angle) - axes.angle;
     (Pose { at: from, turn: axes }, Relative { x: at.x, y: at.y, angle })

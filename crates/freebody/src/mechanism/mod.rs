@@ -22,6 +22,8 @@ pub use unilateral::{Friction, Gap, Group, UnilateralConstraint, FRICTION};
 use crate::expr::Table;
 use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::Joint as _;
+use crate::plane::Turn;
+use crate::scalar::Scalar;
 
 /// Index of a number of the model.
 pub type ValueId = usize;
@@ -179,6 +181,19 @@ pub struct Marker {
     pub site: usize,
     /// Direction in the body's frame.
     pub angle: ValueId,
+    /// Whether that may be another than 0.
+    pub turned: bool,
+}
+
+impl Marker {
+    /// Its axes on a body turned as `body` says, for its direction there.
+    #[inline(always)]
+    pub fn axes<S: Scalar>(&self, body: Turn<S>, direction: S) -> Turn<S> {
+        match self.turned {
+            true => Turn::by(body.angle + direction),
+            false => body,
+        }
+    }
 }
 
 /// A curve of a body, in the body's frame.

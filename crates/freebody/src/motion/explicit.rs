@@ -60,36 +60,35 @@ impl Explicit {
         (index, c, a): (usize, f64, &[f64]),
     ) -> Result<(), Failure> {
         let (known, rest) = self.k.split_at_mut(index);
-        for (i, y) in self.y.iter_mut().enumerate() {
-            *y = from.y[i] + h * combine(a, known, i);
-        }
+        combine(a, known, &mut self.y);
+        self.y.iter_mut().zip(&from.y).for_each(|(y, from)| *y = from + h * *y);
         system.rate(from.t + c * h, &self.y, &mut rest[0])
     }
 
     fn error(&mut self, h: f64) -> f64 {
-        let k = &self.k;
-        let norms = self.table.errors.iter().map(|e| {
-            for (i, y) in self.y.iter_mut().enumerate() {
-                *y = h * combine(e, k, i);
-            }
+        let mut norm = |e: &[f64]| {
+            combine(e, &self.k, &mut self.y);
+            self.y.iter_mut().for_each(|y| *y *= h);
             measure(&self.y, &self.weights)
-        });
-        match norms.collect::<Vec<_>>()[..] {
-            [main, tempering] if main > 0.0 => main * main / real::hypot(main, TEMPERING * tempering),
-            [main, ..] => main,
+        };
+        match self.table.errors {
             [] => 0.0,
+            [main] => norm(main),
+            [main, tempering, ..] => match norm(main) {
+                main if main > 0.0 => main * main / real::hypot(main, TEMPERING * norm(tempering)),
+                main => main,
+            },
         }
     }
 }
 
-/// Σ aⱼ kⱼ for component `i`.
+/// Writes Σ aⱼ kⱼ, stage after stage; those without weight are left out.
 #[inline(always)]
-pub(super) fn combine<S: Scalar>(a: &[f64], k: &[Vec<S>], i: usize) -> S {
-    let mut sum = k[0][i].scale(a[0]);
-    for (&a, k) in a[1..].iter().zip(&k[1..]) {
-        sum += k[i].scale(a);
+pub(super) fn combine<S: Scalar>(a: &[f64], k: &[Vec<S>], sum: &mut [S]) {
+    sum.fill(S::zero());
+    for (&a, k) in a.iter().zip(k).filter(|(&a, _)| a != 0.0) {
+        sum.iter_mut().zip(k).for_each(|(sum, k)| *sum += k.scale(a));
     }
-    sum
 }
 
 impl Stepper for Explicit {
@@ -99,9 +98,8 @@ impl Stepper for Explicit {
         for (j, (&c, a)) in table.c.iter().zip(table.a).enumerate() {
             self.stage(system, from, h, (j + 1, c, a))?;
         }
-        for (i, y) in to.y.iter_mut().enumerate() {
-            *y = from.y[i] + h * combine(table.b, &self.k, i);
-        }
+        combine(table.b, &self.k, &mut to.y);
+        to.y.iter_mut().zip(&from.y).for_each(|(y, from)| *y = from + h * *y);
         system.rate_of(to)?;
         let stages = table.b.len();
         self.k[stages].copy_from_slice(&to.dy);
@@ -120,7 +118,8 @@ impl Stepper for Explicit {
         }
         let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
         for (j, row) in table.dense.iter().enumerate() {
-            segment.bend(3 + j, (0..from.y.len()).map(|i| h * combine(row, &self.k, i)));
+            combine(row, &self.k, &mut self.y);
+            segment.bend(3 + j, self.y.iter().map(|y| h * y));
         }
         Ok(segment)
     }

@@ -47,14 +47,12 @@ pub fn march<S: Scalar>(
         let h = end - t;
         for (j, (&c, a)) in TABLE.c.iter().zip(TABLE.a).enumerate() {
             let (known, rest) = k.split_at_mut(j + 1);
-            for i in 0..n {
-                stage[i] = y[i] + combine(a, known, i).scale(h);
-            }
+            combine(a, known, &mut stage);
+            stage.iter_mut().zip(&y).for_each(|(stage, &y)| *stage = y + stage.scale(h));
             rate(S::of(t + c * h), &stage, &mut rest[0])?;
         }
-        for i in 0..n {
-            next[i] = y[i] + combine(TABLE.b, &k, i).scale(h);
-        }
+        combine(TABLE.b, &k, &mut next);
+        next.iter_mut().zip(&y).for_each(|(next, &y)| *next = y + next.scale(h));
         rate(S::of(end), &next, &mut slope)?;
         let mut is_finite = true;
         for i in 0..n {

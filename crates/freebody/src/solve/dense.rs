@@ -1,6 +1,6 @@
 //! LU factors of a small square matrix.
 
-use super::{axpy, dot, max_abs, Matrix};
+use super::{axpy, dot, max_abs, with_length, Matrix};
 use std::fmt;
 
 /// A matrix whose column depends, to round-off, on the columns before it.
@@ -42,23 +42,31 @@ impl Lu {
         self.lu.clone_from(a);
         self.perm.clear();
         self.perm.extend(0..n);
-        (0..n).try_for_each(|k| self.eliminate(k, floor))
+        with_length!(n, |n| self.eliminate(n, floor))
     }
 
-    fn eliminate(&mut self, k: usize, floor: f64) -> Result<(), Singular> {
-        let lu = &mut self.lu;
-        let n = lu.rows();
-        let best = (k..n).fold(k, |p, i| if lu[(i, k)].abs() > lu[(p, k)].abs() { i } else { p });
-        if lu[(best, k)].abs() <= floor {
-            return Err(Singular { column: k });
-        }
-        lu.swap_rows(k, best);
-        self.perm.swap(k, best);
-        for i in k + 1..n {
-            let (pivot, row) = lu.two_rows_mut(k, i);
-            let s = row[k] / pivot[k];
-            row[k] = s;
-            axpy(-s, &pivot[k + 1..], &mut row[k + 1..]);
+    #[inline(always)]
+    fn eliminate(&mut self, n: usize, floor: f64) -> Result<(), Singular> {
+        for k in 0..n {
+            let (mut best, mut size) = (k, self.lu.row_of(k, n)[k].abs());
+            for i in k + 1..n {
+                let other = self.lu.row_of(i, n)[k].abs();
+                if other > size {
+                    (best, size) = (i, other);
+                }
+            }
+            if size <= floor {
+                return Err(Singular { column: k });
+            }
+            self.lu.swap_rows(k, best);
+            self.perm.swap(k, best);
+            let (above, below) = self.lu.split_rows_mut(k + 1, n);
+            let pivot = &above[k * n..(k + 1) * n];
+            for row in below.chunks_exact_mut(n) {
+                let s = row[k] / pivot[k];
+                row[k] = s;
+                axpy(-s, &pivot[k + 1..], &mut row[k + 1..]);
+            }
         }
         Ok(())
     }
@@ -79,21 +87,24 @@ impl Lu {
         axpy(1.0, more, x);
     }
 
-    fn substitute(&self, b: &[f64], x: &mut Vec<f64>) {
-        x.clear();
-        x.extend(self.perm.iter().map(|&p| b[p]));
-        for i in 0..x.len() {
-            x[i] -= dot(&self.lu.row(i)[..i], &x[..i]);
-        }
-        self.back_substitute(x);
+    /// The same, not refined.
+    pub(super) fn substitute(&self, b: &[f64], x: &mut Vec<f64>) {
+        with_length!(self.perm.len(), |n| {
+            x.clear();
+            for i in 0..n {
+                x.push(b[self.perm[i]] - dot(&self.lu.row_of(i, n)[..i], x));
+            }
+            self.back_substitute(n, &mut x[..n]);
+        });
     }
 
-    /// x ← U₁⁻¹ x with the leading block U₁ of x's size.
-    fn back_substitute(&self, x: &mut [f64]) {
-        let n = x.len();
-        for i in (0..n).rev() {
-            let row = &self.lu.row(i)[..n];
-            x[i] = (x[i] - dot(&row[i + 1..], &x[i + 1..])) / row[i];
+    /// x ← U₁⁻¹ x with the leading block U₁ of x's size, in rows of length `n`.
+    #[inline(always)]
+    fn back_substitute(&self, n: usize, x: &mut [f64]) {
+        let size = x.len();
+        for i in (0..size).rev() {
+            let row = self.lu.row_of(i, n);
+            x[i] = (x[i] - dot(&row[i + 1..size], &x[i + 1..])) / row[i];
         }
     }
 
@@ -116,7 +127,7 @@ impl Lu {
     /// A vector y with A y ≈ 0, after a [`Singular`] refusal at `column`; its entry there is 1.
     pub fn null_vector(&self, column: usize) -> Vec<f64> {
         let mut y: Vec<f64> = (0..column).map(|i| -self.lu[(i, column)]).collect();
-        self.back_substitute(&mut y);
+        self.back_substitute(self.lu.cols(), &mut y);
         y.resize(self.lu.rows(), 0.0);
         y[column] = 1.0;
         y

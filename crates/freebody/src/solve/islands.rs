@@ -1,6 +1,6 @@
 //! Equations that fall apart into groups without a common unknown: each group is solved for itself.
 
-use super::saddle::Memory;
+use super::saddle::{gather, Equations, Memory};
 use super::{largest, Matrix, Rank, Saddle, SaddleError, Solution};
 
 /// Part of a row that is round-off.
@@ -38,12 +38,6 @@ struct Island {
     unknowns: Vec<usize>,
     rows: Vec<usize>,
     saddle: Saddle,
-    /// Its parts of the matrices.
-    mass: Matrix,
-    g: Matrix,
-    b: Matrix,
-    /// Its scales of rows and unknowns.
-    scales: [Vec<f64>; 2],
 }
 
 impl Islands {
@@ -74,22 +68,8 @@ impl Islands {
         }
         let mut done = Ok(());
         for island in &mut self.islands {
-            let (unknowns, rows) = (&island.unknowns, &island.rows);
-            let part = |of: &Matrix, rows: &[usize], to: &mut Matrix| {
-                to.fill(rows.len(), unknowns.len(), |i, j| of[(rows[i], unknowns[j])]);
-            };
-            part(mass, unknowns, &mut island.mass);
-            part(g, rows, &mut island.g);
-            b.iter().for_each(|b| part(b, rows, &mut island.b));
-            gather(row_scale, rows, &mut island.scales[0]);
-            gather(col_scale, unknowns, &mut island.scales[1]);
-            let factored = island.saddle.refactor(
-                &island.mass,
-                &island.g,
-                b.map(|_| &island.b),
-                &island.scales[0],
-                &island.scales[1],
-            );
+            let Island { unknowns, rows, saddle } = island;
+            let factored = saddle.refactor_part(Equations { mass, g, b, row_scale, col_scale }, [rows, unknowns]);
             done = done.and(factored.map_err(|error| spread_out(error, unknowns, self.size[1])));
         }
         done
@@ -188,6 +168,12 @@ impl Groups {
     /// Finds the groups, in the order of their first unknowns; returns how many, at least one.
     fn find(&mut self, mass: &Matrix, g: &Matrix, b: Option<&Matrix>) -> usize {
         let (n, least) = (g.cols(), &mut self.least);
+        let is_full = |of: &Matrix| (0..of.rows()).any(|i| of.row(i).iter().all(|&x| x != 0.0));
+        if is_full(g) || is_full(mass) {
+            self.of.clear();
+            self.of.resize(n, 0);
+            return 1;
+        }
         least.clear();
         least.extend(0..n);
         for i in 0..n {
@@ -221,11 +207,6 @@ fn join(least: &mut [usize], mut of: impl Iterator<Item = usize>) {
         one = a.min(b);
         least[a.max(b)] = one;
     }
-}
-
-fn gather(of: &[f64], at: &[usize], to: &mut Vec<f64>) {
-    to.clear();
-    to.extend(at.iter().map(|&i| of[i]));
 }
 
 /// An error of a group, its direction expressed for all n unknowns.

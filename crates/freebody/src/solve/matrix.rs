@@ -72,6 +72,21 @@ impl Matrix {
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.data[i * self.cols..(i + 1) * self.cols]
     }
+    /// Row i of rows that are `n` long, as the caller knows.
+    #[inline(always)]
+    pub(super) fn row_of(&self, i: usize, n: usize) -> &[f64] {
+        &self.data[i * n..(i + 1) * n]
+    }
+    /// The same, to be written.
+    #[inline(always)]
+    pub(super) fn row_of_mut(&mut self, i: usize, n: usize) -> &mut [f64] {
+        &mut self.data[i * n..(i + 1) * n]
+    }
+    /// The first `i` of rows that are `n` long, and the others, both to be written.
+    #[inline(always)]
+    pub(super) fn split_rows_mut(&mut self, i: usize, n: usize) -> (&mut [f64], &mut [f64]) {
+        self.data.split_at_mut(i * n)
+    }
     /// Rows i ≠ j, both to be written.
     pub fn two_rows_mut(&mut self, i: usize, j: usize) -> (&mut [f64], &mut [f64]) {
         let n = self.cols;

@@ -1,7 +1,8 @@
 //! Linear algebra of one instant of a mechanism: M a − Bᵀ λ = f, G a = r.
 //!
 //! [`Saddle`] is the dense solver, exact about rank and about directions without inertia; it suits mechanisms of up to
-//! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart. [`Pattern`] and
+//! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart; [`Whole`] is quicker where they are few and
+//! nothing is in doubt. [`Pattern`] and
 //! [`Factor`] solve the symmetric case for thousands of bodies, at a cost that grows with the fill. The rest is what
 //! they stand on.
 
@@ -15,6 +16,7 @@ mod orthogonal;
 mod saddle;
 mod simplex;
 mod sparse;
+mod whole;
 
 pub use dense::{Lu, Singular};
 pub use islands::{IslandMemory, Islands};
@@ -24,16 +26,33 @@ pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};
 pub use saddle::{Saddle, SaddleError, Solution};
 pub use simplex::keep_above;
 pub use sparse::{Accuracy, Factor, Pattern, Stalled};
+pub use whole::Whole;
 
 #[cfg(test)]
 mod tests;
 
+/// Calls for rows of length `$n`: of a constant length where they are short, so that all loops along them are plain sums.
+macro_rules! with_length {
+    ($n:expr, |$length:ident| $call:expr) => {
+        with_length!(@ $n, $length, $call, 1 2 3 4 5 6 7 8)
+    };
+    (@ $n:expr, $length:ident, $call:expr, $($small:literal)*) => {
+        match $n {
+            $($small => { let $length = $small; $call })*
+            $length => $call,
+        }
+    };
+}
+use with_length;
+
 /// Σ xᵢ yᵢ.
+#[inline(always)]
 fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(a, b)| a * b).sum()
 }
 
 /// y ← y + s x.
+#[inline(always)]
 fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += s * x;

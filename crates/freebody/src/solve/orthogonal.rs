@@ -1,6 +1,6 @@
 //! The orthogonal decomposition of a few constraint rows, and the decision on their rank.
 
-use super::{axpy, dot, max_abs, Matrix};
+use super::{axpy, dot, max_abs, with_length, Matrix};
 
 /// Relative to the largest, a pivot or singular value below this is zero.
 const RANK_TOLERANCE: f64 = 1e-10;
@@ -40,7 +40,7 @@ impl Rank {
 ///
 /// X (n × n) and Y (m × m) are orthogonal and are stored transposed, one basis vector to a row; X₁
 /// and Y₁ are their first r vectors and the rest span ker G and ker Gᵀ; L is r × r, lower
-/// triangular. It comes from Householder QR of Gᵀ with column pivoting (Golub & Van Loan, *Matrix
+/// triangular, in rows of length n. It comes from Householder QR of Gᵀ with column pivoting (Golub & Van Loan, *Matrix
 /// Computations*, 4th ed., §5.4.2 and §5.4.7), or from the singular values where the pivots leave
 /// doubt.
 #[derive(Clone, Debug, Default)]
@@ -50,6 +50,8 @@ pub struct Orthogonal {
     y: Matrix,
     l: Matrix,
     perm: Vec<usize>,
+    /// The vectors of the reflections whose product is X, 0 before their heads.
+    h: Matrix,
     heads: Vec<f64>,
     values: Vec<f64>,
     /// Memory of the reflections from the left.
@@ -67,12 +69,12 @@ impl Orthogonal {
 
     /// Decomposes other rows in the same memory.
     pub fn refactor(&mut self, g: &Matrix) {
-        self.pivoted_qr(g);
+        with_length!(g.cols(), |n| self.pivoted_qr(n, g));
         self.rank = Rank::decide(&self.values);
         if self.rank.uncertain {
             self.take_svd(g);
         } else {
-            self.form_x();
+            with_length!(g.cols(), |n| self.form_x(n));
             self.reduce_and_form_y();
         }
     }
@@ -92,75 +94,87 @@ impl Orthogonal {
 
     /// x ← x + G⁺ b, the least-squares solution of G x = b of minimum norm.
     pub fn add_solution(&self, b: &[f64], x: &mut [f64]) {
-        self.add_solution_with(b, x, &mut vec![]);
+        self.add_solution_of(x.len(), b, x, &mut vec![]);
     }
 
-    /// The same with memory for the coefficients.
-    pub(super) fn add_solution_with(&self, b: &[f64], x: &mut [f64], c: &mut Vec<f64>) {
-        let r = self.rank.rank;
+    /// The same of `n` unknowns, with memory for the coefficients.
+    #[inline(always)]
+    pub(super) fn add_solution_of(&self, n: usize, b: &[f64], x: &mut [f64], c: &mut Vec<f64>) {
+        let (x, m) = (&mut x[..n], b.len());
         c.clear();
-        c.extend((0..r).map(|k| dot(self.y.row(k), b)));
-        for k in 0..r {
-            let row = self.l.row(k);
-            c[k] = (c[k] - dot(&row[..k], &c[..k])) / row[k];
-            axpy(c[k], self.x.row(k), x);
+        for k in 0..self.rank.rank {
+            let row = self.l.row_of(k, n);
+            c.push((dot(self.y.row_of(k, m), b) - dot(&row[..k], c)) / row[k]);
+            axpy(c[k], self.x.row_of(k, n), x);
         }
     }
 
     /// y ← y + (Gᵀ)⁺ b, the least-squares solution of Gᵀ y = b of minimum norm.
     pub fn add_transposed_solution(&self, b: &[f64], y: &mut [f64]) {
-        self.add_transposed_solution_with(b, y, &mut vec![]);
+        self.add_transposed_solution_of(b.len(), b, y, &mut vec![]);
     }
 
-    /// The same with memory for the coefficients.
-    pub(super) fn add_transposed_solution_with(&self, b: &[f64], y: &mut [f64], c: &mut Vec<f64>) {
-        let r = self.rank.rank;
+    /// The same of `n` equations, with memory for the coefficients.
+    #[inline(always)]
+    pub(super) fn add_transposed_solution_of(&self, n: usize, b: &[f64], y: &mut [f64], c: &mut Vec<f64>) {
+        let (b, m, r) = (&b[..n], y.len(), self.rank.rank);
         c.clear();
-        c.extend((0..r).map(|k| dot(self.x.row(k), b)));
+        for k in 0..r {
+            c.push(dot(self.x.row_of(k, n), b));
+        }
         for k in (0..r).rev() {
-            let row = self.l.row(k);
+            let row = self.l.row_of(k, n);
             c[k] /= row[k];
             let s = c[k];
             axpy(-s, &row[..k], &mut c[..k]);
-            axpy(s, self.y.row(k), y);
+            axpy(s, self.y.row_of(k, m), y);
         }
     }
 
-    /// Row k of `l` becomes the k-th pivotal row: L left of the diagonal, the reflector from it on.
-    fn pivoted_qr(&mut self, g: &Matrix) {
-        let (m, n) = (g.rows(), g.cols());
+    /// Row k of `l` becomes the k-th pivotal row of L, but for its diagonal; of `h` its reflection.
+    #[inline(always)]
+    fn pivoted_qr(&mut self, n: usize, g: &Matrix) {
+        let m = g.rows();
         self.l.clone_from(g);
+        self.h.reset(m.min(n), n);
         self.perm.clear();
         self.perm.extend(0..m);
         self.heads.clear();
         self.values.clear();
         for k in 0..m.min(n) {
-            let size = |l: &Matrix, i: usize| dot(&l.row(i)[k..], &l.row(i)[k..]);
-            let sizes = (k..m).map(|i| size(&self.l, i)).enumerate();
-            let (best, square) = sizes.fold((0, -1.0), |a, b| if b.1 > a.1 { b } else { a });
+            let (mut best, mut square) = (k, -1.0);
+            for i in k..m {
+                let tail = &self.l.row_of(i, n)[k..];
+                let size = dot(tail, tail);
+                if size > square {
+                    (best, square) = (i, size);
+                }
+            }
             self.values.push(square.sqrt());
             if self.values[k] <= RANK_TOLERANCE * self.values[0] {
                 break;
             }
-            self.l.swap_rows(k, k + best);
-            self.perm.swap(k, k + best);
-            self.heads.push(reflector(&mut self.l.row_mut(k)[k..]));
+            self.l.swap_rows(k, best);
+            self.perm.swap(k, best);
+            let v = self.h.row_of_mut(k, n);
+            v[k..].copy_from_slice(&self.l.row_of(k, n)[k..]);
+            self.heads.push(reflector(&mut v[k..]));
             for i in k + 1..m {
-                let (v, row) = self.l.two_rows_mut(k, i);
-                reflect(&v[k..], &mut row[k..]);
+                reflect(v, self.l.row_of_mut(i, n));
             }
         }
     }
 
     /// X = H₀ H₁ ⋯, each basis vector being the image of a unit vector.
-    fn form_x(&mut self) {
-        let (r, n) = (self.rank.rank, self.l.cols());
+    #[inline(always)]
+    fn form_x(&mut self, n: usize) {
+        let r = self.rank.rank;
         self.x.reset(n, n);
         for i in 0..n {
-            let row = self.x.row_mut(i);
+            let row = self.x.row_of_mut(i, n);
             row[i] = 1.0;
             for k in (0..r.min(i + 1)).rev() {
-                reflect(&self.l.row(k)[k..], &mut row[k..]);
+                reflect(self.h.row_of(k, n), row);
             }
         }
         for k in 0..r {
@@ -191,8 +205,12 @@ impl Orthogonal {
 
     fn form_y(&mut self, reflectors: &Matrix) {
         let (r, m) = (self.rank.rank, self.l.rows());
-        let vector = &mut self.vector;
         self.y.reset(m, m);
+        if reflectors.rows() == 0 {
+            self.perm.iter().enumerate().for_each(|(i, &p)| self.y[(i, p)] = 1.0);
+            return;
+        }
+        let vector = &mut self.vector;
         for i in 0..m {
             vector.clear();
             vector.resize(m, 0.0);
@@ -218,7 +236,7 @@ impl Orthogonal {
         (0..r).for_each(|i| completed.row_mut(i).copy_from_slice(lead.row(i)));
         self.x = completed;
         self.y = svd.left;
-        self.l = Matrix::zeros(r, r);
+        self.l = Matrix::zeros(r, n);
         (0..r).for_each(|k| self.l[(k, k)] = svd.values[k]);
     }
 }
@@ -240,6 +258,7 @@ fn reflector(x: &mut [f64]) -> f64 {
 }
 
 /// x ← (I − v vᵀ) x.
+#[inline(always)]
 fn reflect(v: &[f64], x: &mut [f64]) {
     axpy(-dot(v, x), v, x);
 }

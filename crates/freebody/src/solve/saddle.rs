@@ -1,6 +1,6 @@
 //! The dense null-space solver of one instant of a mechanism.
 
-use super::{axpy, dot, max_abs, Lu, Matrix, Orthogonal, Rank};
+use super::{axpy, dot, max_abs, with_length, Lu, Matrix, Orthogonal, Rank};
 use std::fmt;
 
 /// Momentum of a motion, over the largest inertia, that is none: round-off of the motion itself leaves more than of a pivot.
@@ -56,11 +56,20 @@ pub(super) struct Memory {
 #[derive(Clone, Debug, Default)]
 struct Steps {
     step: Vec<f64>,
-    product: Vec<f64>,
     load: Vec<f64>,
     y: Vec<f64>,
     coefficients: Vec<f64>,
     lu: [Vec<f64>; 2],
+}
+
+/// The matrices of [`Saddle`] with their scales.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Equations<'a> {
+    pub mass: &'a Matrix,
+    pub g: &'a Matrix,
+    pub b: Option<&'a Matrix>,
+    pub row_scale: &'a [f64],
+    pub col_scale: &'a [f64],
 }
 
 /// Why the equations of an instant determine no motion.
@@ -129,45 +138,48 @@ impl Saddle {
         let (m, n) = (row_scale.len(), col_scale.len());
         assert_eq!((mass.rows(), mass.cols()), (n, n), "M is n × n");
         assert_eq!((g.rows(), g.cols()), (m, n), "G is m × n");
-        self.row_scale.clear();
-        self.row_scale.extend_from_slice(row_scale);
-        self.col_scale.clear();
-        self.col_scale.extend_from_slice(col_scale);
-        scale_into(&mut self.mass, mass, col_scale, col_scale);
-        scale_into(&mut self.g, g, row_scale, col_scale);
+        assert!(b.is_none_or(|b| (b.rows(), b.cols()) == (m, n)), "B is m × n");
+        let all = [(0..m).collect::<Vec<_>>(), (0..n).collect()];
+        self.refactor_part(Equations { mass, g, b, row_scale, col_scale }, [&all[0], &all[1]])
+    }
+
+    /// Factors some rows of the equations for some of their unknowns.
+    pub(super) fn refactor_part(&mut self, of: Equations, [rows, unknowns]: [&[usize]; 2]) -> Result<(), SaddleError> {
+        gather(of.row_scale, rows, &mut self.row_scale);
+        gather(of.col_scale, unknowns, &mut self.col_scale);
+        let [by_row, by_unknown] = [(rows, &self.row_scale[..]), (unknowns, &self.col_scale[..])];
+        scaled_part(of.mass, by_unknown, by_unknown, &mut self.mass);
+        scaled_part(of.g, by_row, by_unknown, &mut self.g);
         self.motion.refactor(&self.g);
-        self.set_actuation(b);
-        self.factor_inertia()
+        match of.b {
+            None => self.actuation = None,
+            Some(b) => {
+                let (scaled, basis) = self.actuation.get_or_insert_with(Default::default);
+                scaled_part(b, by_row, by_unknown, scaled);
+                basis.refactor(scaled);
+            }
+        }
+        with_length!(unknowns.len(), |n| self.factor_inertia(n))
     }
 
-    fn set_actuation(&mut self, b: Option<&Matrix>) {
-        let Some(b) = b else {
-            self.actuation = None;
-            return;
-        };
-        assert_eq!((b.rows(), b.cols()), (self.g.rows(), self.g.cols()), "B is m × n");
-        let (scaled, basis) = self.actuation.get_or_insert_with(Default::default);
-        scale_into(scaled, b, &self.row_scale, &self.col_scale);
-        basis.refactor(scaled);
-    }
-
-    fn factor_inertia(&mut self) -> Result<(), SaddleError> {
+    #[inline(always)]
+    fn factor_inertia(&mut self, n: usize) -> Result<(), SaddleError> {
         let (motion, force) = (self.rank().rank, self.force().rank().rank);
         if motion != force {
             return Err(SaddleError::RankMismatch { motion, force });
         }
-        let n = self.mass.rows();
         let dof = n - motion;
         self.momentum.reset(dof, n);
         self.inertia.reset(dof, dof);
         for j in 0..dof {
-            let z = self.motion.x().row(motion + j);
-            self.mass.add_t_mul_vec(z, self.momentum.row_mut(j));
-        }
-        for i in 0..dof {
-            for j in 0..dof {
-                let w = self.force().x().row(motion + i);
-                self.inertia[(i, j)] = dot(w, self.momentum.row(j));
+            let momentum = self.momentum.row_of_mut(j, n);
+            let z = self.motion.x().row_of(motion + j, n);
+            for (i, momentum) in momentum.iter_mut().enumerate() {
+                *momentum = dot(self.mass.row_of(i, n), z);
+            }
+            let force = self.actuation.as_ref().map_or(&self.motion, |(_, basis)| basis);
+            for i in 0..dof {
+                self.inertia[(i, j)] = dot(force.x().row_of(motion + i, n), momentum);
             }
         }
         let floor = ZERO_INERTIA * max_abs(self.mass.data());
@@ -249,44 +261,48 @@ impl Saddle {
         zeros(&mut found.a, f.len());
         zeros(&mut found.lambda, r.len());
         df.clone_from(scaled_f);
-        self.correct(df, scaled_r, found, steps);
-        self.residual([scaled_f, scaled_r], found, [df, dr], &mut steps.product);
-        self.correct(df, dr, found, steps);
-        self.residual([scaled_f, scaled_r], found, [df, dr], &mut steps.product);
+        dr.clone_from(scaled_r);
+        for _ in 0..2 {
+            with_length!(f.len(), |n| self.correct(n, df, dr, found, steps));
+            self.residual([scaled_f, scaled_r], found, [df, dr]);
+        }
         found.inconsistency = max_abs(dr);
         multiply(&mut found.a, &self.col_scale);
         multiply(&mut found.lambda, &self.row_scale);
     }
 
     /// f − M a + Bᵀ λ and r − G a, scaled.
-    fn residual(&self, [f, r]: [&[f64]; 2], of: &Solution, [df, dr]: [&mut Vec<f64>; 2], product: &mut Vec<f64>) {
-        df.clear();
-        df.extend_from_slice(f);
+    fn residual(&self, [f, r]: [&[f64]; 2], of: &Solution, [df, dr]: [&mut [f64]; 2]) {
+        df.copy_from_slice(f);
         let b = self.actuation.as_ref().map_or(&self.g, |(b, _)| b);
         b.add_t_mul_vec(&of.lambda, df);
-        self.mass.mul_vec_into(&of.a, product);
-        axpy(-1.0, product, df);
-        dr.clear();
-        dr.extend(r.iter().enumerate().map(|(i, r)| r - dot(self.g.row(i), &of.a)));
+        df.iter_mut().enumerate().for_each(|(i, left)| *left -= dot(self.mass.row(i), &of.a));
+        dr.iter_mut().zip(r).enumerate().for_each(|(i, (left, r))| *left = r - dot(self.g.row(i), &of.a));
     }
 
-    /// Adds the scaled solution for (f, r) to (a, λ); f is used up.
-    fn correct(&self, f: &mut [f64], r: &[f64], to: &mut Solution, steps: &mut Steps) {
-        let Steps { step, product, load, y, coefficients, lu } = steps;
-        zeros(step, f.len());
-        self.motion.add_solution_with(r, step, coefficients);
-        self.mass.mul_vec_into(step, product);
-        axpy(-1.0, product, f);
-        let rank = self.rank().rank;
+    /// Adds the scaled solution for (f, r) to (a, λ); f, which has n parts, is used up.
+    #[inline(always)]
+    fn correct(&self, n: usize, f: &mut [f64], r: &[f64], to: &mut Solution, steps: &mut Steps) {
+        let Steps { step, load, y, coefficients, lu } = steps;
+        let (f, rank, motion, force) = (&mut f[..n], self.rank().rank, &self.motion, self.force());
+        let step = zeros(step, n);
+        motion.add_solution_of(n, r, step, coefficients);
+        for (i, left) in f.iter_mut().enumerate() {
+            *left -= dot(self.mass.row_of(i, n), step);
+        }
         load.clear();
-        load.extend((rank..f.len()).map(|i| dot(self.force().x().row(i), f)));
+        for i in rank..n {
+            load.push(dot(force.x().row_of(i, n), f));
+        }
         self.lu.solve_into(load, y, lu);
-        self.add_motion(y, step);
         // What is left over, M a − f, is the constraint force.
         f.iter_mut().for_each(|v| *v = -*v);
-        y.iter().enumerate().for_each(|(j, y)| axpy(*y, self.momentum.row(j), f));
-        self.force().add_transposed_solution_with(f, &mut to.lambda, coefficients);
-        axpy(1.0, step, &mut to.a);
+        for (j, y) in y.iter().enumerate() {
+            axpy(*y, motion.x().row_of(rank + j, n), step);
+            axpy(*y, self.momentum.row_of(j, n), f);
+        }
+        force.add_transposed_solution_of(n, f, &mut to.lambda, coefficients);
+        axpy(1.0, step, &mut to.a[..n]);
     }
 
     /// z ← z + Z y, scaled.
@@ -300,11 +316,16 @@ impl Saddle {
     }
 }
 
-/// out ← diag(rows) A diag(cols).
-fn scale_into(out: &mut Matrix, a: &Matrix, rows: &[f64], cols: &[f64]) {
-    out.clone_from(a);
-    for (i, r) in rows.iter().enumerate() {
-        out.row_mut(i).iter_mut().zip(cols).for_each(|(v, c)| *v *= r * c);
+/// out ← the part of A in given rows and columns, each times its scale.
+fn scaled_part(a: &Matrix, rows: (&[usize], &[f64]), cols: (&[usize], &[f64]), out: &mut Matrix) {
+    out.fill(rows.0.len(), cols.0.len(), |i, j| a[(rows.0[i], cols.0[j])] * (rows.1[i] * cols.1[j]));
+}
+
+/// to ← the entries at given places.
+pub(super) fn gather(of: &[f64], at: &[usize], to: &mut Vec<f64>) {
+    to.clear();
+    for &i in at {
+        to.push(of[i]);
     }
 }
 
@@ -315,15 +336,21 @@ fn product(x: &[f64], scale: &[f64]) -> Vec<f64> {
 }
 
 /// x ← diag(scale) x.
+#[inline(always)]
 fn multiply(x: &mut [f64], scale: &[f64]) {
     assert_eq!(x.len(), scale.len(), "size of a right-hand side");
     x.iter_mut().zip(scale).for_each(|(x, s)| *x *= s);
 }
 
 /// x becomes n zeros.
-fn zeros(x: &mut Vec<f64>, n: usize) {
-    x.clear();
-    x.resize(n, 0.0);
+#[inline(always)]
+fn zeros(x: &mut Vec<f64>, n: usize) -> &mut [f64] {
+    if x.len() != n {
+        x.resize(n, 0.0);
+    }
+    let x = &mut x[..n];
+    x.fill(0.0);
+    x
 }
 
 fn larger(a: f64, b: f64) -> f64 {

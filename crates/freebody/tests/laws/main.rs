@@ -6,6 +6,7 @@
     reason = "closed forms are evaluated by other functions than ours; what is thrown may differ"
 )]
 
+mod allocations;
 mod arrows;
 mod cables;
 mod closed_forms;

@@ -50,7 +50,11 @@ impl Scene {
         let radius = (!point).then(|| slot(&mut m, rng.within(0.1, 0.3)));
         let from = vec2(rng.about(1.0), rng.about(1.0));
         let against = match word {
-            "line" => Profile::Line(Marker { site: site(&mut m, second, from), angle: slot(&mut m, rng.about(3.0)) }),
+            "line" => Profile::Line(Marker {
+                site: site(&mut m, second, from),
+                angle: slot(&mut m, rng.about(3.0)),
+                turned: true,
+            }),
             "circle" | "hollow" => Profile::Circle {
                 centre: site(&mut m, second, from),
                 radius: slot(&mut m, rng.within(0.5, 1.5)),

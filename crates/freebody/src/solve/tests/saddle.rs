@@ -1,4 +1,4 @@
-use super::super::{max_abs, Lu, Matrix, Saddle, SaddleError, Solution};
+use super::super::{dot, max_abs, Lu, Matrix, Saddle, SaddleError, Solution, Whole};
 use super::{distance, Random};
 
 /// A random instant: n unknowns, m rows of rank r, masses over two decades either way.
@@ -79,6 +79,34 @@ fn agrees_with_lu_of_the_whole_matrix() {
             assert!(distance(&both, &p.whole(used)) < 1e-9, "seed {seed}");
         }
     }
+}
+
+/// As one matrix the equations have the same solution; where rows depend on each other or a motion has no inertia that declines.
+#[test]
+fn the_whole_has_the_same_solution_or_declines() {
+    let (mut whole, mut found, mut solved) = (Whole::default(), Solution::default(), 0);
+    for seed in 0..400 {
+        let mut random = Random(seed);
+        let n = random.index(1, 9);
+        let (rank, spare) = (random.index(1, n + 1), random.index(0, 4) / 3);
+        let mut p = Instant::new(&mut random, n, rank + spare, rank);
+        for i in 0..rank + spare {
+            let row: Vec<f64> = p.g.row(i).iter().zip(&p.cols).map(|(g, col)| g * col).collect();
+            p.rows[i] = 1.0 / dot(&row, &row).sqrt();
+        }
+        if whole.refactor(&p.mass, &p.g, None, &p.rows, &p.cols) {
+            assert_eq!(spare, 0, "seed {seed}: a redundant row");
+            whole.solve_into(&p.f, &p.r, &mut found);
+            let s = p.factor(None).unwrap().solve(&p.f, &p.r);
+            let apart = distance(&found.a, &s.a).max(distance(&found.lambda, &s.lambda));
+            // Pivots of a hundredth: conditions of 1e4 at most.
+            assert!(apart < 1e-11, "seed {seed}: {apart:e}");
+            solved += 1;
+        }
+    }
+    assert!(solved > 100, "{solved}");
+    let massless = Matrix::from_fn(2, 2, |i, j| f64::from(i + j == 0));
+    assert!(!whole.refactor(&massless, &Matrix::zeros(0, 2), None, &[], &[1.0; 2]));
 }
 
 #[test]

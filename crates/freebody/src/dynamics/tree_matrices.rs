@@ -1,0 +1,132 @@
+//! Masses and rows by the coordinates of the tree, and the units in which both are of order one.
+
+use super::momentum::Inertia;
+use super::{size_of_power, visit_ancestors, BodyWrenches, Row, CANCELLED};
+use crate::kinematics::StateView;
+use crate::plane::{Vec2, Wrench};
+use crate::solve::Matrix;
+
+/// Unit of each coordinate: a radian for angles, the characteristic length for lengths, and for the parameter of a curve
+/// what shifts or turns a body by as much.
+pub(super) fn column_scales(at: StateView<'_>, length: f64) -> impl Iterator<Item = f64> + '_ {
+    let of_curve = move |joint: usize, k: usize| {
+        let column = at.k.motion_subspace[at.m.joints[joint].child?][k];
+        let size = column.v.norm().max(length * column.w.abs());
+        (size > 0.0).then(|| length / size)
+    };
+    let unit = move |&(joint, k): &(usize, usize)| match at.m.joints[joint].coordinates[k].dimension {
+        "m" => length,
+        "rad" => 1.0,
+        _ => of_curve(joint, k).unwrap_or(1.0),
+    };
+    at.m.coordinates.iter().map(unit)
+}
+
+/// Makes every row of order one in scaled coordinates.
+pub(super) fn row_scales<'a>(g: &'a Matrix, columns: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+    (0..g.rows()).map(move |i| {
+        let norm = g.row(i).iter().zip(columns).map(|(x, c)| (x * c) * (x * c)).sum::<f64>().sqrt();
+        if norm > 0.0 {
+            1.0 / norm
+        } else {
+            1.0
+        }
+    })
+}
+
+/// Rows by joint coordinates, n columns.
+pub(super) fn gradients(at: StateView<'_>, rows: &[Row], length: f64) -> Matrix {
+    let mut g = Matrix::default();
+    rows_in_coordinates(at, rows, length, |row| &row.motion, &mut g, &mut vec![]);
+    g
+}
+
+/// What loads of rows do on the joint coordinates, n columns, with memory for their sizes.
+pub(super) fn rows_in_coordinates(
+    at: StateView<'_>,
+    rows: &[Row],
+    length: f64,
+    of: impl Fn(&Row) -> &BodyWrenches<f64>,
+    out: &mut Matrix,
+    sizes: &mut Vec<f64>,
+) {
+    out.reset(rows.len(), at.m.freedom());
+    sizes.resize(at.m.freedom(), 0.0);
+    for (i, row) in rows.iter().enumerate() {
+        sizes.fill(0.0);
+        generalized_force_clean(at, of(row), length, out.row_mut(i), sizes);
+    }
+}
+
+/// As [`generalized_force`], but 0 where loads cancel, or pass through a joint origin, but for round-off: such a row asks for
+/// nothing of that coordinate, and must not be scaled up to a constraint. `size`, 0 before, is what does not cancel.
+fn generalized_force_clean(
+    at: StateView<'_>,
+    wrenches: &BodyWrenches<f64>,
+    length: f64,
+    out: &mut [f64],
+    size: &mut [f64],
+) {
+    visit_ancestors(at, wrenches.iter().copied(), |i, load, column| {
+        out[i] += load.power(column);
+        size[i] += size_of_power(load, column, length);
+    });
+    for (sum, size) in out.iter_mut().zip(size) {
+        if sum.abs() <= CANCELLED * *size {
+            *sum = 0.0;
+        }
+    }
+}
+
+/// The mass matrix of the tree by joint coordinates, n × n, from the inertia of each body with all that hangs on it
+/// (composite rigid bodies; Featherstone ch. 6).
+pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<Inertia>, out: &mut Matrix) {
+    let bodies = at.m.bodies.len();
+    out.reset(at.m.freedom(), at.m.freedom());
+    carried.clear();
+    carried.resize(bodies, Inertia::default());
+    for i in (1..bodies).rev() {
+        let (body, own) = (Inertia::of(at, i, arms[i]), &mut carried[i]);
+        own.mass += body.mass;
+        own.moment += body.moment;
+        own.turn += body.turn;
+        let own = *own;
+        let tree_joint = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
+        let particle = at.m.bodies[i].particle;
+        for k in 0..tree_joint.freedom {
+            let mut load = own.momentum(at.k.motion_subspace[i][k]);
+            if particle {
+                load.m = 0.0;
+            }
+            couple(at, i, tree_joint.start + k, load, out);
+        }
+        let r = at.k.arm[i];
+        let up = &mut carried[tree_joint.parent];
+        up.mass += own.mass;
+        if particle {
+            // A particle resists the turning of its parent by its place only.
+            up.moment += r * own.mass;
+            up.turn += own.mass * r.dot(r);
+        } else {
+            up.moment += own.moment + r * own.mass;
+            up.turn += own.turn + 2.0 * r.dot(own.moment) + own.mass * r.dot(r);
+        }
+    }
+}
+
+/// Enters what the load of coordinate `j` does on every coordinate from body `i` down to ground.
+fn couple(at: StateView<'_>, i: usize, j: usize, load: Wrench, out: &mut Matrix) {
+    let (mut body, mut load) = (i, load);
+    while let Some(b) = at.m.bodies[body].tree_joint {
+        for k in 0..b.freedom {
+            let value = load.power(at.k.motion_subspace[body][k]);
+            out[(b.start + k, j)] = value;
+            out[(j, b.start + k)] = value;
+        }
+        if at.m.bodies[body].particle {
+            load.m = 0.0;
+        }
+        load = load.seen_from(at.k.arm[body]);
+        body = b.parent;
+    }
+}
