@@ -30,6 +30,7 @@ from .motion_sampler import MotionSampler
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .symbols import DOUBTFUL, Symbols
+from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
 from .wording import with_condition_first
@@ -40,9 +41,10 @@ if TYPE_CHECKING:
 _PATIENT = 10.0  # s, within which an event is waited for where the model does not say how long it runs
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
-_BECOMES = {"taut": "taut|tight|stretched|straight", "slack": "slack|loose", "stick": "rolls|rolling|sticks|grips"}
+_BECOMES = {"taut": "taut|tight|stretched|straight", "slack": "slack|loose", "stick": "roll|rolls|rolling|sticks|grips"}
 """What changes in words."""
-_GIVEN = re.compile(r"\$?\s*([^\s=]+)\s*=\s*[^=]+")
+_GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
+_TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
@@ -69,6 +71,7 @@ class Checker:
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
         self._runs: dict[float | None, Any] = {}  # the model's own, by when they end, once they are asked for
+        self._vibrations: dict[tuple[tuple[str, float], ...], Vibration] = {}  # with parameters that are held
         self._beside: dict[tuple[Any, ...], Checker] = {}  # the same of other moments
 
     def symbols(self, declared: Declared | None = None) -> Symbols:
@@ -85,9 +88,10 @@ class Checker:
     ) -> Case:
         """A statement beside the motions that decide about it, read with ``units`` or without, and ``tight`` or not as ``parse`` does.
         Raises ``StatementError`` and ``ModelProblem``."""
-        known = self.symbols(letters)
-        program = known.read(text, units, tight)
         given = hypothesis or self.hypothesis
+        known = self.symbols(letters)
+        known.vibration = self._vibration_of(given)
+        program = known.read(text, units, tight)
         meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
@@ -111,7 +115,7 @@ class Checker:
         """The verdict where what cannot be read begins with a law, and says something behind it; where both can be read, about both."""
         for other, law in without_laws(text):
             if (said := _GIVEN.fullmatch(law)) and free_parameter(said[1], self, letters or {}) and self.hypothesis == ALL:
-                return self.check(f"if {law}: {other}", letters, *how)
+                return self.check(f"if {law.rpartition(',')[2]}: {other}", letters, *how)
             with suppress(StatementError):
                 found = self.check(other, letters, *how)
                 if law or found.kind is not Kind.DIMENSIONS:
@@ -159,6 +163,15 @@ class Checker:
         other.correcting = self.correcting
         return other
 
+    def _vibration_of(self, family: Family) -> Vibration:
+        """The vibration of the model; where parameters have a number of their own, with that: it may rest nowhere else."""
+        held = tuple((name, float(value)) for name, value in family.held if str(value).replace(".", "", 1).isdecimal())
+        if not held:
+            return self.vibration
+        if held not in self._vibrations:
+            self._vibrations[held] = Vibration(MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)}))
+        return self._vibrations[held]
+
     def _happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""
         events = {e["name"]: None for e in self.sampler.spec["events"]}
@@ -183,13 +196,12 @@ class Checker:
 
     @cached_property
     def only_impact(self) -> str | None:
-        """What one impact is at, where that is all that happens on the model's own run, and nothing at its start."""
+        """What the impacts on the model's own run are at, where it is one part, and nothing happens at its start."""
         if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
             return None
         run, _ = self.moment("end")
-        later = [change for change in run.changes if change.t > run.t[0]]
-        parts = {change.of[:1] for change in later}
-        return later[0].of[0] if len(parts) == 1 and later[0].kind == "impact" else None
+        parts = {tuple(change.of[:1]) for change in run.changes if change.t > run.t[0] and change.kind == "impact"}
+        return next(iter(parts))[0] if len(parts) == 1 else None
 
     def event_called(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
@@ -296,6 +308,9 @@ def _judged(checker: Checker, text: str, letters: Declared | None, case: Case) -
         return found
     if (error := misfit(case.program, case.meaning.symbols.dimensions)) is None:
         verdict = judged(case)
+    elif case.meaning.symbols.assumed.get("T") == ENERGIES["T"] and _TENSION.search(error.what):
+        what = "the symbol `T` has no meaning in this model but its kinetic energy, and that is no force"
+        raise StatementError(what, error.span, "declare it, like `T: …`, on the command line by `--where 'T=…'`", text)
     else:
         verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
     unfinished = (case.budget.words,) if case.budget.spent else ()

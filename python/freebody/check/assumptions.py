@@ -50,7 +50,6 @@ WORDS: dict[str, dict[str, Any]] = {
 """Hypotheses that are said in words alone."""
 _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
-_MEASURED = re.compile(r"(?<![\w.])\d+(?:\.\d+)?\s+[A-Za-z°]")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
 OWN_NUMBERS = "these numbers of the model"
@@ -332,16 +331,13 @@ def _with_limit(given: Family, name: str, value: str, checker: Checker, declared
 
 
 def _meant(expression: str, checker: Checker, declared: Declared) -> str:
-    """An expression of the statement's symbols in the model language; one with measures, 45 m/s, is read as a statement is."""
-    if _MEASURED.search(expression):
-        with suppress(StatementError, ModelProblem):
-            return checker.symbols(declared).expression(expression)
+    """An expression of the statement's symbols in the model language, read as a statement is: 2L is no volume where L is a length."""
     try:
-        return checker.symbols({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
-    except ModelProblem as problem:
+        return checker.symbols(declared).expression(expression)
+    except (StatementError, ModelProblem) as error:
         try:
-            return checker.symbols(declared).expression(expression)
-        except (StatementError, ModelProblem) as error:
+            return checker.symbols({**declared, "hypothesis": expression}).meanings["hypothesis"].texts[0]
+        except ModelProblem as problem:
             if isinstance(error, StatementError) and "has no meaning" in error.what:
                 raise ModelProblem(error.what, error.hint) from None
             raise problem from None

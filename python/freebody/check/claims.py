@@ -84,6 +84,12 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    if (
+        verdict.kind is Kind.UNDECIDABLE
+        and any(str(value) in _ZEROS for _, value in given.held)
+        and not checker.sampler.has(given)
+    ):
+        return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     others = []
     if given.vanishing and verdict.kind is Kind.UNDECIDABLE:  # it may be so only where something switches, or has done so
         others = [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
@@ -398,10 +404,12 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
     return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(found, there))
 
 
-_JUST = re.compile(r"((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
+_JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
 _OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
 _IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
+_ZEROS = ("0", "0.0")
+_TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")

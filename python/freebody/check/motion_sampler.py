@@ -167,7 +167,9 @@ class MotionSampler(AskedModel):
         drawn = {name: self._drawn(rng, name, value, family) for name, value in self.free_parameters.items()}
         numbers = {name: x for name, x in held.items() if not isinstance(x, str)}
         plain = {name: numbers.get(name, value) * scaled.get(name, 1.0) for name, value in drawn.items()}
-        return plain | {name: evaluate(x, plain) for name, x in held.items() if isinstance(x, str)}
+        for name, x in held.items():  # one after the other: the later ones may read the earlier
+            plain |= {name: evaluate(x, plain)} if isinstance(x, str) else {}
+        return plain
 
     def _drawn(self, rng: np.random.Generator, name: str, value: float, family: Family) -> float:
         dimension = self.start.parameters.get(name)
@@ -316,7 +318,8 @@ class MotionSampler(AskedModel):
                 rates = {name: there[name] for name in rates}
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state = self.moved(own, q, rates, p=self.core.bind(values))
-            state = self._arranged(self._conditions(rng, family), state, list(rates))
+            given = {} if family.held or family.numbers or self.loops else values
+            state = self._arranged(self._conditions(rng, family), state, list(rates), given)
         if "before" in self.moment:
             return self._sampled(state)
         motion = self.run(state, max(late, 1e-6 / self.rate))

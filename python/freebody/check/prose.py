@@ -35,7 +35,10 @@ _SENSES = {
     r"(?:counter|anti)-?clockwise|ccw": "↺",
     r"clockwise|cw": "↻",
 }
-_SENSE = {re.compile(rf"\s*,?\s*(\()?\b(?:{words})\b(?(1)\))(?=\s*(?:[,;.]|$))", re.I): sign for words, sign in _SENSES.items()}
+_SENSE = {
+    re.compile(rf"\s*,?\s*(\()?\b(?:{words})\b(?:\s*(?:\+|(?:is\s+)?positive))?(?(1)\))(?=\s*(?:[,;.]|$))", re.I): sign
+    for words, sign in _SENSES.items()
+}
 _REMARK = re.compile(
     r"\s*\((?:i\.?\s?e\b|e\.?\s?g\b|that is|because|since|so|as|hence|thus|note|acting|by|from|see)\b[^()=]*\)(?=\s*(?:[,;.]|$))"
 )
@@ -94,6 +97,10 @@ _AND_THERE = re.compile(
     r"(?:[,;]|[,;]?\s+and)\s+(?:at|for|on|of) the (?!start|end|moment|instant|same)[a-z]+[,:]?\s+(?=[^:=]*=[^:]*\Z)"
 )
 """``… and at the lever P b = T_2 a``."""
+_WAY = re.compile(r"(?<=[\w)}²°])\s+(?:down|up|along|towards?|across)\s+the\s+[a-z]+\s*\Z")
+"""``a = 2.9 m/s² down the slope``."""
+_AT_ONCE = re.compile(r"\A\s*(in\s+(?:static\s+)?equilibrium|at\s+rest|initially)\s+(?=[^\s:,=]+\s*=)(?![^=]*:)")
+"""``in equilibrium x = m g/k``."""
 _THEN = re.compile(r"(?m)^(\s*(?:if|when)\b[^:\n]*?),?\s+then\s+(?=[^:\n]*[=<>≈≤≥])")
 _JUST_IT = re.compile(r"\b((?:just|immediately)\s+(?:after|before))\s+(?:it|that|this)\b[:,]?\s+")
 _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
@@ -148,6 +155,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _EXTREME.sub(r"_{\1}", said)
     said = _LIMITLESS.sub(lambda found: f"∫_0^t{found[1]}", said)
     said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
+    said = _AT_ONCE.sub(r"\1: ", _WAY.sub(lambda found: told(found, "a remark, and not judged"), said))
     said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _AND_THERE.sub(lambda found: f"\n{told(found, 'a remark, and not judged')}", said)
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)

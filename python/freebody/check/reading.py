@@ -13,7 +13,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Column, Matrix, Mul, Negative, Sym, Unit, exchange, walk
+from freebody.symbolic.tree import Column, Dot, Matrix, Mul, Negative, Num, Pow, Sym, Unit, exchange, walk
 
 from . import integrals
 from .language.dimensions import check_dimensions, dimension, misfit
@@ -34,6 +34,7 @@ _OWNED = re.compile(r"(?<![\w.)])([^\W\d](?:[\w.]*\w)?)\.([A-Za-z]\w*)(?![\w.(])
 _FUNCTIONS = sorted(cards.functions().keys() | {"rate", "accel"})
 _READING = re.compile(rf"(?<![\w.])(?:{'|'.join(_FUNCTIONS)})\s*\([^()]*\)")
 _ASKED = re.compile(r"(.+?)(0|\(0\)|(?<=_)max|(?<=_)min)")
+_SECOND = re.compile(r"(.+)_2")
 _MOMENTS = {"max": f"{LARGEST}: ", "min": f"{LEAST}: "}
 """What is asked of a motion by an index."""
 _WORD = 3
@@ -166,6 +167,9 @@ class Reading:
     def _sized(self, program: Program) -> Program:
         """The same with letters that usually are vectors as their sizes, where it makes sense only so."""
         vectors = {name for name, m in self.known.meanings.items() if m.is_vector}
+        for node in [n for n in walk(program) if isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.name in vectors]:
+            if isinstance(node.exponent, Num) and node.exponent.value == 2:  # v² is v · v
+                program = exchange(program, node, Dot(node.base, node.base, span=node.span))
         loose = {name for name in vectors - self.known.own if re.match("[vra](_|$)", name)}
         program, sized = with_sizes(program, vectors, loose)
         self.known.assumed |= {name: f"the size of {self.known.assumed.get(name, name)}, without a sign" for name in sized}
@@ -197,7 +201,21 @@ class Reading:
                 base = "hypot({}, {})".format(*self.known.meanings[base].texts[:2])
             if base:
                 found[name] = f"{_MOMENTS.get(asked[2], INITIAL)}{base}"
-        return found
+        return {**self._at_ends(program), **found}
+
+    def _at_ends(self, program: Program) -> dict[str, str]:
+        """Of the only coordinate and its rate at the beginning and the end of a stretch, v_1 and v_2, what is asked."""
+        if len(self.known.metadata["coordinates"]) > 1 or len(self.known.metadata["bodies"]) > 1:
+            return {}
+        known, unknown = {folded(name): name for name in self.known.meanings}, {n.name for n in self._unknown(program)}
+        pairs = [(found[1], name) for name in sorted(unknown) if (found := _SECOND.fullmatch(name))]
+        bases = [(known[folded(base)], base, name) for base, name in pairs if folded(base) in known]
+        return {
+            end: said
+            for meant, base, name in bases
+            if (first := f"{base}_1") in unknown
+            for end, said in ((first, f"{INITIAL}{meant}"), (name, meant))
+        }
 
     def _add(self, found: Mapping[str, str], program: Program, assumed: bool = False) -> None:
         """Symbols that are not taken by what there is, or by a line of the statement; of those that are only ``assumed``, which a

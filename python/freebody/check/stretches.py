@@ -9,6 +9,7 @@ import numpy as np
 
 from freebody.core import Array, Trajectory
 
+_NOTHING = 1e-9  # of the largest value
 _LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
 """Times at which it is looked for between two, how often again, and how near they may come."""
 
@@ -26,7 +27,8 @@ def first_zero(of: Callable[[Array], Array], begins: float, ends: float) -> floa
     for _ in range(_FINER):
         values = of(times)
         crossings = np.flatnonzero((values[1:-1] * values[2:] <= 0) & (values[1:-1] != 0)) + 1
-        if not len(crossings) and values[0] * values[1] < 0:
+        at_once = values[0] * values[1] < 0  # a beginning that is 0 but for round-off is none, where it is 0 later
+        if at_once and (not len(crossings) or abs(values[0]) > _NOTHING * np.abs(values).max()):
             crossings = np.zeros(1, int)
         if not len(crossings):
             return None

@@ -34,7 +34,7 @@ def usual(spec: Mapping[str, Any], metadata: Mapping[str, Any], declared: Mappin
         centre = f"{spell(spec['bodies'][0]['name'])}.G"
         found += [("v", f"velocity of {centre}"), ("a", f"acceleration of {centre}")]
         found += [(f"a_{part}", dict(found)[f"a_G{part}"]) for part in "nt" if f"a_G{part}" in dict(found)]
-    found += [*_polar(spec)]
+    found += [*_polar(spec), *_of_polar_joint(spec)]
     return dict(reversed(found))  # what comes first stays
 
 
@@ -153,6 +153,23 @@ def _polar(spec: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     for name, (x, y) in directions.items():
         yield f"e_{name}", f"[{x}, {y}]"
         yield from ((f"{symbol}_{name}", f"{symbol}x({point})*{x} + {symbol}y({point})*({y})") for symbol in "va")
+
+
+def _of_polar_joint(spec: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    """The same of the only point that goes about a fixed one by polar coordinates."""
+    polar = [joint for joint in spec["joints"] if joint["type"] == "polar"]
+    names = [each for joint in polar for each in joint["coordinates"] if "name" in each]
+    if len(polar) != 1 or len(names) != 2 or len(polar[0]["coordinates"]) != 2:
+        return
+    (first, second), (along, across) = polar[0]["with"]["of"], names
+    if not str(first).startswith("ground."):
+        return
+    cosine, sine = (f"{f}(direction({first}, {second}))" for f in ("cos", "sin"))
+    sign = "-" if across.get("sense") == -1 else ""
+    directions = {along["name"]: (cosine, sine), across["name"]: (f"-({sign}{sine})", f"{sign}{cosine}")}
+    for name, (x, y) in directions.items():
+        yield f"e_{name}", f"[{x}, {y}]"
+        yield from ((f"{symbol}_{name}", f"{symbol}x({second})*({x}) + {symbol}y({second})*({y})") for symbol in "va")
 
 
 def _of_coordinates(spec: Mapping[str, Any], metadata: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

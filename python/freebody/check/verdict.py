@@ -341,7 +341,7 @@ def _but_for_sign(case: Case, equation: Equation) -> bool:
 def _as_figures(case: Case, equation: Equation) -> Verdict | None:
     """That a measure alone on its side, ``a = 2.91 m/s²``, is that of the model's own numbers; else None."""
     own = replace(case.hypothesis, numbers=True, zeros=False)
-    said = case.hypothesis == ALL and says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(equation)))
+    said = case.hypothesis == ALL and says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(case.program)))
     if not said or not of_family(case, equation, own):
         return None
     verdict = judged_one(replace(case, hypothesis=own, known={}), equation)
