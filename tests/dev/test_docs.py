@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from views.test_front_end import in_browser
 from views.test_site import dead_links
@@ -23,9 +24,15 @@ ALONE = ("README.md", "docs/first_minutes.md", "docs/batch.md")
 """Pages whose Python needs nothing that is said elsewhere, and does not take long."""
 
 
+ROD = """
+freebody: 1
+parameters: {l: 1 m, m: 2 kg, alpha: 20 deg}
+bodies: {rod: {shape: rod, length: l, mass: m}}
+joints: {pin: {type: hinge, of: [ground.O, rod.start], coordinate: theta}}
+"""
 AMONG = {
-    "docs/python.md": dict,
-    "docs/inverse.md": dict,
+    **dict.fromkeys(("docs/python.md", "docs/inverse.md", "docs/find.md", "docs/periodic.md", "docs/stability.md"), dict),
+    "docs/statements.md": lambda: {"model": fb.Mechanism.loads(ROD)},
     "docs/check.md": lambda: {"m": fb.load("systems/19.3.17-pendulum-on-a-cart/model.yaml")},
     "docs/equations.md": lambda: {"m": fb.load("systems/19.3.17-pendulum-on-a-cart/model.yaml"), "generate": generate},
 }
@@ -39,12 +46,17 @@ def test_tables_are_current(path):
     assert runpy.run_path(str(DOCS / "tables.py"))["written"](text) == text
 
 
-LADDER = next(
-    text
-    for text in re.findall(r"```yaml\n(.*?)```", (DOCS / "model_file.md").read_text("utf-8"), re.DOTALL)
-    if "name: ladder" in text
-)
+FRAGMENTS = re.findall(r"```yaml\n(?:freebody: 1[^\n]*\n)?(.*?)```", (DOCS / "model_file.md").read_text("utf-8"), re.DOTALL)
+LADDER = next(text for text in FRAGMENTS if "name: ladder" in text)
 """The example of contacts, from which a newcomer starts."""
+
+
+@pytest.mark.parametrize("fragment", FRAGMENTS, ids=lambda text: text.split(":")[0])
+def test_what_the_language_shows_is_read(fragment):
+    """And where it has bodies, it is a model that moves."""
+    mechanism = fb.Mechanism.loads(f"freebody: 1\n{fragment}")
+    if "bodies:" in fragment:
+        assert np.isfinite(list(mechanism.solve().accelerations.values())).all()
 
 
 def test_the_ladder_leaves_the_wall_at_two_thirds_of_its_height():

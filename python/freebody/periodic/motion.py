@@ -26,7 +26,8 @@ _FOUND = 1e-12
 _ROUND_OFF = 1e-15
 """Part of these sizes by which a motion that repeats itself misses its start by round-off."""
 _NEUTRAL = 1e-10
-"""Singular value of the derivative less the identity, in these sizes, along which a whole family of motions repeats itself."""
+"""Singular value of the derivative less the identity, in these sizes, along which a whole family of motions repeats itself; at least the
+tolerance of the map, below which it is not told from 0."""
 _HALF = 0.5
 """Part of the step before to which one must come while Newton's method converges, however slowly."""
 _CLOSED = 1e-10
@@ -105,7 +106,7 @@ def find(returns: ReturnMap, start: Sequence[float] | Array, **others: Any) -> P
         here = returns(values, **others)
         for _ in range(_STEPS):
             size, miss = _sizes(here, values), _miss(here, values)
-            step = _step(here, values, size, _NEUTRAL if miss <= _FOUND else 0.0)
+            step = _step(here, values, size, max(_NEUTRAL, returns.rtol) if miss <= _FOUND else 0.0)
             length = float(np.abs(step / size).max())
             if miss <= _FOUND and (length <= _FOUND or (miss <= _ROUND_OFF and length > _HALF * before)):
                 return _periodic(returns, values, here, length)
