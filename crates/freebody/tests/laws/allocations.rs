@@ -3,6 +3,7 @@
 use crate::random::*;
 use crate::random_mechanisms::{recipe, HOME};
 use crate::rng::{seeds, Rng};
+use freebody::joints::Kind;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -39,6 +40,11 @@ fn an_evaluation_asks_for_no_memory() {
     let (mut evaluated, mut asking) = (0, vec![]);
     for seed in seeds(0..300, 4) {
         let bench = Bench::new(&recipe(seed).draw(seed, HOME));
+        let m = &bench.compiled.mechanism;
+        // Teeth that would pull are tried on their other flank, in a mode that is made anew.
+        if m.is_hybrid() && m.joints.iter().any(|joint| joint.kind == Kind::Gear) {
+            continue;
+        }
         let (mut workspace, mut rng) = (bench.balance(), Rng::new(seed));
         let Some(state) = bench.state(&mut workspace, &mut rng, 0.3) else { continue };
         let mut u_dot = vec![0.0; state.q.len()];
@@ -50,9 +56,7 @@ fn an_evaluation_asks_for_no_memory() {
                 solves &= workspace.solve_motion().is_ok();
                 workspace.accelerations(&mut u_dot);
             });
-            // Where teeth bear on their other flank that is another mode, and a mode is made anew.
-            let same_mode = workspace.at().mode == workspace.mode();
-            if solves && same_mode && !first {
+            if solves && !first {
                 evaluated += 1;
                 if count > 0 {
                     asking.push(format!("seed {seed} {count} times: {}", bench.label()));
