@@ -292,7 +292,7 @@ class Instant(PlainText):
         rich."""
         found = self.accelerations | {name: acceleration for name, (_, acceleration) in self.dependent.items()}
         named = [c for c in _named(self.core) if c["name"] not in self.absent]
-        coordinates = [(c["name"], found[c["name"]], f"{c['dimension']}/s²") for c in named]
+        coordinates = [(c["name"], rich_tables.beside(found[c["name"]], self.sizes[1]), f"{c['dimension']}/s²") for c in named]
         locks = {name.removeprefix("lock "): value for name, value in self.locks.items()}
         units = {m["name"]: m["readings"]["force"] for m in self.core.metadata["motions"]}
         units |= {x["name"].removeprefix("lock "): "N*m" if x["turns"] else "N" for x in self.core.metadata["locks"]}

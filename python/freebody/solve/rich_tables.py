@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from freebody.solve.instant import Reaction
 
 _UNIT = re.compile(r"\[(.+)\]$")
-_NO_FORCE = 1e-15  # of the largest force, by the metre for couples: less is round-off
+_NOTHING = 1e-15  # of the largest force or acceleration, by the metre for couples and turns: less is round-off
 _ROUND_OFF = 1e-12  # of a contact's force: below it a component is what rounding left
 
 
@@ -128,6 +128,11 @@ def captured(shown: Any, width: int) -> str:
     return capture.get()
 
 
+def beside(value: float, largest: float) -> float:
+    """A figure, 0 where it is round-off beside the ``largest`` among what balances."""
+    return 0.0 if abs(value) <= _NOTHING * largest else value
+
+
 def of_reactions(reactions: Iterable[Reaction], largest: float) -> Table:
     """Reactions on both bodies of every joint that can carry a load; beside the ``largest`` force among what balances (N) round-off is
     0."""
@@ -135,7 +140,7 @@ def of_reactions(reactions: Iterable[Reaction], largest: float) -> Table:
     for joint in reactions:
         for body in (joint.second, joint.first) if joint.carries else ():
             side = joint.on(body)
-            values = np.where(np.abs(side.values) > _NO_FORCE * largest, side.values, 0.0)
+            values = [beside(value, largest) for value in side.values]
             x, y, couple = np.where(side.determined, values, np.nan).tolist()
             rows.append((joint.name if body == joint.second else "", body, x, y, couple if joint.has_couple else None))
     return table("reactions", ["joint", "on", "Fx [N]", "Fy [N]", "M [N·m]"], rows)
