@@ -115,6 +115,24 @@ SLIPS = {
         "is left out",
     ),
     "a letter of the model": ("collar_and_counterweight", "z' = −y'", "z' = −y y'/s", "a factor is forgotten"),
+    "behind a label": (
+        "bungee_jumper",
+        "↓ cord taut: m g − k x = m x''",
+        "once the cord is taut: m g − k (x − l) = m x''",
+        "is left out",
+    ),
+    "part of a vector": (
+        "plate_on_parallel_links",
+        "a_G = r θ̈ (−sin θ i + cos θ j)",
+        "a_G = r θ̈ (−sin θ i + cos θ j) − r θ̇² (cos θ i + sin θ j)",
+        "the centripetal part",
+    ),
+    "a place of rest": (
+        "carpenters_square",
+        "at rest: tan θ = −m_2 b/a",
+        "at rest: m_1 tan θ = −m_2 b/a",
+        "a factor is forgotten",
+    ),
     "a letter for a sum": (
         "ship_with_moving_weight",
         "if c = 0: ½ I_O φ'² + ½ m (s'² + s² φ'²) − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",

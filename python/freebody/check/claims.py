@@ -54,6 +54,10 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         if found := pattern.fullmatch(claim):
             said = ((part or "").strip() for part in found.groups())
             return judge(checker, {**declared, **given}, *said)
+    label, colon, said = claim.partition(":")
+    words = label.strip(_BESIDE_WORDS)
+    if colon and _IN_WORDS.fullmatch(words) and (name := checker.becoming(words)):
+        return _beside_event(checker, {**declared, **given}, "", "after", name, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
@@ -98,9 +102,11 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     elif given.at_rest and "at rest" in condition and _is_of_places(checker.case(statement, declared)):
         others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
     for other, words in others:
-        found = checker.check(statement, declared, other, correcting=verdict.kind is Kind.UNDECIDABLE)
+        found = checker.check(statement, declared, other, correcting=not verdict.mends)
         if found.ok:
             return replace(found, assumption=words)
+        if found.kind is verdict.kind and found.mends and not verdict.mends:
+            verdict = replace(verdict, mends=found.mends)
         verdict = found if verdict.kind is Kind.UNDECIDABLE and found.kind is not verdict.kind else verdict
     return verdict
 
@@ -410,6 +416,8 @@ _OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0
 _IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
+_BESIDE_WORDS = " ↑↓→←↺↻+()"
+"""What stands beside the words of a label: in which sense is counted."""
 _FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")

@@ -232,7 +232,7 @@ class _Search:
         sizes = [n for n in self.vocabulary.parameters if n not in self.vocabulary.angular]
         said = {*symbols_in(self.equation)}
         sums = [n for n in walk(self.node) if isinstance(n, Add) and {_bare(t) for t in n.terms} <= {*sizes}]
-        ordered = sorted(sizes, key=lambda n: n not in said)
+        ordered = sorted(sizes, key=lambda n: (n not in said, n in self.vocabulary.letters))
         return Monomials(self.values, dict.fromkeys((*(n for n in ordered if n in said), *sums, *ordered)), [()], _BLUR)
 
     @cached_property

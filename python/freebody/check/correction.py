@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from heapq import heappop, heappush
 from itertools import chain, combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -49,6 +49,7 @@ _BEST_FIGURES = 12
 MOST = 3  # corrections that are given
 FIRST, SECOND = 0.5, 0.8
 """Parts of the budget after which a first search ends, and one that comes after it."""
+_FOR_EQUALS = 0.2  # of what is left when a likely edit is found
 _CONFIRMING = 0.1  # of it, for what was found by then
 _OF_BALANCE = 0.5  # more, where motions alone were spoken of, for what only a balance makes true
 _FRESH, _FRESH_STATES = 1, 16
@@ -84,6 +85,7 @@ class _Found:
         return Correction(tuple(map(stated, edits)), spell(tidied(shown)), self.size, where, given, why)
 
 
+T = TypeVar("T")
 Step = Callable[["_Search"], Iterator[_Found]]
 """A way to look for corrections."""
 
@@ -153,7 +155,7 @@ class _Search:
         self.said = {n.key for n in symbols_in(equation)}
         self.given, self.case = case.meaning.given(), case
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
-        self.within = partial(case.budget.within, part=part)
+        self._part = part
         self.lasts = partial(case.budget.lasts, part=part + _CONFIRMING)
         self.fits = FittedEdits(
             self.values, self.vocabulary, self.within, _BLUR if family.small or family.scaled else 1.0, bool(family.small)
@@ -176,7 +178,17 @@ class _Search:
             self.differentiated,
             () if readable else forgotten_factors(self.equation, self.vocabulary),
         )
-        return (_Found((edit,)) for edit in self._promising(found))
+        for edit in self._promising(found):
+            if edit.size <= 1:  # nothing is likelier, and only its equals are looked for
+                self._part = min(self._part, self.case.budget.with_rest(_FOR_EQUALS))
+            yield _Found((edit,))
+
+    def within(self, found: Iterable[T]) -> Iterator[T]:
+        """What there is, as long as there is time for this search."""
+        for each in found:
+            if not self.case.budget.lasts(self._part):
+                return
+            yield each
 
     def other_terms(self) -> Iterator[_Found]:
         """Every term that should be quite another."""

@@ -257,12 +257,24 @@ class FittedEdits:
         scalar = required.missing.ndim == 1
         ratio = required.missing / required.value if scalar and not isinstance(required.node, Add) else np.full(1, np.nan)
         is_number = np.ptp(ratio) < _NEARLY * np.abs(ratio).max()
-        found = self._monomials(equation).equal_to(required.missing) if scalar else self._matching(equation, required.missing)
+        if scalar:
+            found: Iterator[Node] = self._monomials(equation).equal_to(required.missing)
+        else:
+            found = chain(self._matching(equation, required.missing), self._of_components(equation, required.missing))
         for term in map(_linear, found) if self.small else found:
             if is_number and {*symbols_in(term)} <= {*symbols_in(equation)}:
                 continue  # another number is a factor
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, more(required.node, term)), size)
+
+    def _of_components(self, equation: Equation, wanted: Array) -> Iterator[Node]:
+        """Vectors along i and j whose components are one term each."""
+        units = [Sym("i"), Sym("j")]
+        if wanted.ndim == 2 and {*units} <= {*self.vocabulary.vectors} and np.isfinite(wanted).all():
+            terms = self._monomials(equation)
+            along = [next(terms.equal_to(np.ascontiguousarray(wanted[:, k])), None) for k in range(2)]
+            if None not in along:
+                yield Add(tuple(Mul((term, unit)) for term, unit in zip(along, units, strict=True)))
 
     def _denominator(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten; where it is one symbol,
@@ -286,7 +298,7 @@ class FittedEdits:
             sums = [n for n in walk(equation) if isinstance(n, Add) and {_bare(term) for term in n.terms} <= {*sizes}]
             lengths = [n for n in known.parameters if known.dimension(n) == LENGTH]
             pairs = combinations(lengths[:_MOST_LENGTHS], 2)
-            bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said))
+            bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
             pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
             own = [n for n in bases if n in said]
             every = known.shapes(self._of(equation), [n for n in said if n in known.others], self._angles(equation))
