@@ -16,7 +16,7 @@ from freebody.views.labels import AIR
 from freebody.views.render import ORDER
 from freebody.views.shapes import dense, inside
 
-SHAFT, HEAD = 14.0, 5.6  # pt
+SHAFT, HEAD, HALF_HEAD = 14.0, 5.6, 2.5  # pt
 BLUNT = 1.5  # pt at an end of a line, where it may touch what it ends on
 FULL = 10  # labels on a panel, beyond which there may be no room for all
 SOLID = ("body", "block", "band", "mass")
@@ -64,6 +64,13 @@ def blunted(line, by=BLUNT):
         return line
     kept = np.array([by, *ways[(ways > by) & (ways < ways[-1] - by)], ways[-1] - by])
     return np.column_stack([np.interp(kept, ways, coordinate) for coordinate in line.T])
+
+
+def triangle(line):
+    """The head of an arrow of a force."""
+    way = (line[-1] - line[-2]) / np.hypot(*(line[-1] - line[-2]))
+    corners = line[-1] - HEAD * way + HALF_HEAD * np.outer([1, -1], [-way[1], way[0]])
+    return np.array([line[-1], *corners, line[-1]])
 
 
 def cross(one, other):
@@ -141,10 +148,11 @@ def test_no_label_lies_on_another(model, of, to_scale):
 @every_model
 @sheets
 def test_no_label_lies_on_an_arrow_or_a_line(model, of, to_scale):
-    """Neither forces and couples, nor outlines, springs and strings, nor coordinates."""
+    """Neither forces and couples with their heads, nor outlines, springs and strings, nor coordinates."""
     for panel in panels(model, of, to_scale):
         scenery = panel.scenery
         ink = [mark.line for mark in panel.marks] + [each.arrow for each in scenery.dimensions]
+        ink += [triangle(mark.line) for mark in panel.marks]
         drawn_there = np.vstack([dense(ink + scenery.inner, 1.0), *(seen(stroke, scenery.strokes) for stroke in scenery.strokes)])
         for low, high, text in boxes(panel):
             assert not passes(drawn_there, low, high), text
@@ -232,3 +240,69 @@ def test_a_belt_pulls_at_the_rim_of_each_wheel():
         arm = mark.action.at - cut.panels[0].scenery.sketch.place(f"{cut.group[0]}.G")
         assert np.hypot(*arm) == pytest.approx(radius, rel=1e-9)
         assert arm @ mark.action.force == pytest.approx(0.0, abs=1e-9)
+
+
+BOOM = """
+freebody: 1
+bodies:
+  boom: {shape: polygon, mass: 8, corners: [[0, -0.15], [2, 0.5], [4, -0.1], [4, 0.15], [2, 0.95], [0, 0.15]], points: {E: [2.2, 1.3]}}
+joints: {A: {type: hinge, of: [ground.O, boom.origin]}}
+"""
+
+
+def test_the_arm_of_a_body_that_is_bent_begins_on_it():
+    """The middle of this boom's corners lies below it; the arm to E above lay across and came out there."""
+    [cut] = Mechanism.loads(BOOM).diagram().cuts
+    scenery = cut.panels[0].scenery
+    arm, boom = sorted((each.points for each in scenery.strokes if each.style == "body"), key=lambda outline: len(outline) == 6)
+    tip, E = scenery.sketch.place("boom.E") * scenery.scale, arm[np.hypot(*arm.T).argmax()]
+    assert np.hypot(*(tip - E)) < 10.0
+    lowest = arm[arm[:, 1].argmin()]
+    assert lowest[1] > 0.5 * scenery.scale and inside(boom, lowest[None]).any()
+
+
+SEESAW = """
+freebody: 1
+bodies:
+  plank: {shape: rectangle, width: 3, height: 0.1, mass: 20, points: {U: [-1.5, 0.05], V: [1.5, 0.05]}}
+  box: {shape: rectangle, width: 0.4, height: 0.3, mass: 15, points: {a: [-0.2, -0.15], b: [0.2, -0.15]}}
+joints:
+  P: {type: hinge, of: [ground.O, plank.centre]}
+  lying: {type: slider, along: [plank.U, plank.V], line: [box.a, box.b], coordinate: s}
+initial: {s: 2}
+"""
+
+
+@pytest.mark.parametrize("of", [None, "all"])
+def test_a_small_block_lies_on_the_face_along_which_it_slides(of):
+    """Beside a plank of ten times its height it is still a block of its own: its guide is the plank's upper side."""
+    scenery = Mechanism.loads(SEESAW).diagram(of).cuts[0].panels[0].scenery
+    [rail] = [each.points for each in scenery.strokes if each.style == "rail" and each.body == "plank"]
+    assert rail[:, 1] / scenery.scale == pytest.approx([0.05, 0.05])
+
+
+GEARS = """
+freebody: 1
+ground: {points: {B: [0.14, 0], D: [0.265, 0]}}
+bodies:
+  pinion: {shape: disk, radius: 0.04, mass: 0.5}
+  middle: {shape: disk, radius: 0.1, mass: 2}
+  output: {shape: disk, radius: 0.09, mass: 2}
+joints:
+  A: {type: hinge, of: [ground.O, pinion.centre]}
+  B: {type: hinge, of: [ground.B, middle.centre]}
+  D: {type: hinge, of: [ground.D, output.centre]}
+  first: {type: gear, of: [pinion.centre, middle.centre], radii: [0.04, 0.1]}
+  second: {type: gear, of: [middle.centre, output.centre], radii: [0.035, 0.09]}
+"""
+
+
+def test_a_pitch_circle_on_a_wheel_is_drawn_upon_it_and_a_rim_once():
+    """The force of the second pair of teeth acts within the middle wheel, on a circle that its disk hid."""
+    found = {}
+    for cut in Mechanism.loads(GEARS).diagram().cuts:
+        scenery = cut.panels[0].scenery
+        for rim in (each.points for each in scenery.strokes if each.style == "dash"):
+            found[cut.group] = np.hypot(*(rim - scenery.centres[cut.group[0]]).T) / scenery.scale
+    assert list(found) == [("middle",)] and found["middle",] == pytest.approx(0.035)
+    assert ORDER.index("dash") > ORDER.index("body")

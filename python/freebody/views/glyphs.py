@@ -16,6 +16,7 @@ from freebody.views.sketch import Cord, Sketch, Stroke
 
 Fields = Mapping[str, Any]
 _SLENDER, _WHEEL = 2.5, 0.9  # sizes of symbols: the width of a bar or particle at most; the radius of a roller
+_SEEN, _STOUT = 1.6, 0.3  # the width of a small block at least: in sizes of symbols, that of a bar; in its own extents
 Place = tuple[str, Array]
 """A body, and where on it, in its frame (2,)."""
 _NEAR, _ROOM = 0.15, 0.4
@@ -136,7 +137,7 @@ def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
     half, right = sketch.size * np.array(sketch.block), np.array([along[1], -along[0]])
     height = above = float(half[1])
     own = [stroke.points for stroke in sketch.figures[body].strokes if stroke.closed]
-    if any(shapes.width(outline) > _SLENDER * sketch.size for outline in own):  # the body is a block of its own
+    if any(_stout(sketch, outline) for outline in own):  # the body is a block of its own
         across = (np.vstack(own) - point) @ right
         height, above = float(across.max()), float(-across.min())
     else:
@@ -145,6 +146,14 @@ def _slider(sketch: Sketch, name: str, fields: Fields) -> None:
     sketch.faces[name] = body, point + np.outer([height, -above], right)
     if isinstance(fields["line"], Mapping) and fields["line"]["point"]:
         _track(sketch, fields["along"], [fields["line"]["point"]], height)
+
+
+def _stout(sketch: Sketch, outline: Array) -> bool:
+    """Whether an outline is that of a block: wide beside symbols, or seen and wide beside its own length."""
+    wide = shapes.width(outline)
+    return wide > _SLENDER * sketch.size or (
+        wide > _SEEN * sketch.size and wide > _STOUT * float(np.hypot(*np.ptp(outline, axis=0)))
+    )
 
 
 def _rollers(sketch: Sketch, name: str, fields: Fields) -> None:
@@ -229,8 +238,7 @@ def _link(sketch: Sketch, name: str, fields: Fields) -> None:
 
 def _gear(sketch: Sketch, name: str, fields: Fields) -> None:
     for point, radius in zip(fields["of"], fields["radii"], strict=True):
-        body, at = sketch.at[point]
-        sketch.figures[body].add(shapes.circle(at, sketch.number(radius)), "dash")
+        sketch.wheel({"centre": point, "radius": radius}, "dash")
 
 
 def _belt(sketch: Sketch, name: str, fields: Fields) -> None:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Later styles lie on top of earlier ones.
-ORDER = ("hatch", "dash", "band", "body", "rail", "block", "mark", "slot", "coil", "mass", "weld", "pin")
+ORDER = ("hatch", "band", "body", "dash", "rail", "block", "mark", "slot", "coil", "mass", "weld", "pin")
 _LAYER = 0.6  # more than all styles of one body need
 
 

@@ -107,14 +107,19 @@ def _outlines(
 
 
 def _reach_out(figure: Figure, points: Array, thickness: float, tips: Array) -> None:
-    """Arms from the shape to named points that lie outside of it, so that a joint there does not hang in the air."""
+    """Arms from the shape to named points that lie outside of it, so that a joint there does not hang in the air: from its middle, or
+    its nearest place where the middle is not on it."""
     solid = np.vstack([stroke.points for stroke in figure.strokes])
-    hull = shapes.convex_hull(solid)
+    hull, middle = shapes.convex_hull(solid), solid.mean(axis=0)
+    held = any(shapes.inside(stroke.points, middle[None]).any() for stroke in figure.strokes if stroke.closed)
+    seen = solid if held else shapes.dense([np.vstack([each.points, each.points[:1]]) for each in figure.strokes], thickness)
     for point in points:
         edges = np.roll(hull, -1, axis=0) - hull
         beyond = edges[:, 1] * (point[0] - hull[:, 0]) - edges[:, 0] * (point[1] - hull[:, 1])
         if (beyond > 0.1 * thickness * np.hypot(*edges.T)).any():
-            arm = shapes.rounded_hull(np.array([solid.mean(axis=0), point]), 0.6 * thickness, tips)
+            arm = shapes.rounded_hull(
+                np.array([middle if held else seen[np.hypot(*(seen - point).T).argmin()], point]), 0.6 * thickness, tips
+            )
             figure.strokes.insert(0, Stroke(arm, "body"))
 
 

@@ -17,7 +17,8 @@ from freebody.views.shapes import dense
 LENGTH = 36.0  # pt of a symbolic arrow
 LONGEST = 72.0  # pt of the largest force to scale
 HEAD = 9.0  # pt, what an arrow head is scaled by
-SHORTEST = 14.0 + 0.62 * HEAD  # pt, with a shaft of 14
+HEAD_LENGTH, HEAD_WIDTH = 0.62, 0.28  # of that: a head, and half its width
+SHORTEST = 14.0 + HEAD_LENGTH * HEAD  # pt, with a shaft of 14
 _LONGER = (1.0, 1.5, 2.0)
 _ASIDES = (0.0, 6.0, -6.0, 11.0, -11.0)  # pt that one may be moved which else would be hidden
 _MOVED = 5.0  # what a pt of that costs; of a slider, whose couple makes up for it, less
@@ -58,6 +59,13 @@ class Arrow:
 
 
 Mark = Arrow | CoupleArrow
+
+
+def head(line: Array, size: float = HEAD) -> Array:
+    """The outline (4, 2) of the head at the end of a line, for heads scaled by a size in pt."""
+    tip, way = line[-1], (line[-1] - line[-2]) / np.hypot(*(line[-1] - line[-2]))
+    back, aside = tip - HEAD_LENGTH * size * way, HEAD_WIDTH * size * np.array([-way[1], way[0]])
+    return np.array([tip, back + aside, back - aside, tip])
 
 
 def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | None = None) -> list[Mark]:

@@ -11,7 +11,7 @@ import numpy as np
 from freebody.core import Array
 from freebody.views import shapes
 from freebody.views.diagram.actions import Action
-from freebody.views.diagram.arrows import Arrow, Mark
+from freebody.views.diagram.arrows import Arrow, Mark, head
 from freebody.views.diagram.couples import CoupleArrow
 from freebody.views.diagram.scenery import Scenery
 from freebody.views.labels import Label, Obstacles, Placed, mathtext, placed
@@ -53,7 +53,9 @@ class Panel:
 
     @cached_property
     def _arrows(self) -> Array:
-        return shapes.dense([*(mark.line for mark in self.marks), *(each.arrow for each in self.scenery.dimensions)], 1.5)
+        marks, dimensions = [mark.line for mark in self.marks], self.scenery.dimensions
+        heads = [*map(head, marks), *(head(each.arrow, each.head) for each in dimensions)]
+        return shapes.dense([*marks, *(each.arrow for each in dimensions), *heads], 1.5)
 
     def _wanted(self) -> Iterator[Label]:
         for mark in self.marks:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array
-from freebody.views import shapes
-from freebody.views.diagram.arrows import HEAD
+from freebody.views.diagram.arrows import HEAD, HEAD_LENGTH, HEAD_WIDTH
 from freebody.views.diagram.couples import CoupleArrow
 from freebody.views.diagram.panel import MEASURE, Panel, tone
 from freebody.views.diagram.rows import LINE, MARGIN, NOTE, TITLE, Laid, Row, laid
@@ -91,7 +90,7 @@ def _panel(ax: Axes, panel: Panel, shift: Array) -> None:
     for dimension in scenery.dimensions:
         for guide in dimension.guides:
             ax.plot(*(guide + shift).T, color=MEASURE, lw=0.7, ls=(0, (4, 3)) if dimension.angle else "-", zorder=3)
-        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, float(np.clip(0.8 * shapes.length(dimension.arrow), 4.0, 7.0)))
+        _arrow(ax, dimension.arrow + shift, MEASURE, 0.9, dimension.head)
     for pin in scenery.pins:
         ax.plot(*(pin + shift), "o", ms=2 * _PIN, mfc=PAPER, mec=INK, mew=1.0, zorder=4)
     for tag in scenery.points:
@@ -112,7 +111,7 @@ def _axes(ax: Axes, corner: Array) -> None:
 
 def _arrow(ax: Axes, line: Array, colour: str, width: float, head: float) -> None:
     """A line with a head that ends where the line does."""
-    look: dict[str, Any] = {"arrowstyle": "-|>,head_width=0.28,head_length=0.62", "mutation_scale": head}
+    look: dict[str, Any] = {"arrowstyle": f"-|>,head_width={HEAD_WIDTH},head_length={HEAD_LENGTH}", "mutation_scale": head}
     look |= {"color": colour, "lw": width, "shrinkA": 0, "shrinkB": 0, "joinstyle": "miter", "capstyle": "butt"}
     if len(line) > 2:
         ax.plot(*line[:-1].T, color=colour, lw=width, zorder=5, solid_capstyle="butt")

@@ -58,6 +58,11 @@ class Dimension:
     angle: bool
     axis: Tag | None = None
 
+    @property
+    def head(self) -> float:
+        """What the head of its arrow is scaled by, in pt."""
+        return float(np.clip(0.8 * shapes.length(self.arrow), 4.0, 7.0))
+
 
 @dataclass(frozen=True)
 class Scenery:
