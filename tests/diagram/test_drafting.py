@@ -306,3 +306,25 @@ def test_a_pitch_circle_on_a_wheel_is_drawn_upon_it_and_a_rim_once():
             found[cut.group] = np.hypot(*(rim - scenery.centres[cut.group[0]]).T) / scenery.scale
     assert list(found) == [("middle",)] and found["middle",] == pytest.approx(0.035)
     assert ORDER.index("dash") > ORDER.index("body")
+
+
+BARROW = """
+freebody: 1
+ground: {lines: {floor: {through: O, angle: 0}}}
+bodies:
+  barrow: {mass: 40, inertia: 6, centre: [0.45, 0.25], points: {A: [0, 0], H: [1.4, 0.45]}}
+  wheel: {shape: disk, radius: 0.2, mass: 4, look: {spokes: 6}}
+joints:
+  roll: {type: rolling, on: ground.floor, circle: {centre: wheel.centre, radius: 0.2}}
+  A: {type: hinge, of: [wheel.centre, barrow.A]}
+forces: {lift: {type: force, at: barrow.A, value: LIFT, direction: 90 deg}}
+"""
+
+
+@pytest.mark.parametrize(("lift", "to_scale", "pushes"), [(0, False, True), (0, True, True), (900, True, False)])
+def test_the_floor_pushes_a_wheel_from_below(lift, to_scale, pushes):
+    """Its arrow ends at the rim, clear of the spokes; one that has to hold the wheel down pulls, downwards."""
+    cut = Mechanism.loads(BARROW.replace("LIFT", str(lift))).diagram("all", to_scale=to_scale).cuts[0]
+    [mark] = (mark for mark in cut.forces if mark.action.label.startswith("N"))
+    assert (mark.action.force[1] > 0) == mark.action.presses == pushes
+    assert np.array_equal(mark.at, mark.head) or not pushes

@@ -91,7 +91,8 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
     pulls = load.card.pulls and force @ part.force > 0  # a string or a link; else a spring between two points
     if not load.card.pulls and load.kind == "force" and len(others) == 1:
         pulls = force @ np.subtract(others[0], part.point) > 0
-    presses, size = load.card.presses and load.kind != "joint", float(np.hypot(*force))
+    presses = load.card.presses and (load.kind != "joint" or _upon(load, part, force, at, sketch))
+    size = float(np.hypot(*force))
     if load.kind == "joint" and load.name in sketch.faces and size > 0:
         # A slider or roller is pressed where it lies on its guide, not in its middle.
         presses = True
@@ -99,6 +100,16 @@ def _acts(load: Load, part: Part, sign: Sign, force: Array, couple: float, sketc
         push = force / size if part.body == body else -force / size
         at = at + push * ((sketch.moved(body, faces) - at) @ push).min()
     return Action(load.name, load.kind, sign, part.body, at, force, couple, (load,), bool(pulls), presses)
+
+
+def _upon(load: Load, part: Part, force: Array, at: Array, sketch: Sketch) -> bool:
+    """Whether the force of a joint pushes a wheel and what it rolls on apart; other joints hold what may be on either side."""
+    joint = next(each for each in sketch.spec["joints"] if each["name"] == load.name)
+    if "circle" not in joint["with"]:
+        return False
+    centre = joint["with"]["circle"]["centre"]
+    push = force if part.body == sketch.at[centre][0] else -force
+    return float((sketch.place(centre) - at) @ push) > 0
 
 
 def attached(load: Load, part: Part, sketch: Sketch) -> Array:
