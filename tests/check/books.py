@@ -37,6 +37,7 @@ _CONSTANT = re.compile(r"(?:.*:)?\s*constant:(.+)", re.S)
 _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
 _TENDS = re.compile(r"→|->")
+_OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?![A-Za-z0-9_])")
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
 
 
@@ -86,7 +87,11 @@ class Book:
     def says_the_same(self, one: str, other: str) -> bool:
         """Whether two equations, or what two claims call constant, hold at the same places, whatever the values of their symbols, or are
         one but for a number where these are as joints and laws of forces allow: m R² α is m R a of what rolls."""
-        cases = [self.checker.case(self._equation(text)) for text in (one, other)]
+        said = [self._equation(text) for text in (one, other)]
+        if "frequenc" in one + other:
+            name = "ω_1" if self.checker.vibration.count > 1 else "ω_n"
+            said = [_OMEGA.sub(name, text) for text in said]
+        cases = [self.checker.case(text) for text in said]
         values = {**cases[0].values(), **cases[1].values()}
         one, other = (case.equations[0] for case in cases)
         if one == other:

@@ -88,6 +88,10 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    turns = any("rate(" in expression for expression in given.vanishing) and ":" not in statement
+    if turns and {n.name for n in symbols_in(checker.case(statement, declared).program)} <= {*checker.mechanism.parameters}:
+        reason = f"it is of parameters alone, and motions that come to `{condition}` were not looked for"
+        return Verdict(Kind.UNDECIDABLE, statement, reason)
     if (
         verdict.kind is Kind.UNDECIDABLE
         and any(str(value) in _ZEROS for _, value in given.held)
@@ -137,9 +141,12 @@ def _in_words(checker: Checker, declared: Declared, condition: str, statement: s
     for part in parts:
         others = ", ".join(other for other in parts if other is not part)
         under = f"if {others}: {statement}" if others else statement
+        if beside := _BESIDE.fullmatch(part):
+            return _beside_event(checker, declared, beside[1], beside[2], beside[3], under)
         if _IN_WORDS.fullmatch(part) and (name := checker.becoming(part)):
             return _beside_event(checker, declared, "", "after", name, under)
-    words = [part for part in parts if _IN_WORDS.fullmatch(part) and part not in WORDS]
+    known = {*checker.mechanism.parameters, *declared}
+    words = [part for part in parts if (_IN_WORDS.fullmatch(part) or part in known) and part not in WORDS]
     if not words or len(words) == len(parts):
         return _labelled(checker, declared, condition, statement, problem)
     under = f"if {', '.join(part for part in parts if part not in words)}: {statement}"
@@ -158,18 +165,41 @@ def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ve
 def _labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
     that is the ``problem``. Raises it."""
-    if event := checker.event_called(words):
+    lasts = _LASTS.match(words) is not None
+    if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
     }
-    names = bool((parts | meshing) & {*re.findall(r"\w+", words)})
+    names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
     said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
-    verdict = checker.check(statement, declared, correcting=checker.correcting and names) if said else None
-    if verdict is None or not (names or verdict.ok):
+    lasts = lasts and said and not names and _ONE_PART.search(words) is None
+    verdict = checker.check(statement, declared, correcting=checker.correcting and (names or lasts)) if said else None
+    if verdict is None or not (names or lasts or verdict.ok):
         raise problem
+    if lasts and not verdict.ok:
+        return _later(checker, declared, words, statement, verdict, problem)
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
+
+
+def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:
+    """What does not hold as the model is at first, behind words that say how long it should: true where it holds after something
+    that happens, wrong where it holds on none of these stretches, whichever is meant. Raises the ``problem`` of the words for what
+    should stay the same, of which nothing says how long."""
+    run, _ = checker.moment("end")
+    happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
+    verdicts = [at_first]
+    for name in happens:
+        with suppress(ModelProblem, StatementError):
+            verdicts.append(_beside_event(checker, declared, "", "after", name, statement))
+            if verdicts[-1].ok:
+                return replace(verdicts[-1], notes=(*verdicts[-1].notes, f"`{words}` is read as after {name}."))
+    if "constant:" in statement or any(verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS) for verdict in verdicts):
+        raise problem
+    nearest = min(verdicts, key=lambda verdict: verdict.mends[0].size if verdict.mends else np.inf)
+    where = " or after ".join(["at first", *happens])
+    return replace(nearest, notes=(*nearest.notes, f"`{words}` is not judged: it does not hold {where}."))
 
 
 def _is_of_places(case: Case) -> bool:
@@ -414,6 +444,13 @@ _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(
 """Of what happens, where only one thing does."""
 _OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
 _IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
+_BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
+_LASTS = re.compile(r"(?:while|until|during)\b|in (?:the )?(?:free )?(?:flight|air)\b")
+_ONE_PART = re.compile(
+    r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
+)
+"""What lasts, and what is a part of that, or a moment, which no stretch between two events is."""
+_CONDITION = re.compile(r"[^=:]*:(?!=)")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"
