@@ -71,7 +71,7 @@ def test_the_page_says_it_all(four_bar):
         "Peak reactions",
         "Energy ledger",
         "rocker bearing",
-        "joints are ideal: no friction",
+        "joints have no friction and no clearance",
     ):
         assert words.lower() in page.lower(), words
     data = json.loads(Tags(page).data)

@@ -227,7 +227,7 @@ fn notes(m: &Mechanism, n: &BoundValues) -> Vec<String> {
         .filter(|&friction| matches!(m.joint_friction[friction].of, FrictionSource::Joint { .. }));
     let rubbing: Vec<_> = joints.map(|friction| format!("`{}`", Source::JointFriction(friction).name(m))).collect();
     notes.push(match rubbing.is_empty() {
-        true => "Bodies are rigid, joints are ideal: no friction, no clearance.".to_string(),
+        true => "Bodies are rigid; joints have no friction and no clearance.".to_string(),
         false => format!("Bodies are rigid; joints have no clearance, and no friction but {}.", rubbing.join(", ")),
     });
     notes.push(match m.groups.is_empty() {

@@ -295,7 +295,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     reason, first = (f"it would hold only if: {words}", assumed[0]) if assumed else ("", "")
     if fixes:
         return Verdict(Kind.WRONG, text, reason, first, fixes, seen)
-    what = reason or ("wrong" if case.budget.spent else "wrong, and no single or double edit corrects it")
+    what = reason or ("" if case.budget.spent else "no single or double edit corrects it")
     true, differs = (near.text, near.differs) if near else ("", "")
     return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=true, differs=differs)
 
