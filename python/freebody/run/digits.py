@@ -99,10 +99,15 @@ class Accuracy:
     def _pairs(self) -> dict[tuple[str, str], list[tuple[float, float]]]:
         """The times of what happened in the run and in the other, by what it was and to which part; infinite: it did not."""
         mine, other = _times(self.run), _times(self.other)
+        start, end = self.run.edges[[0, -1]].tolist()
         pairs = {}
         for key in {**mine, **other}:
-            most = max(len(times.get(key, ())) for times in (mine, other))
-            padded = ([*times.get(key, ()), *[math.inf] * most][:most] for times in (mine, other))
+            both = [list(times.get(key, ())) for times in (mine, other)]
+            longer, lacking = max(both, key=len), abs(len(both[0]) - len(both[1]))
+            # What only one run meets just after the start was so there for the other: a tyre that begins to be pressed.
+            at_start = lacking > 0 and longer[lacking - 1] < start + JUST_MISSED * (end - start)
+            missing, most = [start if at_start else math.inf] * lacking, len(longer)
+            padded = ((missing + own)[-most:] if at_start else (own + missing)[:most] for own in both)
             pairs[key] = list(zip(*padded, strict=True))
         return pairs
 
