@@ -8,6 +8,7 @@ import pytest
 from scipy.special import ellipk
 
 import freebody as fb
+from freebody.model import user_units
 from freebody.model.errors import ModelProblem
 
 G = 9.81
@@ -82,6 +83,20 @@ def test_answers_are_told_in_the_units_of_choice():
         assert f"range is {10 / 0.3048:.10g} ft for angle = {flat:.10g}" in str(found) and "angle [deg]" in str(found)
         assert "between 5 and 85 deg" in best.sentence and "range [ft]" in str(best) and f"{144 / G / 0.3048:.9g}" in str(best)
         assert found.values[0] == pytest.approx(math.radians(flat), rel=1e-12)
+
+
+def test_a_parameter_without_a_unit_that_stands_for_an_angle_is_one():
+    """sin 2θ = 1/2 for 15 and 75 degrees; the range without a throw upwards is 0, not its round-off."""
+    bare = fb.Mechanism.loads(THROW.replace("angle: 30 deg", "angle: 1"))
+    best = bare.extremes("range", vary="angle", within=("0 deg", "90 deg"), points=9)
+    with fb.units(""):
+        user_units.as_asked(None, "5 deg", "0.2 ft")
+        assert f"{best.greatest.value / 0.3048:.10g} ft" in best.sentence
+    with fb.units("deg"):
+        user_units.as_asked("1 rad")
+        assert "least, 0 m, at angle = " in best.sentence and "between 0 and 90 deg" in best.sentence
+        found = bare.find("range", 72 / G, vary="angle", within=("5 deg", "85 deg"), points=9)
+        assert "angle = 15" in found.sentence and ", = 75" in found.sentence
 
 
 def test_the_furthest_throw_is_a_root_that_touches_and_an_extreme():

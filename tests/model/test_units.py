@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from freebody import Mechanism
 from freebody.model import syntax, units
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.dimensions import Dimension
@@ -170,3 +171,30 @@ def test_evaluation():
 def test_the_units_of_every_day_are_those_of_the_registry():
     for word in units._EVERYDAY:
         assert units.word(word) == units.registered(word), word
+
+
+TURNED = """
+freebody: 1
+parameters: {l: 1 m, a: ANGLE, b: a, n: 8}
+ground: {points: {Q: [n*l, 1]}, lines: {slope: {through: O, angle: LINE}}}
+bodies: {rod: {shape: rod, length: l, mass: 2 kg, points: {P: [l*cos(COSINE), 0]}}}
+joints: {pivot: {type: hinge, of: [ground.O, rod.start], coordinate: theta}}
+initial: {theta: THETA}
+"""
+
+
+@pytest.mark.parametrize("place", ["LINE", "COSINE", "THETA"])
+@pytest.mark.parametrize(("stated", "is_asked"), [("30", True), ("30 deg", False), ("pi/6", False), ("5", False)])
+@pytest.mark.parametrize("by", ["itself", "a", "b", "-a"])
+def test_a_bare_number_of_more_than_a_turn_that_stands_for_an_angle_is_asked_about(place, stated, is_asked, by):
+    """Wherever an angle may stand, also by way of a parameter; a number of another use is not."""
+    text = TURNED.replace(place, stated if by == "itself" else by).replace("ANGLE", stated)
+    for other in ("LINE", "COSINE", "THETA"):
+        text = text.replace(other, "0.1")
+    _, notes = Mechanism.loads(text).start()
+    assert len(notes) == is_asked and all("30 rad is 4.77 turns; for degrees write `30 deg`" in note for note in notes)
+
+
+def test_a_change_of_a_parameter_that_stands_for_an_angle_is_asked_about():
+    model = Mechanism.loads(TURNED.replace("THETA", "a").replace("ANGLE", "80").replace("LINE", "0").replace("COSINE", "0"))
+    assert "a = 80 rad" in model.start()[1][0] and "a = 45 rad" in model.start(a=45)[1][0] and model.start(a="45 deg")[1] == []

@@ -79,6 +79,20 @@ CASES = {
     "rates at rest": ("at_rest: true", "at_rest: true, rates: {theta: 1}", 10, 48, ["`at_rest` and `rates` contradict"]),
     "time in metres": ("until: 5 s", "until: 5 m", 11, 14, ["`until` is a time", "`5 m` is a length"]),
     "unknown method": ("until: 5 s", "until: 5 s, method: dop835", 11, 27, ["`dop835`", "did you mean `dop853`?"]),
+    "event by equality": (
+        "run:",
+        "events: {e: {when: pivot.Fx = 0}}\nrun:",
+        11,
+        20,
+        ["`pivot.Fx = 0` is a comparison", "write `when: pivot.Fx`"],
+    ),
+    "event by a comparison": (
+        "run:",
+        'events: {e: {when: "theta >= -30 deg"}}\nrun:',
+        11,
+        20,
+        ["is a comparison", "write `when: theta - (-30 deg), direction: rising`"],
+    ),
     "unknown action": ("run:", "events: {e: {when: theta, then: stopp}}\nrun:", 11, 33, ["`stopp`", "did you mean `stop`?"]),
     "setting what is none": (
         "run:",

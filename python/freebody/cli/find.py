@@ -32,9 +32,12 @@ def find(
     as_json: AsJson = False,
 ) -> None:
     """All values of a parameter or of the start for which a quantity is what it is asked to be; without --is, its extremes."""
+    from freebody.model import user_units
+
     mechanism = opened(model, changes)
     asked: dict[str, Any] = {name: value for name, value in (("until", until), ("rtol", rtol)) if value is not None}
     ((name, within),) = ranges([vary or ""], "--vary").items() if vary or not to_infinity else (("", ()),)
+    user_units.as_asked(target, *within)
     if to_infinity:
         if target:
             raise UserError("--limit says what it tends to, and --is what it shall be", "give one of them")

@@ -133,7 +133,7 @@ def _ending(done: Run) -> Text:
 
 def _assembled(source: CompiledModel) -> list[Text]:
     """The assembly that was taken and the others, where there are several; coordinates that are not as guessed."""
-    return [Text("\n".join(["assembled", *source.notes]) + "\n")] if source.notes else []
+    return [Text("\n".join(["at the start", *source.notes]) + "\n")] if source.notes else []
 
 
 def closure(done: Run) -> float:

@@ -121,6 +121,11 @@ class Curve:
         """Differences below this may be errors."""
         return max(self.error, _LEVEL * max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0))
 
+    def printed(self, unit: str, y: float, most: int = 6) -> str:
+        """A value of the quantity as it is shown; what is round-off beside its size is 0."""
+        size = max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0)
+        return figure_in(unit, y if abs(y) > _LEVEL * size else 0.0, most)
+
     def sentence(self, unit: str) -> str:
         """How closely it was looked at."""
         widest = f"{figure_in(unit, self.resolution, 3)} {shown(unit).unit}".rstrip()

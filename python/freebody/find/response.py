@@ -70,7 +70,7 @@ class Response:
             hint = suggestion(self.coordinate or self.varied, known, "parameters and coordinates")
             raise ModelProblem(f"`{self.varied}` is no parameter, coordinate or `rate(coordinate)`", hint)
         dimension = known[self.coordinate or self.varied]
-        unit = dimension.unit() if dimension else ""
+        unit = dimension.unit() if dimension else "rad" if self.varied in start.angles else ""
         self.unit = f"{unit}/s" if self.coordinate else unit
 
     def place(self, value: Any) -> float:

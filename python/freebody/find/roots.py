@@ -65,9 +65,9 @@ class Found(PlainText):
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        at, value = (partial(figure_in, each) for each in self.units)
+        at, value = (partial(of, each) for of, each in zip((figure_in, self.curve.printed), self.units, strict=True))
         unit, of_value = (f" {shown(each).unit}".rstrip() for each in self.units)
-        asked = f"{self.of} is {value(self.target, 10)}{of_value}"
+        asked = f"{self.of} is {figure_in(self.units[1], self.target, 10)}{of_value}"
         between = f"between {at(self.curve.start)} and {at(self.curve.end)}{unit}"
         told = [f"= {at(root.where, 12)}{unit}" + " (touches)" * root.touching for root in self.roots]
         told += [f"from {at(a, 8)} to {at(b, 8)}{unit}" for a, b in self.throughout]

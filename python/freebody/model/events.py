@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -17,6 +18,8 @@ from .writer import Writer
 
 _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 _DONE = {"release": "released", "engage": "engaged", "cut": "cut"}
+_COMPARED = re.compile(r"(?P<left>[^<>=!]+)(==?|[<>]=?)(?P<right>[^<>=!]+)")
+"""A condition where what passes a level is asked for; within parentheses, as in `if(x > 0, a, b)`, it is part of a number."""
 _SET = ("parameter", "state")
 _KEPT_APART = ("weld", "hinge")
 """Joints that hold two points as far apart as they are where they are engaged, in axes of the first body."""
@@ -57,7 +60,7 @@ def _event(write: Writer, name: str, event: Event) -> Spec:
     path: Path = ("events", name)
     opening, when = event.at == "start", "1"
     if event.at is None:
-        when = write.expression((*path, "when"), event.when)
+        when = _level(write, (*path, "when"), event.when)
     elif not opening:
         time = write.number((*path, "at"), event.at, "s")
         when = f"t - {text(time)}"
@@ -72,6 +75,20 @@ def _event(write: Writer, name: str, event: Event) -> Spec:
         "guard": False,
         "then": _then(write, (*path, "then"), name, event),
     }
+
+
+def _level(write: Writer, path: Path, stated: Any) -> str:
+    """The expression that passes zero at an event; a comparison is answered with how to write it."""
+    compared = _COMPARED.fullmatch(str(stated))
+    if not compared or any(side.count("(") != side.count(")") for side in compared.group("left", "right")):
+        return write.expression(path, stated)
+    left, sign, right = (part.strip() for part in compared.groups())
+    level = (
+        left if re.fullmatch(r"0(\.0*)?", right) else f"{left} - ({right})" if re.search(r"[-+]", right) else f"{left} - {right}"
+    )
+    way = ", direction: rising" if ">" in sign else ", direction: falling" if "<" in sign else ""
+    write.scope.complain(path, f"`when` is what passes zero, and `{stated}` is a comparison", f"write `when: {level}{way}`")
+    return "0"
 
 
 def _then(write: Writer, path: Path, name: str, event: Event) -> list[str | Spec]:

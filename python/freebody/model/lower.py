@@ -140,6 +140,13 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
     )
     if problems:
         raise ModelFileError(problems)
+    bare = {each["name"]: each["value"] for each in spec["parameters"] if not each["unit"]}
+    for name in list(whole.angles):  # a parameter may be another
+        while (name := str(bare.get(name, "")).lstrip("-")) in bare:
+            whole.angles.add(name)
+    begins.angles, begins.turns = whole.angles & bare.keys(), whole.turns
+    for name in sorted(begins.angles):
+        begins.turns |= units.many_turns(name, bare[name])
     return lowered
 
 

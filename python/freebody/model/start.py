@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypedDict
@@ -24,8 +23,8 @@ WORDS = ("rates", "at_rest", "guess", "points", "branch")
 
 @dataclass
 class Start:
-    """The section ``initial`` in the core's terms; numbers may be expressions of parameters. ``turns`` is said of angles that may have
-    been meant in degrees."""
+    """The section ``initial`` in the core's terms; numbers may be expressions of parameters. ``turns`` is said, by name, of angles that
+    may have been meant in degrees; ``angles`` are the parameters that stand for angles."""
 
     fixed: dict[str, Number] = field(default_factory=dict)
     guess: dict[str, Number] = field(default_factory=dict)
@@ -33,7 +32,8 @@ class Start:
     points: dict[str, list[Number]] = field(default_factory=dict)
     branch: dict[str, int] = field(default_factory=dict)
     equilibrium: bool = False
-    turns: list[str] = field(default_factory=list)
+    turns: dict[str, str] = field(default_factory=dict)
+    angles: set[str] = field(default_factory=set)
     coordinates: dict[str, Dimension | None] = field(default_factory=dict)
     parameters: dict[str, Dimension | None] = field(default_factory=dict)
 
@@ -78,7 +78,7 @@ def _values(writer: Writer, start: Start, path: Path, given: Mapping[str, Any], 
     for name, value in given.items():
         full, here = writer.full(name), (*path, name)
         if full in start.coordinates:
-            start.turns += _many_turns(full, value, start.coordinates[full], order)
+            writer.turns.pop(full, None)
             found[full] = writer.number(here, value, _dimension(start, full, order))
         else:
             kind = writer.meanings.values.get(full, ("",))[0]
@@ -126,15 +126,15 @@ def many_turns(start: Start, initial: Mapping[str, Any] | None, changes: Mapping
     """What is worth saying of angles at a start that may have been meant in degrees; the arguments are those of ``initial_state``."""
     given = {**(initial or {}), **changes}
     named = given | dict(given.get("guess") or {})
-    found = [note for n, value in named.items() for note in _many_turns(n, value, start.coordinates.get(n), 0)]
-    return found if initial is not None else start.turns + found
-
-
-def _many_turns(name: str, value: Any, dimension: Dimension | None, order: int) -> list[str]:
-    bare = isinstance(value, (int, float)) and dimension is not None and dimension.angle == 1 and order == 0
-    if not bare or abs(value) <= math.tau:
-        return []
-    return [f"{name} = {value:g} rad is {abs(value) / math.tau:.3g} turns; for degrees write `{value:g} deg`"]
+    said = {
+        name: note
+        for name, note in start.turns.items()
+        if name not in named and (initial is None or name not in start.coordinates)
+    }
+    for name, value in named.items():
+        if name in start.angles or start.coordinates.get(name) == units.ANGLE:
+            said |= units.many_turns(name, value)
+    return list(said.values())
 
 
 def parameter_values(core: Any, p: NDArray[Any]) -> dict[str, float]:

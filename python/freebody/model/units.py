@@ -11,7 +11,7 @@ from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from freebody.symbolic.dimensions import ANGLE, ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
 
@@ -261,3 +261,13 @@ def rounded(number: str, size: Fraction) -> float:
     if value != 0 and not 1e-60 < abs(value) < 1e60:
         return value * float(size)
     return float(Fraction(number.replace(" ", "")) * size)
+
+
+def many_turns(name: str, angle: Any) -> dict[str, str]:
+    """What is worth saying, by its name, of a bare number that stands for an angle and may have been meant in degrees."""
+    try:
+        size = float(angle)
+    except (TypeError, ValueError):
+        return {}
+    said = f"{name} = {size:g} rad is {abs(size) / math.tau:.3g} turns; for degrees write `{size:g} deg`"
+    return {name: said} if math.tau < abs(size) < math.inf else {}

@@ -16,6 +16,7 @@ from typing import NamedTuple
 from freebody.symbolic.dimensions import FORCE, LENGTH, Dimension
 
 from .errors import ModelProblem
+from .units import quantity
 from .units import unit as read
 
 PRESETS = {"SI": "", "lb-ft": "ft, lbf, slug", "lb-in": "in, lbf, slinch", "N-mm": "mm, N, t"}
@@ -66,6 +67,14 @@ def prefer(text: str) -> None:
     """The wish of a model file, which counts within ``units("")``."""
     if _chosen.get() == "":
         _chosen.set(text)
+
+
+def as_asked(*texts: str | None) -> None:
+    """The units of quantities that a question names, like ``30 deg``, for what is not chosen within ``units``."""
+    for found in filter(None, (quantity(text) for text in texts if text)):
+        chosen = _chosen.get() or ""
+        if found.unit and found.dimension not in choice(chosen):
+            _chosen.set(", ".join(filter(None, (chosen, found.unit))))
 
 
 def shown(unit: str) -> Shown:

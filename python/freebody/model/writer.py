@@ -7,7 +7,7 @@ from typing import Any
 
 from freebody.core import Spec, cards
 from freebody.symbolic.dimensions import Dimension
-from freebody.symbolic.tree import Fn, Node, Num, Sym, walk
+from freebody.symbolic.tree import Fn, Negative, Node, Num, Sym, walk
 
 from . import syntax, units
 from .arithmetic import Number
@@ -19,6 +19,7 @@ from .switches import SurfaceShape
 from .values import Circle, Through
 
 Unit = str | Dimension | None
+_OF_ANGLES = ("sin", "cos", "tan")
 
 
 @dataclass
@@ -27,7 +28,8 @@ class Writer:
 
     Of the whole model: ``lines``; ``places``, the coordinates of its named points in their bodies; ``tracks``, its curves of lines and
     arcs as surfaces; ``items`` leads from what is made beside the items of the file to where it was written, ``hand_over`` from an event
-    to the file that it goes on as, and where it says so."""
+    to the file that it goes on as, and where it says so; ``turns`` is said, by name, of angles that may have been meant in degrees,
+    ``angles`` are names that stand for angles."""
 
     scope: Scope
     meanings: Meanings
@@ -37,6 +39,8 @@ class Writer:
     tracks: dict[str, Spec] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
     hand_over: dict[str, tuple[Scope, Path, str]] = field(default_factory=dict)
+    turns: dict[str, str] = field(default_factory=dict)
+    angles: set[str] = field(default_factory=set)
 
     @property
     def prefix(self) -> str:
@@ -54,6 +58,8 @@ class Writer:
         with self.scope.noting(path):
             found, dimension = self.number_of(value)
             self._check_dimension(path, value, dimension, unit)
+            if dimension is None and unit in ("rad", units.ANGLE):
+                self._read_as_angle(path, found)
             if positive and (size := self.scope.parameters.number(value)) < 0:
                 raise ModelProblem(f"{positive} cannot be negative; `{value}` is {size:g}", "check its sign")
             return found
@@ -102,6 +108,7 @@ class Writer:
             return repr(float(text)), None
         expression = syntax.parse(text, lambda name: name == local or self.full(name) in self.meanings.values, self._in_full)
         self._check_arguments(expression.tree)
+        self._read_angles(expression)
 
         def lookup(name: str) -> Dimension | None:
             return None if name == local else self.meanings.dimension(name, self.scope)
@@ -125,6 +132,7 @@ class Writer:
                 )
             if not kind:
                 raise self.meanings.unknown(name, self.scope)
+        self._read_angles(expression)
         _, dimension = self.scope.parameters.measured(value)
         return expression.text, dimension
 
@@ -140,6 +148,23 @@ class Writer:
         if words and units.quantity(str(text)) is not None:
             hint = f"after a number, `{words[0]}` is read as a unit; for the parameter write a product, `*{words[0]}`"
         raise ModelProblem(f"{name} is {wanted.words()}; `{text}` is {found.words()}", hint)
+
+    def _read_as_angle(self, path: Path, found: Number) -> None:
+        if isinstance(found, str):
+            self.angles.add(found.lstrip("-"))
+        else:
+            name = self.full(str(path[-1])) if path[0] == "initial" else ".".join(map(str, path))
+            self.turns |= units.many_turns(name, found)
+
+    def _read_angles(self, expression: syntax.Expression) -> None:
+        for call in walk(expression.tree):
+            if isinstance(call, Fn) and call.name in _OF_ANGLES:
+                for given in call.args:
+                    angle = given.of if isinstance(given, Negative) else given
+                    if isinstance(angle, Sym):
+                        self.angles.add(angle.name)
+                    elif isinstance(angle, Num) and expression.numbers[angle.span] is None:
+                        self._read_as_angle((f"the angle in {call.name}({angle.value:g})",), float(angle.value))
 
     def _check_arguments(self, tree: Node) -> None:
         calls = (call for call in walk(tree) if isinstance(call, Fn) and call.name not in self.meanings.tables)
