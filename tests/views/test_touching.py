@@ -15,6 +15,16 @@ joints: {top: {type: slot, point: ladder.B, along: {through: ground.O, angle: 90
 initial: {points: {ladder.A: [1.2 m, 0]}, at_rest: true}
 run: {until: 0.9 s}
 """
+CUSHION = """
+freebody: 1
+parameters: {slope: 20 deg}
+bodies: {ball: {shape: disk, radius: 0.2 m, mass: 2 kg}}
+ground: {lines: {floor: {through: O, angle: slope}}}
+joints: {free: {type: free, of: [ground.O, ball.G], coordinates: [x, y, phi]}}
+contacts: {tyre: {of: [SURFACES], stiffness: 2 kN/m, damping: 5 N*s/m, friction: 0.4}}
+initial: {y: 0.4 m, at_rest: true}
+run: {until: 0.6 s}
+"""
 SLIDE = """
 freebody: 1
 gravity: none
@@ -49,6 +59,20 @@ def test_a_rod_ends_in_the_point_that_touches():
     lowest = [sketch.moved("ladder", outline, k)[:, 1].min() for k in range(len(sketch.t))]
     assert min(lowest) > -1e-3 * sketch.size and np.ptp(outline[:, 1]) == pytest.approx(1.6 * sketch.size)
     assert outline[:, 0].max() > 2.0  # where nothing touches it is round
+
+
+@pytest.mark.parametrize("surfaces", ["ball, ground.floor", "ground.floor, ball"])
+def test_the_spring_of_a_contact_stands_in_the_ground_while_it_acts(surfaces):
+    """From as deep as the ball is pressed in, straight down from the surface, whichever is named first and whatever the friction."""
+    sketch = sketched(CUSHION.replace("SURFACES", surfaces))
+    [spring] = sketch.cords
+    gap = sketch.gap("tyre")
+    assert 0 < spring.shown.sum() < len(gap) and not spring.shown[gap > 1e-9].any()
+    up = np.array([-np.sin(np.radians(20)), np.cos(np.radians(20))])
+    top, foot = spring.path[spring.shown, 0], spring.path[spring.shown, -1]
+    assert top @ up == pytest.approx(gap[spring.shown], abs=1e-9)
+    reach = (top - foot) @ up
+    assert np.hypot(*(top - foot).T) == pytest.approx(reach) and reach.min() > 2 * sketch.size and np.ptp(reach) > 0
 
 
 @pytest.mark.parametrize("shape", ["shape: rectangle, width: 0.3 m, height: 0.2 m", "inertia: 1"])

@@ -1,4 +1,4 @@
-"""How contacts and strings look: surfaces hatched on their solid side, strings along eyelets, pulleys and drums."""
+"""How contacts and strings look: surfaces hatched on their solid side with springs that stand for contacts, strings along eyelets, pulleys and drums."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from freebody.core import GROUND, Array, quote
+from freebody.core import GROUND, Array, Limit, quote
+from freebody.views import shapes
 from freebody.views.sketch import Cord, Sketch
 
 Surface = Mapping[str, Any]
+_SHARPEST = {"point": 0, "circle": 1, "polygon": 2}
+_COIL, _SPRING, _PRESSED = 0.9, 5.0, 2.4  # sizes of symbols: half the width of a spring, its length, and that when it is pressed flat
 _SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
 
 
@@ -90,6 +93,33 @@ def _reach(sketch: Sketch, seen_from: str, surface: Surface) -> tuple[Array, flo
 def _solid(body: str) -> str:
     """The style of what is solid there."""
     return "block" if body == GROUND else "mark"
+
+
+# Springs that stand for contacts
+
+
+def draw_compliance(sketch: Sketch) -> None:
+    """The spring of every contact that has a stiffness, while it acts: from where it presses into what it presses on."""
+    for contact in sketch.spec.get("contacts", []):
+        if contact.get("stiffness") is None:
+            continue
+        limits = [sketch.limits(k).get(contact["name"]) for k in range(len(sketch.t))]
+        acts = np.array([limit is not None and limit.at is not None and limit.N > 0 for limit in limits])
+        first, second = (_SHARPEST.get(next(iter(surface)), len(_SHARPEST)) for surface in contact["of"])
+        side = 1 if first > second else -1  # the spring lies in the flatter of the two
+        if found := [_coils(limit, side, sketch.size) for limit, now in zip(limits, acts, strict=True) if limit and now]:
+            path = np.array(found)[np.maximum(np.cumsum(acts) - 1, 0)]  # where it does not act, as it was before
+            shown = acts & sketch.there(contact["name"], contact.get("engaged", True))
+            sketch.cords.append(Cord(contact["name"], path, acts, shown, symbol=True))
+
+
+def _coils(limit: Limit, side: int, size: float) -> Array:
+    """A zigzag (k, 2) at an instant from where a contact acts, along its normal, which shows to the ``first`` of the two."""
+    way = side * complex(limit.Fx, limit.Fy) / complex(limit.N, -limit.T)  # friction is along the normal turned clockwise
+    depth = max(-limit.gap, 0.0)
+    along, across = shapes.zigzag(_COIL * size, teeth=4).T
+    line = complex(*(limit.at or ())) + way * (depth + max(_SPRING * size - depth, _PRESSED * size) * along + 1j * across)
+    return np.column_stack([line.real, line.imag])
 
 
 # Strings

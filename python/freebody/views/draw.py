@@ -168,7 +168,7 @@ def _draw_forces(sheet: _Drawing) -> None:
             sheet.label(force["name"], bow[-1], _LOAD)
         elif force["type"] == "force":
             sheet.force(_vector(sheet.sketch, fields), sheet.sketch.place(fields["at"]), force["name"])
-    for limit in sheet.sketch.limits():
+    for limit in sheet.sketch.limits().values():
         if limit.kind == "contact" and limit.at is not None and limit.N > 0:
             vector = np.array([limit.Fx, limit.Fy]) * (-1 if limit.first == GROUND else 1)
             sheet.force(vector, np.array(limit.at), f"{limit.name}: {digits(float(np.hypot(*vector)))} N")
@@ -193,7 +193,7 @@ def _draw_springs(sheet: _Drawing) -> None:
         ends = [sheet.sketch.moved(sheet.sketch.names[i], np.array([[x, y]]))[0] for i, x, y in pair.ends]
         sheet.label(name, np.mean(ends, axis=0), GREY)
     for cord in sheet.sketch.cords:
-        if cord.shown[0]:
+        if cord.shown[0] and not cord.symbol:
             sheet.label(*string_label(sheet.sketch, cord), GREY)
 
 

@@ -92,7 +92,8 @@ class _Drawn:
         for pair in self.sketch.pairs:
             yield _STRETCHED, self._pair(pair)
         for cord in self.sketch.cords:
-            path = self.paper(cord.path)
+            start = cord.path[:, :1]
+            path = self.paper(start + (self.symbol if cord.symbol else 1.0) * (cord.path - start))
             moved = self._values("points", [_points(each) for each in path])
             drawn = f'<polyline class="cord" points="{_points(path[0])}">{moved}{self._shown(cord.shown)}</polyline>'
             yield _STRETCHED, drawn

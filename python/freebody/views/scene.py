@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.core import GROUND, Array, State
 from freebody.views import shapes
-from freebody.views.contact_glyphs import draw_contacts, draw_strings
+from freebody.views.contact_glyphs import draw_compliance, draw_contacts, draw_strings
 from freebody.views.drive_glyphs import draw_drives
 from freebody.views.glyphs import draw_forces, draw_joints
 from freebody.views.impact_markers import impact_markers
@@ -39,6 +39,7 @@ def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Sketch:
     draw_forces(sketch)
     draw_drives(sketch)
     draw_contacts(sketch)
+    draw_compliance(sketch)
     draw_strings(sketch)
     draw_stops(sketch)
     sketch.traces = _worth_tracing(sketch) if traces is None else list(traces)

@@ -75,12 +75,14 @@ class Pair:
 
 @dataclass(frozen=True)
 class Cord:
-    """A string: its way (nt, k, 2) in the fixed axes, whether it is taut (nt,) and whether it is there (nt,)."""
+    """A string: its way (nt, k, 2) in the fixed axes, whether it is taut (nt,) and whether it is there (nt,). Or, as a ``symbol``, whose
+    size is the drawing's about its first point, the coils of a spring that stands for a contact."""
 
     name: str
     path: Array
     taut: Array
     shown: Array
+    symbol: bool = False
 
 
 @dataclass(frozen=True)
@@ -171,12 +173,13 @@ class Sketch:
         """Whether a part is in place (nt,); ``engaged``: from the start."""
         return there(self._run.changes if self._run else [], part, engaged, self.t)
 
-    def limits(self) -> list[Limit]:
-        """What contacts, strings and stops do at the drawn state; nothing where that has no answer."""
+    def limits(self, frame: int | None = None) -> dict[str, Limit]:
+        """What contacts, strings and stops do at the drawn state, or at one of the times; nothing where that has no answer."""
+        state = self._state if frame is None or self._run is None else self._run.motion.state(float(self.t[frame]))
         try:
-            return list(self._model.instant(self._state).limits.values()) if self.metadata["limits"] else []
+            return self._model.instant(state).limits if self.metadata["limits"] else {}
         except MotionError:
-            return []
+            return {}
 
     def travel(self, coordinate: str) -> tuple[float, float]:
         """Smallest and largest value of a coordinate; twice its value now where it is not of the state."""

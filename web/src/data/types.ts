@@ -75,11 +75,12 @@ export interface Pair extends Passing {
   lines: Point[][];
 }
 
-/** A string: its way at every time, and whether it is taut. */
+/** A string: its way at every time, and whether it is taut; or a symbol about its first point, the spring of a contact. */
 export interface Cord extends Passing {
   name: string;
   path: Floats;
   taut: boolean[];
+  symbol: boolean;
 }
 
 /** A place on a figure that has a name. */

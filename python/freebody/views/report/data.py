@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 _NUMBERS = 60_000
 """Of all frames together: a third of a megabyte."""
-_STRING = 80
-"""About as many numbers say where a string is in one frame."""
+_STRING, _SPRING = 80, 22
+"""About as many numbers say where a string, or the spring of a contact, is in one frame."""
 _UNITS = ("m", "rad", "N", "N*m", "N*s")
 """In which the page has numbers that it shows: all but those of plots, which are in the user's units."""
 _UNNAMED = ("origin",)
@@ -46,7 +46,9 @@ def report_data(run: Run, beside: Mapping[str, Run] = MappingProxyType({})) -> d
 
 def frames(run: Run) -> Array:
     """Times of the animation: 60 a second, yet enough for a short run and not too many for a page."""
-    each = 3 * max(len(run.bodies), 1) + _STRING * len(run.source.spec.get("strings", []))
+    spec = run.source.spec
+    springs = sum(contact.get("stiffness") is not None for contact in spec.get("contacts", []))
+    each = 3 * max(len(run.bodies), 1) + _STRING * len(spec.get("strings", [])) + _SPRING * springs
     most = int(np.clip(_NUMBERS // each, 120, 1500))
     if run.recorded:
         return run.t if len(run.t) <= most else run.t[np.unique(np.linspace(0, len(run.t) - 1, most).astype(int))]
@@ -93,7 +95,8 @@ def _scene(sketch: Sketch) -> dict[str, Any]:
             for pair in sketch.pairs
         ],
         "cords": [
-            {"name": cord.name, "path": floats(cord.path), "taut": cord.taut.tolist()} | _passing(cord) for cord in sketch.cords
+            {"name": cord.name, "path": floats(cord.path), "taut": cord.taut.tolist(), "symbol": cord.symbol} | _passing(cord)
+            for cord in sketch.cords
         ],
         "points": [_point(sketch, name, name) for name in sketch.at if name.rpartition(".")[2] not in _UNNAMED],
         "joints": [
