@@ -14,7 +14,7 @@ from freebody.views.sketch import Cord, Sketch
 
 Surface = Mapping[str, Any]
 _SHARPEST = {"point": 0, "circle": 1, "polygon": 2}
-_COIL, _SPRING, _PRESSED = 0.9, 5.0, 2.4  # sizes of symbols: half the width of a spring, its length, and that when it is pressed flat
+_COIL, _SPRING, _PRESSED = 0.9, 5.0, 2.4  # sizes of symbols, of a spring: half its width, its length, and that when pressed flat
 _SAG, _ARC = np.linspace(0, 1, 21), np.linspace(0, 1, 17)
 
 
