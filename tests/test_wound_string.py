@@ -48,3 +48,20 @@ def test_held_later_it_takes_the_speed_by_an_impact():
     fall, speed = 9.81 * 0.1**2 / 2, 9.81 * 0.1 * 2 / 27
     np.testing.assert_allclose(run.evaluate("y(disk.centre)", t), -fall - speed * (t - 0.1) - A * (t - 0.1) ** 2 / 2, rtol=1e-9)
     np.testing.assert_allclose(run.evaluate("cable.tension", [0.05, *t]), [0, PULL, PULL], rtol=1e-9)
+
+
+WITHIN = [
+    "cable: {type: wound_string, from: ground.origin, drum: {centre: disk.centre, radius: 1 cm}, coordinates: [phi, l]}}\n"
+    "initial: {l: -0.1}",
+    "place: {type: free, of: [ground.origin, disk.centre], coordinates: [x, y, theta]}, "
+    "cable: {type: wound_string, from: ground.origin, drum: {centre: disk.centre, radius: 1 cm}}}\ninitial: {x: 4 mm, y: 5 mm}",
+]
+
+
+@pytest.mark.parametrize("call", ["solve", "simulate"])
+@pytest.mark.parametrize("joints", WITHIN, ids=["coordinate", "loop"])
+def test_a_start_within_the_drum_is_refused(joints, call):
+    """There the rows have solutions that are no motions."""
+    disk = "freebody: 1\nbodies: {disk: {shape: disk, radius: 5 cm, mass: 1}}\nrun: {until: 1 s}\n"
+    with pytest.raises(fb.MotionError, match="the free length of `cable` would be -0"):
+        getattr(fb.Mechanism.loads(f"{disk}joints: {{{joints}\n"), call)()

@@ -42,6 +42,8 @@ CLAIMS = [
     ("double pendulum", "kinetic() = const.", Kind.WRONG),
     ("block on a sliding wedge", "constant: xddot", Kind.TRUE),
     ("block on a sliding wedge", "constant: xdot", Kind.WRONG),
+    ("block on a sliding wedge", "constant: xdot î", Kind.WRONG),
+    ("block on a sliding wedge", "constant: xddot î", Kind.TRUE),
     ("pendulum on a cart", "no x, thetadot in the factors of xddot: (M+m)*xddot + m*l*thetaddot*cos(theta) = 0", Kind.TRUE),
     ("pendulum on a cart", "no theta in the factors of thetaddot: (M+m)*xddot + m*l*thetaddot*cos(theta) = 0", Kind.WRONG),
     (

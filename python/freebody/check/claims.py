@@ -20,17 +20,18 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import WORDS, family, first_order, says_zero, tiny, vanishes, wider
+from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
 from .correction import SECOND, corrections
-from .families import ALL, SINCE_START, Samples
+from .families import ALL, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import touching
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
+from .worded_claims import IN_WORDS, beside_event, in_words, labelled
 from .wording import as_claim, with_condition_first
 
 if TYPE_CHECKING:
@@ -56,8 +57,8 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             return judge(checker, {**declared, **given}, *said)
     label, colon, said = claim.partition(":")
     words = label.strip(_BESIDE_WORDS)
-    if colon and _IN_WORDS.fullmatch(words) and (name := checker.becoming(words)):
-        return _beside_event(checker, {**declared, **given}, "", "after", name, said)
+    if colon and IN_WORDS.fullmatch(words) and (name := checker.becoming(words)):
+        return beside_event(checker, {**declared, **given}, "", "after", name, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
@@ -84,7 +85,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     try:
         given = family(condition, checker, declared)
     except ModelProblem as problem:
-        return _in_words(checker, declared, condition, statement, problem)
+        return in_words(checker, declared, condition, statement, problem)
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
@@ -135,71 +136,13 @@ def _has_meaning(checker: Checker, declared: Declared, name: str) -> bool:
         return False
 
 
-def _in_words(checker: Checker, declared: Declared, condition: str, statement: str, problem: ModelProblem) -> Verdict:
-    """Under a hypothesis of which a part is words: of what becomes of a part of the model, a label, or a moment."""
-    parts = [part.strip() for part in re.split(r",|\band\b", condition)]
-    for part in parts:
-        others = ", ".join(other for other in parts if other is not part)
-        under = f"if {others}: {statement}" if others else statement
-        if beside := _BESIDE.fullmatch(part):
-            return _beside_event(checker, declared, beside[1], beside[2], beside[3], under)
-        if _IN_WORDS.fullmatch(part) and (name := checker.becoming(part)):
-            return _beside_event(checker, declared, "", "after", name, under)
-    known = {*checker.mechanism.parameters, *declared}
-    words = [part for part in parts if (_IN_WORDS.fullmatch(part) or part in known) and part not in WORDS]
-    if not words or len(words) == len(parts):
-        return _labelled(checker, declared, condition, statement, problem)
-    under = f"if {', '.join(part for part in parts if part not in words)}: {statement}"
-    return _labelled(checker, declared, ", ".join(words), under, problem)
-
-
 def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
     """At a moment of the model's own run."""
     try:
         checker.moment(moment)
     except ModelProblem as problem:
-        return _labelled(checker, declared, moment, statement, problem)
+        return labelled(checker, declared, moment, statement, problem)
     return timed_claims.at(checker, declared, moment, statement)
-
-
-def _labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
-    """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
-    that is the ``problem``. Raises it."""
-    lasts = _LASTS.match(words) is not None
-    if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
-        return timed_claims.at(checker, declared, event, statement)
-    parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
-    meshing = {
-        word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
-    }
-    names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
-    said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
-    lasts = lasts and said and not names and _ONE_PART.search(words) is None
-    verdict = checker.check(statement, declared, correcting=checker.correcting and (names or lasts)) if said else None
-    if verdict is None or not (names or lasts or verdict.ok):
-        raise problem
-    if lasts and not verdict.ok:
-        return _later(checker, declared, words, statement, verdict, problem)
-    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
-
-
-def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:
-    """What does not hold as the model is at first, behind words that say how long it should: true where it holds after something
-    that happens, wrong where it holds on none of these stretches, whichever is meant. Raises the ``problem`` of the words for what
-    should stay the same, of which nothing says how long."""
-    run, _ = checker.moment("end")
-    happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
-    verdicts = [at_first]
-    for name in happens:
-        with suppress(ModelProblem, StatementError):
-            verdicts.append(_beside_event(checker, declared, "", "after", name, statement))
-            if verdicts[-1].ok:
-                return replace(verdicts[-1], notes=(*verdicts[-1].notes, f"`{words}` is read as after {name}."))
-    if "constant:" in statement or any(verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS) for verdict in verdicts):
-        raise problem
-    nearest = min(verdicts, key=lambda verdict: verdict.mends[0].size if verdict.mends else np.inf)
-    where = " or after ".join(["at first", *happens])
-    return replace(nearest, notes=(*nearest.notes, f"`{words}` is not judged: it does not hold {where}."))
 
 
 def _is_of_places(case: Case) -> bool:
@@ -207,19 +150,6 @@ def _is_of_places(case: Case) -> bool:
     known = case.meaning.vocabulary
     used = symbols_in(case.program)
     return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
-
-
-def _beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
-    """Before or after something that happens on a motion, at once or until the next change."""
-    held = {name: float(value) for name, value in checker.hypothesis.held if _FIGURE.fullmatch(str(value))}
-    there = checker.beside(side, event, held)
-    just = just or there.sampler.stated  # before what happens at the start there is no motion
-    given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
-    verdict = there.check(statement, declared, given)
-    if verdict.ok or just or side == "after":
-        return verdict
-    until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it
-    return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
 def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
@@ -443,19 +373,10 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
 _OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
-_IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
-_BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
-_LASTS = re.compile(r"(?:while|until|during)\b|in (?:the )?(?:free )?(?:flight|air)\b")
-_ONE_PART = re.compile(
-    r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
-)
-"""What lasts, and what is a part of that, or a moment, which no stretch between two events is."""
-_CONDITION = re.compile(r"[^=:]*:(?!=)")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"
 """What stands beside the words of a label: in which sense is counted."""
-_FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
@@ -479,7 +400,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), timed_claims.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
     (re.compile(r"at (.+?):(.+)", re.S), _at),
-    (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), _beside_event),
+    (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), beside_event),
     (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), _changes),
     (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),
 )

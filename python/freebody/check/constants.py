@@ -49,6 +49,8 @@ def constant_corrections(case: Case, node: Node, runs: Sequence[Mapping[str, Arr
     moments = [len(next(iter(run.values()))) for run in runs]
     runs, moments = zip(*((run, n) for run, n in zip(runs, moments, strict=True) if n > 1), strict=True)
     values = {key: np.concatenate([run[key] for run in runs]) for key in runs[0]}
+    if sampled(node, values).ndim > 1:
+        return ()  # of a vector no single number says by what factor a term is wrong
     search = _Search(case, node, values, moments)
     every = [*search.found()] or [*search.energies()] or [*search.pairs()]
     found = sorted(((search.size(chosen), chosen) for chosen in every), key=lambda pair: (pair[0], depth(pair[1][-1].after)))

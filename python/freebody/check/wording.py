@@ -19,8 +19,9 @@ _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
 _FREQUENCIES = re.compile(
     r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)\s*\Z"
 )
-_LASTS = re.compile(r"(?:while|during|until) (?!at rest)[A-Za-z][A-Za-z\s'-]*|in (?:the )?(?:free )?(?:flight|air)")
-"""``while it slips``, words alone."""
+LASTS = re.compile(r"(?:while|until|during)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
+"""``while it slips``: words of a stretch of the motion."""
+_WORDS = re.compile(r"[A-Za-z\s'-]+")
 _NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
@@ -131,8 +132,9 @@ def as_claim(text: str) -> str:
         return text  # of the model's own run, as ``at end``
     parts = [part for part in _PARTS.split(said) if not (_SUM.match(part) or _ABOUT.match(part))]
     parts[0] = "from the start" if word == "from" else parts[0]
-    if _LASTS.fullmatch(f"{word} {parts[0].strip()}") and _condition(parts[0]) == parts[0].strip():
-        parts[0] = f"{word} {parts[0].strip()}"
+    first = f"{word} {parts[0].strip()}"
+    if LASTS.match(first) and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
+        parts[0] = first
     said = ",".join(parts)
     if len(parts) > 1 and (beside := next((p for p in (f"{word} {parts[0]}", *parts[1:]) if _BESIDE.fullmatch(p.strip())), None)):
         others = [_condition(p) for p in (f"{word} {parts[0]}", *parts[1:]) if p is not beside]

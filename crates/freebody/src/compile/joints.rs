@@ -221,6 +221,7 @@ impl Builder<'_> {
                 zero: self.number_value(&path, &c.zero)?,
                 sense: f64::from(c.sense),
                 absolute: c.absolute,
+                ends: !card.ends.is_empty(),
             });
         }
         Ok(coordinates)
@@ -242,6 +243,7 @@ impl Builder<'_> {
                 zero,
                 sense: 1.0,
                 absolute: false,
+                ends: false,
             });
             let joint = Joint {
                 name: format!("{name} free"),

@@ -247,6 +247,7 @@ impl Workspace<'_> {
     /// # Errors
     /// `penetration`; as [`Workspace::decide_contact_modes`].
     pub fn initial_mode(&mut self) -> Result<Mode, DynamicsError> {
+        self.check_free_lengths()?;
         if self.m.unilateral.is_empty() && self.m.joint_friction.is_empty() {
             return Ok(self.mode().clone());
         }

@@ -5,7 +5,7 @@ use super::rows::{closing_rows, joint_rows};
 use super::{compliant_force, DynamicsError, Source, Workspace};
 use crate::bound_values::BoundValues;
 use crate::joints::Joint as _;
-use crate::kinematics::{Config, MotionView, Travel, TravelView};
+use crate::kinematics::{Config, MotionView, Poses as _, Travel, TravelView};
 use crate::mechanism::{Gap, Group, Mechanism, Part, Profile};
 use crate::mode::{Border, ContactMode, ContactState, Feature, Mode};
 use crate::plane::{vec2, Turn};
@@ -326,6 +326,24 @@ impl Workspace<'_> {
         let pins = pin.kind.card().rows.iter().any(|row| row.pin.is_some());
         if pins && bodies.iter().all(|body| body.particle) && self.at().pin_shift(joint).norm() > OPEN * self.length {
             return Err(DynamicsError::NoAxes(pin.name.clone(), bodies.map(|body| body.name.clone())));
+        }
+        Ok(())
+    }
+
+    /// That no string is drawn in beyond its drum: its equations have solutions there that are no motions.
+    ///
+    /// # Errors
+    /// `penetration`, where a free length is below zero.
+    pub fn check_free_lengths(&self) -> Result<(), DynamicsError> {
+        for (j, joint) in self.m.joints.iter().enumerate() {
+            let Some(k) = joint.coordinates.iter().position(|coordinate| coordinate.ends) else { continue };
+            let of = joint.coordinates[k].reading(&self.at().n.values);
+            let (length, _) = of.to_joint(self.at().coordinate(j, k), 0.0, 0.0, 0.0);
+            if self.mode().has(Part::Joint(j)) && length < -SHALLOW * self.length {
+                let what = format!("the free length of `{}` would be {length:.3} m", joint.name);
+                let hint = "its end would be within the drum: move it out, or choose another length";
+                return Err(DynamicsError::Penetration(what, hint, format!("joints.{}", joint.name)));
+            }
         }
         Ok(())
     }

@@ -37,8 +37,9 @@ impl HybridSystem<'_> {
             return Err(DynamicsError::Backward);
         }
         self.open(t, y);
+        self.place(t, y);
+        self.workspace.check_free_lengths()?;
         if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
-            self.place(t, y);
             if start.mode.is_none() {
                 self.mode = self.workspace.start_contacts()?;
             }

@@ -55,6 +55,7 @@ impl HybridSystem<'_> {
             self.workspace.enter(&self.mode);
             if let (true, Part::Joint(joint)) = (there, part) {
                 self.workspace.check_axes(joint)?;
+                self.workspace.check_free_lengths()?;
             }
             let of = vec![self.workspace.m.name_of(part).to_string()];
             let kind = if there { "engaged" } else { "released" };

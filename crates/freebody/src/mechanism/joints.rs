@@ -63,6 +63,8 @@ pub struct Coordinate {
     pub sense: f64,
     /// Measured from the fixed x axis instead of from the first body.
     pub absolute: bool,
+    /// A free length: a motion ends where it falls to 0.
+    pub ends: bool,
 }
 
 /// Coulomb friction that is known once the force that presses is: at most a coefficient times its size.

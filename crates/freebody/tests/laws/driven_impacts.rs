@@ -56,6 +56,7 @@ fn draw_once(seed: u64) -> Option<Striking> {
         return None;
     }
     workspace.move_to(start.t, &start.q, &start.u);
+    workspace.check_free_lengths().ok()?;
     obstruct(&mut thrown, &workspace, &mut rng)?;
     if seed % 4 == 0 {
         let coordinate = m.coordinate(rng.below(m.freedom())).name.clone();

@@ -1,0 +1,103 @@
+"""Claims under conditions in words: a label, a stretch of the motion, what becomes of a part, before or after an event."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
+
+from . import timed_claims
+from .assumptions import WORDS
+from .families import SINCE_START
+from .verdict import Kind, Verdict
+from .wording import LASTS
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+
+
+def in_words(checker: Checker, declared: Declared, condition: str, statement: str, problem: ModelProblem) -> Verdict:
+    """Under a hypothesis of which a part is words: of what becomes of a part of the model, a label, or a moment."""
+    parts = [part.strip() for part in re.split(r",|\band\b", condition)]
+    for part in parts:
+        others = ", ".join(other for other in parts if other is not part)
+        under = f"if {others}: {statement}" if others else statement
+        if beside := _BESIDE.fullmatch(part):
+            return beside_event(checker, declared, beside[1], beside[2], beside[3], under)
+        if IN_WORDS.fullmatch(part) and (name := checker.becoming(part)):
+            return beside_event(checker, declared, "", "after", name, under)
+    known = {*checker.mechanism.parameters, *declared}
+    words = [part for part in parts if (IN_WORDS.fullmatch(part) or part in known) and part not in WORDS]
+    if not words or len(words) == len(parts):
+        return labelled(checker, declared, condition, statement, problem)
+    under = f"if {', '.join(part for part in parts if part not in words)}: {statement}"
+    return labelled(checker, declared, ", ".join(words), under, problem)
+
+
+def labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
+    """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
+    that is the ``problem``. Raises it."""
+    lasts = LASTS.match(words) is not None
+    if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
+        return timed_claims.at(checker, declared, event, statement)
+    parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
+    meshing = {
+        word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
+    }
+    names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
+    said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
+    lasts = lasts and said and not names and _ONE_PART.search(words) is None
+    verdict = checker.check(statement, declared, correcting=checker.correcting and (names or lasts)) if said else None
+    if verdict is None or not (names or lasts or verdict.ok):
+        raise problem
+    if lasts and not verdict.ok:
+        return _later(checker, declared, words, statement, verdict, problem)
+    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
+
+
+def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:
+    """What does not hold as the model is at first, behind words that say how long it should: true where it holds after something
+    that happens, wrong where it holds on none of these stretches, whichever is meant. Raises the ``problem`` of the words for what
+    should stay the same, of which nothing says how long."""
+    run, _ = checker.moment("end")
+    happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
+    verdicts = [at_first]
+    for name in happens:
+        with suppress(ModelProblem, StatementError):
+            verdicts.append(beside_event(checker, declared, "", "after", name, statement))
+            if verdicts[-1].ok:
+                return replace(verdicts[-1], notes=(*verdicts[-1].notes, f"`{words}` is read as after {name}."))
+    if "constant:" in statement or any(verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS) for verdict in verdicts):
+        raise problem
+    nearest = min(verdicts, key=lambda verdict: verdict.mends[0].size if verdict.mends else np.inf)
+    where = " or after ".join(["at first", *happens])
+    return replace(nearest, notes=(*nearest.notes, f"`{words}` is not judged: it does not hold {where}."))
+
+
+def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
+    """Before or after something that happens on a motion, at once or until the next change."""
+    held = {name: float(value) for name, value in checker.hypothesis.held if _FIGURE.fullmatch(str(value))}
+    there = checker.beside(side, event, held)
+    just = just or there.sampler.stated  # before what happens at the start there is no motion
+    given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
+    verdict = there.check(statement, declared, given)
+    if verdict.ok or just or side == "after":
+        return verdict
+    until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it
+    return until if until.ok or (until.mends and not verdict.mends) else verdict
+
+
+IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
+_BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
+_ONE_PART = re.compile(
+    r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
+)
+"""What lasts, and what is a part of that, or a moment, which no stretch between two events is."""
+_CONDITION = re.compile(r"[^=:]*:(?!=)")
+_FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
