@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 from seen import model
 from store import every
 
@@ -178,3 +180,32 @@ initial: {{points: {{ladder.A: [l*cos(start), 0], ladder.B: [0, l*sin(start)]}},
 """)
     _, notes = made.start()
     assert any("wall: `ladder` touches the line, and its mass centre is behind it" in note for note in notes) is is_behind
+
+
+FALLING = """
+ground: {points: {P: [1, 0]}, lines: {floor: LINE}}
+bodies: {rod: {shape: rod, length: 4 m, mass: 10 kg, points: {A: start, B: end}}, ball: {shape: disk, radius: 0.1 m, mass: 1 kg}}
+contacts: {heel: {of: [rod.A, ground.floor], rough: true}, roll: {of: [ball, ground.floor]} MORE}
+initial: {points: {rod.A: [0, 0], rod.B: [2*sqrt(3), UP], ball.centre: [6 m, 0.1 m]}, at_rest: true}
+run: {until: 1.5}
+"""
+
+
+@pytest.mark.parametrize("line", ["{through: O, angle: 0}", "[O, P]", "{through: P, angle: 720 deg}"])
+@pytest.mark.parametrize(
+    ("more", "up", "said"),
+    [
+        ("", "2", "passes, at t = "),
+        ("", "-2", "starts behind the line of the contact `heel`"),
+        (", toe: {of: [rod.B, ground.floor]}", "2", None),
+        (", middle: {of: [{centre: rod.A, radius: 0.3 m}, ground.floor], engaged: false}", "2", "passes, at t = "),
+        (", toe: {of: [{centre: rod.B, radius: 1 mm}, ground.floor]}", "2", None),
+    ],
+)
+def test_a_point_that_goes_through_a_line_without_a_contact_is_told(line, more, up, said):
+    """A rod falls about its heel; energy 1/3 l ω² = g (sin 30° − sin θ) says how long until its end is at the floor."""
+    done = model(FALLING.replace("LINE", line).replace("MORE", more).replace("UP", up)).simulate()
+    assert len(done.passages) == (said is not None) and all(said in each and "`rod.B`" in each for each in done.passages)
+    if said and "t =" in said:
+        when = quad(lambda s: 1 / math.sqrt(3 * 9.81 / 4 * (0.5 - math.sin(s))), 0, math.pi / 6)[0]
+        assert float(done.passages[0].split("t = ")[1].split()[0]) == pytest.approx(when, rel=1e-3)

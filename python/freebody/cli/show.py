@@ -51,6 +51,7 @@ def runs_as_json(done: Sequence[Run], files: Sequence[Sequence[Path]]) -> None:
             "name": each.name,
             "outcome": asdict(each.outcome),
             "digits": each.accuracy.to_json(),
+            "notes": [*each.source.notes, *each.passages],
             "events": [asdict(event) | _digits(t=each.accuracy.time(event.t)) for event in each.events],
             "changes": [
                 asdict(change) | _digits(t=known.t, lost=known.lost, work=known.work)
@@ -87,6 +88,7 @@ def run(done: Run) -> None:
     put(
         _ending(done),
         f"The motion {accuracy.sentence}.\n",
+        *(f"{sentence}.\n" for sentence in done.passages),
         *_assembled(done.source),
         table("events", ["event", "t [s]", "kind"], [(e.name, accuracy.time(e.t), e.kind) for e in done.events]),
         table("mode changes", _SWITCHED, switch_rows(accuracy.changes)),

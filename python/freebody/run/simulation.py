@@ -27,6 +27,7 @@ from freebody.core import (
 )
 from freebody.run import selection, storage
 from freebody.run.digits import Accuracy, expression, other_settings, other_start
+from freebody.run.passages import passages
 from freebody.run.peaks import Peak, known_peaks
 from freebody.run.progress import Progress, reporting
 from freebody.run.records import (
@@ -109,7 +110,7 @@ class Run(PlainText):
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         """How it ended, what the model reports, and what each coordinate did."""
-        yield str(self)
+        yield "\n".join([str(self), *self.passages])
         shown = zip(self.metadata["coordinates"], self.q.T, strict=True) if len(self.t) else ()
         rows = [(c["name"], c["dimension"], *map(float, (q[0], q[-1], q.min(), q.max()))) for c, q in shown]
         yield table("coordinates", ["", "unit", "at the start", "at the end", "least", "largest"], rows)
@@ -207,6 +208,11 @@ class Run(PlainText):
     def peaks(self) -> list[Peak]:
         """The largest load of each joint, contact, string, stop, lock and prescribed motion, with the digits that hold."""
         return known_peaks(self)
+
+    @cached_property
+    def passages(self) -> list[str]:
+        """What is worth saying of points that go through a line without a contact there."""
+        return passages(self)
 
     @cached_property
     def energy(self) -> Energy:

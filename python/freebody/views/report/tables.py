@@ -73,11 +73,12 @@ def outcome(run: Run) -> str:
 
 
 def ending(run: Run) -> list[str]:
-    """How and when the run ended, and how many digits hold, line by line."""
+    """How and when the run ended, how many digits hold, and what went through a line, line by line."""
     end = run.outcome.t if run.recorded else run.accuracy.end
     when, stated = f"t = {_figure(end)} s", sentence(run.outcome.sentence)
     lines = [f"{stated}, {when}"] if run.outcome.ok else [when, *stated.split("; ")]
-    return lines if run.recorded else [*lines, f"The motion {run.accuracy.sentence}."]
+    known = [] if run.recorded else [f"The motion {run.accuracy.sentence}."]
+    return [*lines, *known, *(f"{sentence(each)}." for each in run.passages)]
 
 
 def beside(run: Run) -> list[Table]:
