@@ -89,7 +89,7 @@ def methods() -> str:
             f"`{m.name}`",
             str(m.order),
             "fixed, `step`" if m.fixed_step else "adaptive",
-            "conservative trees" * m.symplectic,
+            "conservative trees" * m.symplectic + "trees without switches" * m.analytic,
             m.citation,
         )
         for m in cards.methods().values()

@@ -31,6 +31,7 @@ pub mod mode;
 pub mod motion;
 pub mod plane;
 pub mod scalar;
+pub mod series;
 pub mod shapes;
 pub mod solve;
 pub mod spec;

@@ -23,7 +23,7 @@ pub fn cards() -> Value {
     let limit = |unit| units(LIMIT, unit);
     let method = |m: &&Method| {
         json!({
-            "name": m.name, "order": m.order, "fixed_step": m.estimate_order.is_none(), "symplectic": m.symplectic,
+            "name": m.name, "order": m.order, "fixed_step": m.estimate_order.is_none(), "symplectic": m.symplectic, "analytic": m.analytic,
             "citation": m.citation,
         })
     };

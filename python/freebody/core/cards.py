@@ -128,12 +128,14 @@ class Function:
 
 @dataclass(frozen=True)
 class Method:
-    """An integrator: its order; ``fixed_step``: it needs a step; ``symplectic``: it needs a conservative tree."""
+    """An integrator: its order; ``fixed_step``: it needs a step; ``symplectic``: it needs a conservative tree; ``analytic``: a tree
+    whose laws have no branches."""
 
     name: str
     order: int
     fixed_step: bool
     symplectic: bool
+    analytic: bool
     citation: str
 
 

@@ -1,7 +1,7 @@
 //! The motion of a tree over any scalar: of several mechanisms at once over lanes.
 
 use super::articulated_body::ArticulatedBody;
-use super::loads::{centre_arms, loads};
+use super::loads::{centre_arms, loads, unaccounted_power};
 use super::DynamicsError;
 use crate::bound_values::BoundValues;
 use crate::gauges::ModelExpr;
@@ -27,20 +27,29 @@ pub struct TreeMotion<'m, S> {
 }
 
 impl<'m, S: Scalar> TreeMotion<'m, S> {
-    /// Whether a mechanism is a tree whose motion is the same operations whatever its numbers: nothing closes a loop, switches, happens
-    /// or is looked up.
+    /// Whether a mechanism is a tree whose motion is the same operations whatever its numbers, and nothing happens in it.
     pub fn fits(m: &Mechanism) -> bool {
+        m.events.is_empty() && Self::obstacle(m).is_none()
+    }
+
+    /// Why the motion of a mechanism is not that of a tree by the same operations whatever its numbers, to follow "because".
+    pub fn obstacle(m: &Mechanism) -> Option<&'static str> {
         let is_plain =
             |joint: &Joint| joint.curve.is_none() && !joint.coordinates.iter().any(|c| joint.kind.unsigned(c.card));
         let is_smooth = |force: &Force| force.plate.is_none() && force.laws().all(ModelExpr::is_uniform);
-        m.closures.is_empty()
-            && m.drives.is_empty()
-            && !m.is_hybrid()
-            && m.events.is_empty()
-            && m.discontinuities.is_empty()
-            && m.joints.iter().all(is_plain)
-            && m.forces.iter().all(is_smooth)
-            && m.state_rates.iter().all(ModelExpr::is_uniform)
+        let obstacles = [
+            (!m.closures.is_empty(), "joints close a loop"),
+            (!m.drives.is_empty(), "a motion or a coupling is prescribed"),
+            (m.is_hybrid(), "there are contacts, stops, strings, joint friction or parts that come and go"),
+            (!m.discontinuities.is_empty(), "a law switches"),
+            (!m.joints.iter().all(is_plain), "a joint runs along a curve, or its coordinate has no sign"),
+            (!m.forces.iter().all(is_smooth), "a law of a force is looked up, or its formula has branches"),
+            (
+                !m.state_rates.iter().all(ModelExpr::is_uniform),
+                "a law of a state is looked up, or its formula has branches",
+            ),
+        ];
+        obstacles.iter().find(|(stands, _)| *stands).map(|(_, why)| *why)
     }
 
     /// A tree with its numbers.
@@ -80,5 +89,11 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
             *rate = law.eval(&State(at));
         }
         Ok(())
+    }
+
+    /// The power of a force without what its potential accounts for, where the rates were written last, W.
+    pub fn unaccounted_power(&self, t: S, y: &[S], force: usize) -> S {
+        let (q, u) = y[..2 * self.m.freedom()].split_at(self.m.freedom());
+        unaccounted_power(StateView { m: self.m, n: &self.n, k: &self.k, q, u, t, mode: &self.mode }, force)
     }
 }

@@ -16,6 +16,7 @@ mod mode_resolution;
 mod parts;
 mod record;
 mod scales;
+mod series;
 mod system;
 mod trajectory;
 mod works;

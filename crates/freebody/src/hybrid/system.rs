@@ -5,12 +5,13 @@ use super::impacts::Rule;
 use super::mode_changes::ModeChange;
 use super::scales::ROUNDOFF;
 use super::works::Works;
-use crate::dynamics::{DynamicsError, Workspace};
+use crate::dynamics::{DynamicsError, TreeMotion, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::Travel;
 use crate::mode::Mode;
-use crate::motion::{After, Canonical, EventRecord, EventSpec, Segment, Spent, System};
+use crate::motion::{After, Analytic, Canonical, EventRecord, EventSpec, Segment, Spent, System};
 use crate::plane::Vec2;
+use crate::series::{Solution, Traced};
 
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
 const NEAR_SINGULAR: f64 = 0.1;
@@ -92,6 +93,8 @@ pub struct HybridSystem<'m> {
     pub(super) units: Vec<f64>,
     /// Size of a guard, for its round-off.
     pub(super) roundoff_scale: f64,
+    /// The Taylor series of the phase with this number.
+    pub(super) series: Option<(usize, Solution<f64>)>,
 }
 
 impl<'m> HybridSystem<'m> {
@@ -129,6 +132,7 @@ impl<'m> HybridSystem<'m> {
             scales: vec![1.0; size],
             units: vec![],
             roundoff_scale: 1.0,
+            series: None,
         }
     }
 
@@ -432,6 +436,10 @@ impl System for HybridSystem<'_> {
 
     fn spent(&self) -> &[Spent] {
         &self.spent
+    }
+
+    fn analytic(&mut self) -> Result<&mut dyn Analytic, &'static str> {
+        TreeMotion::<Traced>::obstacle(self.workspace.m).map_or(Ok(self), Err)
     }
 
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {

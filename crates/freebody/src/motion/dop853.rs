@@ -11,6 +11,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 7,
     estimate_order: Some(8),
     symplectic: false,
+    analytic: false,
     implicit: false,
     stage_gap: 0.466,
     stepper: |n| Explicit::boxed(&TABLE, n),

@@ -16,6 +16,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 5,
     estimate_order: None,
     symplectic: true,
+    analytic: false,
     implicit: true,
     stage_gap: 0.3,
     stepper: |n| Box::new(Gauss6::new(n)),

@@ -19,6 +19,8 @@ pub struct Method {
     pub estimate_order: Option<u32>,
     /// Needs [`System::canonical`].
     pub symplectic: bool,
+    /// Needs [`System::analytic`].
+    pub analytic: bool,
     /// The stages are solved for: the control of steps is predictive, and keeps a step for the sake of its factors.
     pub(super) implicit: bool,
     /// The fraction of a step farthest from where the rate is evaluated.
@@ -84,6 +86,11 @@ pub(super) trait Stepper {
     /// Steps from `from` to `to.t`, filling `to.y` and `to.dy`; returns the estimated error in
     /// units of the tolerance (accept when ≤ 1).
     fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure>;
+
+    /// The length of the step from a point, where the method knows it before the step is made.
+    fn reach(&mut self, _system: &mut Counted, _from: &Point, _norm: &Norm) -> Option<f64> {
+        None
+    }
 
     /// The dense output of the last attempt, after `to` has been projected.
     fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure>;

@@ -23,6 +23,7 @@ mod roots;
 mod run;
 mod step_control;
 mod system;
+mod taylor;
 #[cfg(test)]
 mod tests;
 mod tsit5;
@@ -33,10 +34,11 @@ pub use march::{march, Span};
 pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options, TIGHTEST};
-pub use system::{After, Canonical, DynamicsError, EventSpec, Role, Spent, System};
+pub use system::{After, Analytic, Canonical, DynamicsError, EventSpec, Role, Spent, System};
 
 /// All methods; the first one is the default.
-pub const METHODS: &[&Method] = &[&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &gauss6::METHOD, &rk4::METHOD];
+pub const METHODS: &[&Method] =
+    &[&dop853::METHOD, &tsit5::METHOD, &radau::METHOD, &taylor::METHOD, &gauss6::METHOD, &rk4::METHOD];
 
 /// The method called `name`.
 pub fn method(name: &str) -> Option<&'static Method> {

@@ -40,7 +40,7 @@ pub enum Outcome {
         /// Name of the method.
         method: &'static str,
         /// What is missing, to follow "because".
-        reason: &'static str,
+        reason: String,
     },
     /// Events came so densely that the motion no longer advances.
     Chatter {

@@ -18,6 +18,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 7,
     estimate_order: Some(8),
     symplectic: false,
+    analytic: false,
     implicit: true,
     stage_gap: 0.45,
     stepper: |n| Box::new(Radau::new(n)),

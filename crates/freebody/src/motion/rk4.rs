@@ -11,6 +11,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 3,
     estimate_order: None,
     symplectic: false,
+    analytic: false,
     implicit: false,
     stage_gap: 0.25,
     stepper: |n| Explicit::boxed(&TABLE, n),

@@ -138,9 +138,14 @@ impl<'a> Runner<'a> {
 
     /// What the method cannot do, by name.
     fn refuse(&mut self, method: &Method, options: &Options) -> Result<(), Outcome> {
-        let refused = |reason| Err(Outcome::Unsupported { method: method.name, reason });
+        let refused = |reason: &str| Err(Outcome::Unsupported { method: method.name, reason: reason.into() });
         if method.symplectic && self.system.system.canonical().is_none() {
             return refused("the system has no canonical form");
+        }
+        if method.analytic {
+            let analytic = self.system.system.analytic().map(drop);
+            analytic
+                .or_else(|why| refused(&format!("{why}; the method `{}` does not mind", super::METHODS[0].name)))?;
         }
         if self.steps.is_fixed() && options.first_step.is_none() {
             return refused("its step is fixed and first_step is not given");
@@ -203,6 +208,10 @@ impl<'a> Runner<'a> {
     /// Tries steps until one is accurate enough; returns its error.
     fn accept(&mut self, options: &Options) -> Result<f64, Outcome> {
         let mut cause = Outcome::StepUnderflow;
+        let is_given = options.first_step.is_some() && self.run.accepted == 0;
+        if let Some(h) = self.stepper.reach(&mut self.system, &self.now, &self.norm).filter(|_| !is_given) {
+            self.steps.propose(h * self.ahead);
+        }
         loop {
             self.check_steps(options.max_steps)?;
             self.next.t = self.target();

@@ -45,6 +45,11 @@ impl StepController {
         self.was_rejected = false;
     }
 
+    /// Makes the next step as long as the method says that it may be.
+    pub fn propose(&mut self, h: f64) {
+        self.h = h.clamp(-self.max_step, self.max_step);
+    }
+
     pub fn is_fixed(&self) -> bool {
         self.exponent.is_none()
     }

@@ -195,10 +195,25 @@ pub trait System {
         &[]
     }
 
+    /// The Taylor series of the motion; or why it has none, to follow "because".
+    fn analytic(&mut self) -> Result<&mut dyn Analytic, &'static str> {
+        Err("the system gives no series")
+    }
+
     /// The canonical form, which symplectic methods need; `None` when there is none.
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {
         None
     }
+}
+
+/// A motion that has a Taylor series wherever it is.
+pub trait Analytic {
+    /// Writes the coefficients of the motion through y at t, in powers of the time since: those of each component from order 0
+    /// on, one component after the other. Not finite where there are none.
+    ///
+    /// # Errors
+    /// A named failure.
+    fn expand(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> Result<(), DynamicsError>;
 }
 
 /// The same motion in canonical variables z = (q, p), as many as components of y.

@@ -12,6 +12,7 @@ pub(super) const METHOD: Method = Method {
     dense_order: 4,
     estimate_order: Some(5),
     symplectic: false,
+    analytic: false,
     implicit: false,
     stage_gap: 0.61,
     stepper: |n| Explicit::boxed(&TABLE, n),

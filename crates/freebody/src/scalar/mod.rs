@@ -6,6 +6,11 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 mod ball;
+#[allow(
+    clippy::suspicious_arithmetic_impl,
+    reason = "a difference is a sum with the opposite, a quotient is a long division"
+)]
+mod double_double;
 #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds, the quotient rule subtracts")]
 mod dual;
 mod jet;
@@ -13,6 +18,7 @@ mod lanes;
 pub mod real;
 
 pub use ball::Ball;
+pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use jet::Jet;
 pub use lanes::{Lanes, LANES};

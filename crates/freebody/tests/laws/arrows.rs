@@ -8,7 +8,7 @@ use std::path::Path;
 /// The layers, lowest first, as `ARCHITECTURE.md` tells them.
 const LAYERS: &[&[&str]] = &[
     &["error", "graph", "scalar", "solve", "spec"],
-    &["algebra", "benchmark", "expr", "motion", "plane"],
+    &["algebra", "benchmark", "expr", "motion", "plane", "series"],
     &["gauges", "joints", "shapes"],
     &["mechanism"],
     &["mode", "bound_values"],

@@ -8,6 +8,7 @@ mod events;
 mod orders;
 mod stiff;
 mod symplectic;
+mod taylor;
 
 type Rate<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + 'a>;
 type Switches<'a> = Box<dyn FnMut(f64, &[f64], &mut [f64]) + 'a>;

@@ -1,0 +1,18 @@
+//! Taylor series of motions: the equations of motion, read once as a flat tape of operations, and the coefficients of their
+//! solution order by order (Jorba & Zou, *Experimental Mathematics* 14, 2005; Griewank & Walther, *Evaluating Derivatives*, ch. 13).
+//!
+//! It knows no mechanics. A formula over [`Scalar`](crate::scalar::Scalar) is [`recorded`] by calling it with [`Traced`] numbers;
+//! what comes out is a [`Tape`], valid as long as the formula would be the same operations. [`Solution`] runs it, over doubles or
+//! [`DoubleDouble`](crate::scalar::DoubleDouble)s.
+
+mod recorder;
+mod solution;
+mod tape;
+mod traced;
+
+#[cfg(test)]
+mod tests;
+
+pub use solution::{Coefficient, Solution};
+pub use tape::Tape;
+pub use traced::{recorded, Traced};

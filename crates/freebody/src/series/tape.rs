@@ -1,0 +1,99 @@
+//! The equations of motion as a list of operations.
+
+use crate::scalar::{DoubleDouble, Scalar};
+
+/// The place of a number of the tape: time, the state, then what the operations give.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row(pub(super) u32);
+
+/// A multiple of a number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Term<S> {
+    pub row: Row,
+    pub factor: S,
+}
+
+/// An operation on numbers that stand before it.
+#[derive(Clone, Debug)]
+pub(super) enum Op<S> {
+    Sum {
+        constant: S,
+        terms: Vec<Term<S>>,
+    },
+    Product(Row, Row),
+    Quotient(Row, Row),
+    Inverse(Row),
+    /// Gives two numbers.
+    SinCos(Row),
+    Sqrt(Row),
+    Exp(Row),
+    Ln(Row),
+    /// The angle of a point (x, y) at this distance squared.
+    Atan2 {
+        y: Row,
+        x: Row,
+        radius2: Row,
+    },
+}
+
+/// ẏ as a function of t and y.
+#[derive(Clone, Debug)]
+pub struct Tape<S> {
+    /// Each with the place of its first number.
+    pub(super) ops: Vec<(Row, Op<S>)>,
+    pub(super) rows: u32,
+    /// Where ẏ stands.
+    pub(super) rates: Vec<Row>,
+}
+
+impl<S> Tape<S> {
+    pub(super) fn new(size: usize) -> Self {
+        Tape { ops: vec![], rows: size as u32 + 1, rates: vec![] }
+    }
+
+    pub(super) fn push(&mut self, op: Op<S>) -> Row {
+        self.ops.push((Row(self.rows), op));
+        self.rows += 1;
+        Row(self.rows - 1)
+    }
+
+    pub(super) fn push_pair(&mut self, op: Op<S>) -> (Row, Row) {
+        let first = self.push(op);
+        self.rows += 1;
+        (first, Row(first.0 + 1))
+    }
+}
+
+impl<S: Copy> Tape<S> {
+    /// The same with every row and constant replaced.
+    fn map<T>(&self, row: impl Fn(Row) -> Row, number: impl Fn(S) -> T) -> Tape<T> {
+        let replaced = |op: &Op<S>| match op {
+            Op::Sum { constant, terms } => Op::Sum {
+                constant: number(*constant),
+                terms: terms.iter().map(|term| Term { row: row(term.row), factor: number(term.factor) }).collect(),
+            },
+            &Op::Product(a, b) => Op::Product(row(a), row(b)),
+            &Op::Quotient(a, b) => Op::Quotient(row(a), row(b)),
+            &Op::Inverse(b) => Op::Inverse(row(b)),
+            &Op::SinCos(a) => Op::SinCos(row(a)),
+            &Op::Sqrt(a) => Op::Sqrt(row(a)),
+            &Op::Exp(a) => Op::Exp(row(a)),
+            &Op::Ln(a) => Op::Ln(row(a)),
+            &Op::Atan2 { y, x, radius2 } => Op::Atan2 { y: row(y), x: row(x), radius2: row(radius2) },
+        };
+        let ops = self.ops.iter().map(|(at, op)| (row(*at), replaced(op))).collect();
+        Tape { ops, rows: self.rows, rates: self.rates.iter().map(|&rate| row(rate)).collect() }
+    }
+
+    /// The same with rows this far apart.
+    pub(super) fn spread(&self, stride: u32) -> Self {
+        self.map(|row| Row(row.0 * stride), |x| x)
+    }
+}
+
+impl Tape<DoubleDouble> {
+    /// The same with rounded constants.
+    pub fn rounded(&self) -> Tape<f64> {
+        self.map(|row| row, DoubleDouble::value)
+    }
+}

@@ -1,0 +1,110 @@
+//! Series beside their closed forms, and 32 digits beside those of others.
+
+use super::*;
+use crate::scalar::{DoubleDouble, Scalar};
+
+const ORDER: usize = 20;
+
+/// The coefficients of the solution of ẏ = rate(t, y) through y at t.
+fn expanded(t: f64, y: &[f64], rate: impl FnOnce(Traced, &[Traced], &mut [Traced])) -> Vec<Vec<DoubleDouble>> {
+    let tape = recorded(t, y, |t, y, dy| {
+        rate(t, y, dy);
+        Ok::<(), ()>(())
+    });
+    let tape = tape.unwrap();
+    let mut rounded = Solution::new(tape.rounded(), ORDER);
+    let mut exact = Solution::new(tape, ORDER);
+    assert!(rounded.expand(t, y));
+    assert!(exact.expand(DoubleDouble::of(t), &y.iter().map(|&y| DoubleDouble::of(y)).collect::<Vec<_>>()));
+    for i in 0..y.len() {
+        for (a, b) in rounded.component(i).iter().zip(exact.component(i)) {
+            assert!((a - b.hi).abs() <= 1e-12 * b.hi.abs().max(1.0), "{i}: {a} {b:?}");
+        }
+    }
+    (0..y.len()).map(|i| exact.component(i).to_vec()).collect()
+}
+
+fn near(a: DoubleDouble, b: DoubleDouble) -> bool {
+    (a - b).hi.abs() <= 1e-29 * b.hi.abs().max(1.0)
+}
+
+/// A function of time beside its own rate, integrated: both have the same coefficients.
+fn holds(t: f64, f: impl Fn(Traced) -> Traced, rate: impl Fn(Traced) -> Traced) {
+    let start = f(Traced::of(t)).value();
+    let y = expanded(t, &[start, start], |t, _, dy| {
+        dy[0] = rate(t);
+        // f once more, as the slope of its integral less what it was.
+        dy[1] = f(t);
+    });
+    for k in 1..ORDER {
+        let slope = y[0][k] * DoubleDouble::of(k as f64);
+        let of_integral = y[1][k + 1] * DoubleDouble::of((k * (k + 1)) as f64);
+        assert!(near(slope, of_integral), "{k}: {slope:?} {of_integral:?}");
+    }
+}
+
+#[test]
+fn every_function_has_the_rate_of_its_derivative() {
+    let two = || Traced::of(2.0);
+    holds(0.3, |t| (t * t).sin_cos().0, |t| (t * t).sin_cos().1 * two() * t);
+    holds(0.3, |t| (t * t).sin_cos().1, |t| -(t * t).sin_cos().0 * two() * t);
+    holds(0.3, |t| (t * t + two()).sqrt(), |t| t / (t * t + two()).sqrt());
+    holds(0.3, |t| (t * t).exp(), |t| two() * t * (t * t).exp());
+    holds(0.3, |t| (t * t + two()).ln(), |t| two() * t / (t * t + two()));
+    holds(0.3, |t| t.atan2(t * t + two()), |t| (two() - t * t) / ((t * t + two()) * (t * t + two()) + t * t));
+    holds(0.3, |t| (t + two()).powi(-3), |t| Traced::of(-3.0) / (t + two()).powi(4));
+    holds(0.3, |t| (t + two()).powi(5), |t| Traced::of(5.0) * (t + two()).powi(4));
+    holds(0.3, |t| (t + two()).powf(t), |t| (t + two()).powf(t) * ((t + two()).ln() + t / (t + two())));
+}
+
+#[test]
+fn an_oscillation_has_the_coefficients_of_sine_and_cosine() {
+    let y = expanded(0.0, &[0.0, 1.0], |_, y, dy| (dy[0], dy[1]) = (y[1], -y[0]));
+    let mut expected = DoubleDouble::one();
+    for k in 1..=ORDER {
+        expected = expected / DoubleDouble::of(k as f64);
+        let sign = if k % 4 == 1 { 1.0 } else { -1.0 };
+        assert!(
+            near(y[0][k], if k % 2 == 1 { expected * DoubleDouble::of(sign) } else { DoubleDouble::zero() }),
+            "{k}"
+        );
+    }
+}
+
+#[test]
+fn what_cancels_is_not_computed() {
+    let tape = recorded(0.0, &[0.4, 1.0], |_, y, dy| {
+        let (sin, cos) = y[0].sin_cos();
+        let radius = Traced::of(2.0);
+        let (x, z) = (radius * cos, radius * sin);
+        let pull = y[1] * y[1];
+        dy[0] = x * x + z * z;
+        dy[1] = x * (z * pull) - z * (x * pull);
+        Ok::<(), ()>(())
+    });
+    let tape = tape.unwrap();
+    assert!(tape.ops.iter().all(|(_, op)| matches!(op, tape::Op::Sum { terms, .. } if terms.is_empty())), "{tape:?}");
+}
+
+/// Digits by mpmath 1.3 at 50 digits, of the doubles written here.
+#[test]
+fn functions_have_32_digits() {
+    let dd = DoubleDouble::of;
+    let (sin, cos) = dd(10.5).sin_cos();
+    let given = [
+        (sin, -0.87969575997167, -5.4243203936702253e-17),
+        (cos, -0.4755369279959925, -2.6679686221851937e-17),
+        (dd(7.25).sqrt(), 2.692582403567252, 1.4592269629506974e-16),
+        (dd(3.7).exp(), 40.4473043600674, -1.2179541332469429e-15),
+        (dd(-40.3).exp(), 3.1472582402307286e-18, -1.238307780579342e-34),
+        (dd(5.3).ln(), 1.667706820558076, 5.257867245077391e-17),
+        (dd(2.0).atan2(dd(-3.0)), 2.5535900500422257, -3.5886651473917e-17),
+        (dd(-1e-3).atan2(dd(7.0)), -0.00014285714188532557, -4.7503092165029476e-21),
+        (dd(1.0) / dd(3.0), 0.3333333333333333, 1.850371707708594e-17),
+        (dd(1.1).powi(-7), 0.5131581182307065, 1.5333842275090902e-17),
+    ];
+    for (value, hi, lo) in given {
+        let error = (value - DoubleDouble { hi, lo }).hi.abs();
+        assert!(error <= 2e-31 * hi.abs(), "{value:?} {hi} {lo}: {error:e}");
+    }
+}
