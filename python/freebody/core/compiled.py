@@ -79,7 +79,8 @@ class PlotItem:
 @dataclass(frozen=True, eq=False)
 class CompiledModel:
     """A mechanism without numbers, with the ``spec`` that it was compiled from; beside it the ``model`` as its file says it, what to
-    ``report``, which ``plots`` it wants, and what is worth saying about its assembly (``notes``).
+    ``report``, which ``plots`` it wants, how its bodies
+    look, and what is worth saying about its assembly (``notes``).
 
     Where a state has no answer ``MotionError`` is raised, and ``ModelError`` for an expression or word that means nothing."""
 
@@ -88,6 +89,7 @@ class CompiledModel:
     model: Mapping[str, Any] = field(default_factory=dict)
     report: tuple[ReportItem, ...] = ()
     plots: tuple[PlotItem, ...] = ()
+    looks: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
     @classmethod

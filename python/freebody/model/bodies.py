@@ -28,9 +28,6 @@ def points(write: Writer) -> None:
         _points(write, full, body, path, usual)
         pieces = _pieces(write, path, full, body)
         write.spec["bodies"].append({"name": full, "particle": body.shape == "particle", "pieces": pieces})
-        for word in ("thickness", "wheels") if body.look else ():
-            if (size := getattr(body.look, word)) is not None:
-                write.number((*path, "look", word), size, "m", "a length")
     if write.scope.model.ground:
         _points(write, "ground", write.scope.model.ground, ("ground",), {"O": [0.0, 0.0], "origin": [0.0, 0.0]})
 

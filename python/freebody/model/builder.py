@@ -344,7 +344,8 @@ class Builder:
         lowered = self.lowered()
         if lowered.source is None:
             model = self.model.model_dump(mode="json", by_alias=True, exclude_unset=True)
-            lowered.source = replace(lowered.compiled, model=model, report=tuple(self.report_items()), plots=tuple(lowered.plots))
+            told = {"report": tuple(self.report_items()), "plots": tuple(lowered.plots), "looks": lowered.looks}
+            lowered.source = replace(lowered.compiled, model=model, **told)
         return lowered.source.with_notes(notes)
 
     def initial_state(self, changes: Mapping[str, Any] | None = None, initial: Mapping[str, Any] | None = None) -> Assembly:

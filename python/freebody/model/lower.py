@@ -14,7 +14,7 @@ import numpy as np
 from freebody.core import CompiledModel, ModelError, MotionError, PlotItem, ReportItem, Spec, State, cards
 from freebody.symbolic.dimensions import TIME
 
-from . import answers, bodies, elements, events, guides, limits, meanings, scope, start, table_friction, tables, units
+from . import answers, bodies, elements, events, guides, limits, looks, meanings, scope, start, table_friction, tables, units
 from .errors import ModelFileError, ModelProblem, Path, Problem, Where
 from .outlines import Outlines
 from .schema import Model, StateVariable
@@ -33,7 +33,7 @@ _STEP = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
 
 @dataclass
 class Lowered:
-    """A model as the core takes it, and what the core does not need: start, run, report, plots.
+    """A model as the core takes it, and what the core does not need: start, run, report, plots, looks.
 
     ``hand_over`` holds the events that go on as another model, with its file. ``items`` leads from an item of the spec
     (``joints.pivot``) to where it was written.
@@ -47,6 +47,7 @@ class Lowered:
     root: Scope
     hand_over: dict[str, str] = field(default_factory=dict)
     items: dict[str, tuple[Scope, Path]] = field(default_factory=dict)
+    looks: dict[str, dict[str, Any]] = field(default_factory=dict)
     source: CompiledModel | None = None
     """The compiled model with what views want to know of it, once that was asked for."""
 
@@ -115,6 +116,7 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
     steps = (
         bodies.points,
         bodies.lines,
+        looks.looks,
         _values,
         partial(_elements, outlines),
         partial(limits.limits, outlines),
@@ -136,7 +138,15 @@ def lower(model: Model, places: Places, file: str | FilePath | None = None, othe
                 raise ModelProblem(f"there is no file `{other}`", "the file of the other model is looked for beside this one")
     hand_over = {event: other for event, (_, _, other) in whole.hand_over.items()}
     lowered = Lowered(
-        spec, begins, answers.run(whole), answers.report(whole), answers.plots(whole), root, hand_over, whole.items | _items(root)
+        spec,
+        begins,
+        answers.run(whole),
+        answers.report(whole),
+        answers.plots(whole),
+        root,
+        hand_over,
+        whole.items | _items(root),
+        whole.looks,
     )
     if problems:
         raise ModelFileError(problems)

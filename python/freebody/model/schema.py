@@ -9,6 +9,7 @@ from pydantic import ConfigDict, Field, PlainValidator, WithJsonSchema, model_va
 from freebody.core import EXTREMES, Settings, cards
 
 from . import user_units
+from .appearance import Look, Outline, PieceLook
 from .elements import Force, Joint
 from .errors import ModelProblem
 from .switches import Contact, Event, Stop, String
@@ -81,9 +82,17 @@ class Shaped(Section):
 class Piece(Shaped):
     """A piece of a composite body, in a frame of its own."""
 
+    look: PieceLook = Field(None, description="How it is drawn, where not as its body.")
+
     mass: Mass = Field(description="Mass; 0 is allowed.")
     at: Pair = Field([0, 0], description="Place of the piece's own origin in the body's frame.")
     angle: Angle = Field(0, description="Angle of the piece's x axis in the body's frame.")
+
+    @model_validator(mode="after")
+    def _looks_like_it(self) -> Piece:
+        if self.look:
+            self.look.suits(self.shape)
+        return self
 
 
 class PointMass(Section):
@@ -141,25 +150,11 @@ class Marked(Section):
     points: dict[str, Place] = Field({}, description="Named points: `[x, y]` or the name of another point.")
     lines: dict[str, Line] = Field({}, description="Named lines.")
     curves: dict[str, Curve] = Field({}, description="Named curves.")
-    outline: Literal["none"] | list[Place] = Field(None, description="What drawings show: points, or none.")
+    outline: Outline = Field(None, description="What drawings show: points, an SVG path, or none.")
 
 
 class Ground(Marked):
     """The ground, which has the point ``ground.O``."""
-
-
-COLOURS = ("blue", "orange", "green", "pink", "yellow", "sky", "purple", "grey")
-"""Those that bodies are drawn in, in turn."""
-
-
-class Look(Section):
-    """How a body is drawn; nothing of it is mechanics."""
-
-    colour: Literal[COLOURS] = Field(None, description="Its colour.")
-    layer: Literal["behind", "front"] = Field(None, description="Whether it lies behind all other bodies, or in front of them.")
-    thickness: Length = Field(None, description="How wide a rod and arms are, or the rim of a disk or ring.")
-    spokes: int = Field(None, ge=2, le=60, description="How many spokes a disk or ring has.")
-    wheels: Length = Field(None, description="The radius of two wheels on which a rectangle stands, within its outline.")
 
 
 class Body(Marked, Shaped):
@@ -178,10 +173,8 @@ class Body(Marked, Shaped):
             raise refuse(f"a body of pieces takes its mass from them; `{min(alien)}` has no place here", "give it to a piece")
         if not given & {"mass", "pieces", "point_masses"}:
             raise refuse("this body has no mass", "add `mass:`; a massless body says `mass: 0`")
-        if self.look and self.look.spokes and self.shape not in ("disk", "ring"):
-            raise refuse(f"a {self.shape} has no spokes", "leave them out; a disk or ring has some")
-        if self.look and self.look.wheels is not None and self.shape != "rectangle":
-            raise refuse(f"a {self.shape} stands on no wheels", "leave them out; a rectangle does")
+        if self.look:
+            self.look.suits(self.shape)
         if self.shape == "particle" and given & {"inertia", "centre"}:
             raise refuse("a particle has neither `inertia` nor `centre`", "leave the shape out for a body that can turn")
         return self

@@ -29,7 +29,7 @@ class Writer:
     Of the whole model: ``lines``; ``places``, the coordinates of its named points in their bodies; ``tracks``, its curves of lines and
     arcs as surfaces; ``items`` leads from what is made beside the items of the file to where it was written, ``hand_over`` from an event
     to the file that it goes on as, and where it says so; ``turns`` is said, by name, of angles that may have been meant in degrees,
-    ``angles`` are names that stand for angles."""
+    ``angles`` are names that stand for angles; ``looks`` says of bodies how they are drawn."""
 
     scope: Scope
     meanings: Meanings
@@ -41,6 +41,7 @@ class Writer:
     hand_over: dict[str, tuple[Scope, Path, str]] = field(default_factory=dict)
     turns: dict[str, str] = field(default_factory=dict)
     angles: set[str] = field(default_factory=set)
+    looks: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     @property
     def prefix(self) -> str:

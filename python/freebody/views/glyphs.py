@@ -159,7 +159,7 @@ def _stout(sketch: Sketch, outline: Array) -> bool:
 def _rollers(sketch: Sketch, name: str, fields: Fields) -> None:
     body, _ = sketch.at[fields["points"][0]]
     own = sketch.looks.get(body, {}).get("wheels")
-    radius = _WHEEL * sketch.size if own is None else sketch.stated(own)
+    radius = _WHEEL * sketch.size if own is None else sketch.number(own)
     wheels = [shapes.circle(sketch.at[point][1], radius) for point in fields["points"]]
     for wheel in wheels:
         sketch.figures[body].add(wheel, "slot" if own is None else "block")

@@ -102,7 +102,8 @@ class _Drawn:
         points = stroke.points
         if stroke.about is not None:
             points = np.asarray(stroke.about) + self.symbol * (points - stroke.about)
-        tone = "ground" if figure.name == GROUND else f"tone{self.sketch.tone(figure.name) % len(PALETTE)}"
+        place = self.sketch.tone(figure.name) if stroke.tone is None else stroke.tone
+        tone = "ground" if figure.name == GROUND else f"tone{place % len(PALETTE)}"
         shape = "polygon" if stroke.closed else "polyline"
         shown = "" if stroke.shown is None else self._shown(stroke.shown)
         return f'<{shape} class="{stroke.style} {tone}" points="{_points(points * self.scale * (1, -1))}">{shown}</{shape}>'

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.core import GROUND, Array, State
+from freebody.model.appearance import COLOURS
 from freebody.views import shapes
 from freebody.views.contact_glyphs import draw_compliance, draw_contacts, draw_strings
 from freebody.views.drive_glyphs import draw_drives
@@ -49,29 +51,23 @@ def drawn(sketch: Sketch, traces: Sequence[str] | None = None) -> Sketch:
 def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     """The shapes of its pieces; for a body without shape, the hull of its points."""
     figure, look = sketch.figures[body["name"]], sketch.looks.get(body["name"], {})
-    thickness = sketch.stated(look["thickness"]) / 2 if "thickness" in look else 0.8 * sketch.size
+    thickness = _half(sketch, look, 0.8 * sketch.size)
     tips = _tips(sketch, body["name"])
-    outline = sketch.outlines.get(body["name"])
-    if outline == "none":
+    if (outline := look.get("outline")) is not None:
+        _draw_outline(sketch, figure, outline, thickness, tips)
         return
-    if outline is not None:
-        # A corner is two numbers or a point, with or without its body's name.
-        named = np.array([
-            [sketch.stated(x) for x in corner] if not isinstance(corner, str)
-            else sketch.at[corner if corner in sketch.at else f"{body['name']}.{corner}"][1]
-            for corner in outline
-        ])  # fmt: skip
-        figure.add(named if len(named) > 2 else shapes.rounded_hull(named, thickness, tips), "body")
-        return
-    for piece in body["pieces"]:
+    for piece, own in zip_longest(body["pieces"], look.get("pieces", ()), fillvalue={}):
+        drawn_so = {word: look[word] for word in look.keys() & {"thickness", "spokes", "wheels"}} | own
+        half = _half(sketch, own, thickness)
+        tone = COLOURS.index(own["colour"]) if "colour" in own else None
         sizes = {name: sketch.number(size) for name, size in piece.get("sizes", {}).items()}
         corners = np.array([[sketch.number(x) for x in corner] for corner in piece.get("corners", [])])
         at = [sketch.number(x) for x in piece.get("at", (0.0, 0.0))]
         angle = sketch.number(piece.get("angle", 0.0))
         own_tips = shapes.turn(tips - at, -angle)
-        for points, style in _outlines(sketch, body["name"], piece["shape"], sizes, corners, thickness, own_tips):
+        for points, style in _outlines(sketch, body["name"], drawn_so, piece["shape"], sizes, corners, half, own_tips):
             placed, place = shapes.turn(points, angle, at), np.array(at)
-            figure.add(placed, style, len(points) > 2, about=place if style == "mass" else None)
+            figure.add(placed, style, len(points) > 2, place if style == "mass" else None, tone)
     masses = [stroke.points.mean(axis=0) for stroke in figure.strokes if stroke.style == "mass"]
     if 1 < len(masses) == len(figure.strokes):  # held together by a bar without mass
         figure.strokes.insert(0, Stroke(shapes.rounded_hull(np.array(masses), 0.6 * thickness), "body"))
@@ -83,6 +79,25 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         figure.add(shapes.rounded_hull(own, thickness, tips), "body")
 
 
+def _half(sketch: Sketch, look: Mapping[str, Any], usual: float) -> float:
+    """Half the thickness that a look says, in m."""
+    return sketch.number(look["thickness"]) / 2 if "thickness" in look else usual
+
+
+def _draw_outline(sketch: Sketch, figure: Figure, outline: Any, thickness: float, tips: Array) -> None:
+    """What the model says instead of the shapes: nothing, corners, or a drawing, in which what lies within another part is cut out."""
+    if isinstance(outline, Mapping):
+        size = sketch.number(outline["unit"]) * np.array([1.0, -1.0 if outline["y"] == "down" else 1.0])
+        at, seen = np.array([sketch.number(x) for x in outline["at"]]), list[Array]()
+        for points, closed in outline["subpaths"]:
+            hole = closed and any(shapes.inside(other, points[:1]).any() for other in seen)
+            seen += [points] if closed else []
+            figure.add(at + size * points, ("slot" if hole else "body") if closed else "mark", closed)
+    elif outline != "none":
+        corners = np.array([sketch.at[c][1] if isinstance(c, str) else [sketch.number(x) for x in c] for c in outline])
+        figure.add(corners if len(corners) > 2 else shapes.rounded_hull(corners, thickness, tips), "body")
+
+
 def _tips(sketch: Sketch, body: str) -> Array:
     """Points (k, 2) with which a body may touch something: there it ends, however thick it is drawn."""
     touching = [
@@ -92,10 +107,16 @@ def _tips(sketch: Sketch, body: str) -> Array:
 
 
 def _outlines(
-    sketch: Sketch, body: str, shape: str, sizes: Mapping[str, float], corners: Array, thickness: float, tips: Array
+    sketch: Sketch,
+    body: str,
+    look: Mapping[str, Any],
+    shape: str,
+    sizes: Mapping[str, float],
+    corners: Array,
+    thickness: float,
+    tips: Array,
 ) -> list[tuple[Array, str]]:
-    """Outlines of a piece with their style, as the look of its body has them; what goes on rollers has these for wheels."""
-    look = sketch.looks.get(body, {})
+    """Outlines of a piece with their style, as it looks; what goes on rollers has these for wheels."""
     rolls = any(
         joint["type"] == "rollers" and sketch.at[joint["with"]["points"][0]][0] == body for joint in sketch.spec["joints"]
     )
@@ -103,7 +124,7 @@ def _outlines(
         rim = 2 * thickness if "thickness" in look else 0.14 * sizes["radius"]
         return shapes.wheel(sizes["radius"], rim, int(look.get("spokes", 0)))
     if shape == "rectangle" and "wheels" in look and not rolls:
-        return shapes.cart(sizes["width"], sizes["height"], sketch.stated(look["wheels"]))
+        return shapes.cart(sizes["width"], sizes["height"], sketch.number(look["wheels"]))
     return shapes.piece_outlines(shape, sizes, corners, thickness, tips)
 
 

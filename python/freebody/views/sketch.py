@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, Array, Limit, MotionError, State, quote, there
-from freebody.model.schema import COLOURS
-from freebody.model.units import rewrite
+from freebody.model.appearance import COLOURS
 from freebody.views import shapes
 from freebody.views.impact_markers import ImpactMarker
 from freebody.views.style import GROUND as GREY
@@ -34,7 +33,8 @@ class Stroke:
     Styles: ``body`` and ``block`` (filled in the body's colour), ``band`` (a thick line), ``mass`` (solid), ``mark``
     (a line in the body's colour), ``coil`` (a dark line), ``slot`` and ``pin`` (filled with the paper), ``weld`` (solid dark), ``rail``,
     ``hatch`` and ``dash`` (lines in the colour of ground). ``shown`` (nt,): whether it is there; None: always. ``about`` is the
-    place of a symbol, whose size is not the model's but the drawing's.
+    place of a symbol, whose size is not the model's but the drawing's; ``tone`` the place in the palette of a colour that is not its
+    body's.
     """
 
     points: Array
@@ -42,6 +42,7 @@ class Stroke:
     closed: bool = True
     shown: Array | None = None
     about: tuple[float, float] | None = None
+    tone: int | None = None
 
 
 @dataclass(frozen=True)
@@ -52,10 +53,10 @@ class Figure:
     strokes: list[Stroke] = field(default_factory=list)
     points: dict[str, tuple[float, float]] = field(default_factory=dict)
 
-    def add(self, points: Array, style: str, closed: bool = True, about: Array | None = None) -> None:
+    def add(self, points: Array, style: str, closed: bool = True, about: Array | None = None, tone: int | None = None) -> None:
         """One more stroke; of a symbol, ``about`` its place (2,)."""
         place = None if about is None else (float(about[0]), float(about[1]))
-        self.strokes.append(Stroke(np.asarray(points, float), style, closed, about=place))
+        self.strokes.append(Stroke(np.asarray(points, float), style, closed, about=place, tone=tone))
 
 
 @dataclass(frozen=True)
@@ -131,21 +132,12 @@ class Sketch:
             if ".outline[" not in name:  # a corner that only contacts know
                 self.at[name] = (place[0], np.array(place[1:], float))
                 self.figures[place[0]].points[name] = (float(place[1]), float(place[2]))
-        stated = {
-            name: body for name, body in source.model.get("bodies", {}).items() if name in self.figures and isinstance(body, dict)
-        }
-        self.outlines = {name: body["outline"] for name, body in stated.items() if body.get("outline") is not None}
-        """What the model says of outlines: ``none``, or points by name or as numbers."""
-        self.looks = {name: body["look"] for name, body in stated.items() if body.get("look")}
+        self.looks = source.looks
         self.size = self._size()
 
     def number(self, value: float | str) -> float:
         """A number of the model."""
         return float(value) if isinstance(value, (int, float)) else self.value(value)
-
-    def stated(self, value: float | str) -> float:
-        """A number as the model file says it, perhaps with a unit."""
-        return self.number(rewrite(value).text if isinstance(value, str) else value)
 
     def tone(self, body: str) -> int:
         """The place of a body's colour in the palette."""
@@ -292,7 +284,7 @@ class Sketch:
         for i, figure in enumerate(self.figures.values()):
             for each in figure.strokes:
                 if each.shown is None or each.shown[frame]:
-                    tint = colour(self.tone(figure.name)) if i else GREY
+                    tint = colour(self.tone(figure.name) if each.tone is None else each.tone) if i else GREY
                     points, layer = self.moved(figure.name, each.points, frame), self.layer(figure.name)
                     yield Drawn(each.style, points, tint, each.closed, figure.name, layer)
 

@@ -65,6 +65,8 @@ export interface Stroke extends Passing {
   closed: boolean;
   /** The place of a symbol, whose size is that of the drawing. */
   about: Point | null;
+  /** Of the palette, where not its figure's. */
+  tone?: number;
 }
 
 /** Something stretched between two points (figure, x, y); lines of (along from 0 to 1, across in m). */

@@ -84,6 +84,7 @@ def _scene(sketch: Sketch) -> dict[str, Any]:
                 "strokes": [
                     {"points": short(each.points), "style": each.style, "closed": each.closed, "about": each.about}
                     | _passing(each)
+                    | ({} if each.tone is None else {"tone": each.tone})
                     for each in figure.strokes
                 ],
             }
