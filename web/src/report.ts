@@ -2,6 +2,7 @@ import type { Point, ReportData } from "./data/types";
 import { Choice } from "./loads/choice.svelte";
 import { LoadHistory } from "./loads/loads";
 import { LoadScale } from "./loads/scale.svelte";
+import { ScaleSide } from "./loads/side.svelte";
 import { TimeWindow } from "./plots/window.svelte";
 import { Camera } from "./scene/camera.svelte";
 import { Motion } from "./scene/motion";
@@ -22,6 +23,7 @@ export class Report {
   readonly scale: LoadScale;
   readonly moment: Moment;
   readonly window: TimeWindow;
+  readonly scaleSide: ScaleSide;
 
   constructor(readonly data: ReportData) {
     this.clock = new Clock(data.scene.t);
@@ -33,6 +35,7 @@ export class Report {
     this.window = new TimeWindow(this.clock);
     this.camera = new Camera(data.scene, () => this.followed());
     this.zooming = new Zooming(this.camera);
+    this.scaleSide = new ScaleSide(this.clock, this.motion, this.loads, this.scale, this.camera);
   }
 
   /** Of the loads that something exerts, by its name. */

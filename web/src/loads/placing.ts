@@ -15,8 +15,15 @@ const SHORT = 8; // px: an arrow that is hardly seen needs no label
 const CROWDED = 10; // what it costs to lie on a label, beside lying on a shaft
 const RESTLESS = 0.6; // and not to stay where it was
 
-/** The corner at the foot of a stage that the scales take, px. */
-export const SCALES = { wide: 122, high: 44 };
+/** A corner at the foot of a stage, at its left unless at its right, px. */
+export interface Corner {
+  wide: number;
+  high: number;
+  right?: boolean;
+}
+
+/** What the scales take. */
+export const SCALES: Corner = { wide: 122, high: 44 };
 
 interface Box {
   x: number;
@@ -64,8 +71,8 @@ function crosses({ at: [x, y], by: [dx, dy] }: Labelled, box: Box): boolean {
 export class LabelPlaces {
   readonly #last = new Map<string, number>();
 
-  /** The middle of each label by the key of its arrow; none for what is hardly seen. The corner at the left of the foot is taken. */
-  of(arrows: Labelled[], wide: number, high: number, corner = { wide: 0, high: 0 }): Map<string, Point> {
+  /** The middle of each label by the key of its arrow; none for what is hardly seen. The corner at the foot is taken. */
+  of(arrows: Labelled[], wide: number, high: number, corner: Corner = { wide: 0, high: 0 }): Map<string, Point> {
     const found = new Map<string, Point>();
     const taken: Box[] = [];
     const longest = [...arrows].sort((one, other) => Math.hypot(...other.by) - Math.hypot(...one.by));
@@ -75,7 +82,8 @@ export class LabelPlaces {
       const boxes = candidates(arrow).map(([x, y]): Box => ({ x, y, wide: widthOf(arrow.label) }));
       const cost = boxes.map((box, i) => {
         const out = box.x - box.wide / 2 < 0 || box.x + box.wide / 2 > wide || box.y < HIGH / 2 || box.y > high - HIGH / 2;
-        const onScales = box.x - box.wide / 2 < corner.wide && box.y > high - corner.high - HIGH / 2;
+        const inward = (corner.right ? wide - box.x : box.x) - box.wide / 2;
+        const onScales = inward < corner.wide && box.y > high - corner.high - HIGH / 2;
         const onLabels = taken.filter((other) => overlap(box, other)).length;
         const onShafts = arrows.filter((other) => crosses(other, box)).length;
         const moves = (this.#last.get(arrow.key) ?? i) === i ? 0 : RESTLESS;

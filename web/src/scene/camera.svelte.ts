@@ -49,11 +49,20 @@ export class Camera {
     return usual / (this.#size * this.scale);
   });
 
+  /** Where a place is on the screen as long as nobody has zoomed or follows anything. */
+  home([x, y]: Point): Point {
+    const [mx, my] = this.#box.middle;
+    return [this.width / 2 + this.fit * (x - mx), this.#level - this.fit * (y - my)];
+  }
+
+  get #level(): number {
+    return (this.height + ROOM.above - ROOM.below) / 2;
+  }
+
   readonly #origin: Point = $derived.by(() => {
     const { k, x, y } = this.zoom;
     const [mx, my] = this.followed() ?? this.#box.middle;
-    const middle = (this.height + ROOM.above - ROOM.below) / 2;
-    return [k * (this.width / 2 - this.fit * mx) + x, k * (middle + this.fit * my) + y];
+    return [k * (this.width / 2 - this.fit * mx) + x, k * (this.#level + this.fit * my) + y];
   });
 
   /** The transform of what is given in metres, y up. */
