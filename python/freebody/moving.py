@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from freebody.model.builder import Builder
     from freebody.run.batch import Given
     from freebody.run.progress import Progress
+    from freebody.run.reference import Reference
     from freebody.run.sampling import Times
     from freebody.run.simulation import Run
     from freebody.solve.instant import Instant
@@ -142,6 +143,29 @@ class Moving:
         stage = Stage(self, self.run_plan(until, settings), settings, t_eval, progress)
         with self.core_errors():
             return follow(stage, stage.run(state, notes))
+
+    def reference(
+        self: Builder,
+        until: float | str | None = None,
+        *,
+        initial: Mapping[str, Any] | None = None,
+        t_eval: Times | None = None,
+        digits: int = 25,
+        t: float = 0.0,
+        **changes: Any,
+    ) -> Reference:
+        """Coordinates and their rates to 25 digits and more, as a reference for other programs: by Taylor series over pairs of doubles.
+
+        At the times ``t_eval`` (s), by default 101 until ``until``; ``changes`` as in ``simulate``. The numbers of the model and of its start are
+        taken for exactly the doubles that they are. The motion is followed twice, by other steps; ``ValueError`` where they agree to fewer than
+        ``digits``. Trees whose laws have no branches, without events; ``MotionError`` else.
+        """
+        from freebody.run.reference import evenly, reference
+
+        state, _ = self.start(initial, t, **changes)
+        times = evenly(state.t, self.run_plan(until, {}).until) if t_eval is None else [float(time) for time in t_eval]
+        with self.core_errors():
+            return reference(self.compile(), state, times, digits)
 
     def batch(
         self: Builder,

@@ -14,8 +14,9 @@ use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
 use freebody::mode::Mode;
 use freebody::motion::Options;
+use freebody::scalar::DoubleDouble;
 use freebody::symbolic::{answer, Query, Setting};
-use numpy::{PyArray1, PyReadonlyArray1};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
@@ -283,6 +284,30 @@ impl Mechanism {
             Some(error) => Err(error),
             None => Ok(Trajectory { of: self.of.clone(), run: run.map_err(errors::motion)? }),
         }
+    }
+
+    /// Coordinates and rates at times that follow each other, as the sum of two arrays (times, 2 n), by Taylor series of an order.
+    fn reference<'py>(
+        &self,
+        py: Python<'py>,
+        state: State<'py>,
+        times: Vec<f64>,
+        order: usize,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let (p, t, q, u, _) = &state;
+        let (m, mut error) = (self.of.mechanism(), None);
+        let start = Start { p: p.as_slice()?, t: *t, q: q.as_slice()?, u: u.as_slice()?, mode: None };
+        let found = py.detach(|| {
+            freebody::hybrid::reference(&m, &start, &times, order, &mut || {
+                Python::attach(|py| py.check_signals()).map_err(|signal| error = Some(signal)).is_ok()
+            })
+        });
+        let rows = found.map_err(errors::motion)?;
+        let Some(rows) = rows else { return Err(error.expect("a signal stopped it")) };
+        let part = |of: fn(&DoubleDouble) -> f64| {
+            array(py, rows.iter().flatten().map(of).collect(), [rows.len(), 2 * m.freedom()])
+        };
+        Ok([part(|x| x.hi)?, part(|x| x.lo)?])
     }
 
     /// Whether a batch by `rk4` runs side by side.

@@ -99,6 +99,8 @@ pub enum DynamicsError {
     WrongQuestion(String),
     /// Symbolic equations grow beyond what can be written.
     TooLarge,
+    /// A motion is not followed by its Taylor series to many digits: why.
+    NoSeries(&'static str),
     /// The stages of an implicit step did not converge: t, iterations.
     FixedPointStalled(f64, usize),
 }
@@ -174,6 +176,11 @@ impl DynamicsError {
             Self::TooManyForDense => (
                 "unsupported",
                 "the route `constraints` cannot hold actuators with a direction of their own in a mechanism of this size; use `minimal`".into(),
+                None,
+            ),
+            Self::NoSeries(why) => (
+                "unsupported",
+                format!("the motion cannot be followed by its Taylor series to many digits because {why}; use `simulate`"),
                 None,
             ),
             Self::NoFiniteAcceleration => (

@@ -37,10 +37,10 @@ impl Shape {
         let square = |i: usize| sizes[i] * sizes[i];
         match self {
             Shape::Point => (Vec2::zero(), S::zero()),
-            Shape::Rod => (Vec2::zero(), square(0).scale(1.0 / 12.0)),
+            Shape::Rod => (Vec2::zero(), square(0) / S::of(12.0)),
             Shape::Disk => (Vec2::zero(), square(0).scale(0.5)),
             Shape::Ring => (Vec2::zero(), square(0)),
-            Shape::Rectangle => (Vec2::zero(), (square(0) + square(1)).scale(1.0 / 12.0)),
+            Shape::Rectangle => (Vec2::zero(), (square(0) + square(1)) / S::of(12.0)),
             Shape::Polygon => polygon(sizes),
         }
     }
@@ -56,8 +56,8 @@ fn polygon<S: Scalar>(sizes: &[S]) -> (Vec2<S>, S) {
         let (a, b) = (corner(i) - corner(0), corner(i + 1) - corner(0));
         let twice = a.cross(b);
         area += twice.scale(0.5);
-        first += (a + b) * twice.scale(1.0 / 6.0);
-        second += twice * (a.dot(a) + a.dot(b) + b.dot(b)).scale(1.0 / 12.0);
+        first += (a + b) * (twice / S::of(6.0));
+        second += twice * ((a.dot(a) + a.dot(b) + b.dot(b)) / S::of(12.0));
     }
     let centre = first * (S::one() / area);
     (corner(0) + centre, second / area - centre.dot(centre))

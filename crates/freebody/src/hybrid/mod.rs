@@ -15,6 +15,7 @@ mod mode_changes;
 mod mode_resolution;
 mod parts;
 mod record;
+mod reference;
 mod scales;
 mod series;
 mod system;
@@ -24,6 +25,7 @@ mod works;
 pub use canonical::mass_matrix;
 pub use impacts::Rule;
 pub use mode_changes::{ContactImpulse, Impulses, ModeChange};
+pub use reference::reference;
 pub use system::HybridSystem;
 pub use trajectory::{Ledger, MotionState, Trajectory};
 
