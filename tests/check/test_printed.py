@@ -92,7 +92,20 @@ joints:
   D: {type: hinge, of: [d.start, c.end], coordinate: s}
 initial: {p: 0.3, q: 0.4, r: 1.2, s: 0.2}
 """
-TEXTS = {"words": WORDS, "collar": COLLAR, "string": STRING, "link": LINK, "hanging": HANGING}
+APART = """
+freebody: 1
+name: a particle on a rod without mass from a crank, and one on a cord from it
+parameters: {l: 1.3 m, c: 0.7 m, m: 2 kg}
+bodies: {crank: {shape: rod, length: c, mass: m}, A: {shape: particle, mass: m}, B: {shape: particle, mass: m}}
+joints:
+  O: {type: hinge, of: [ground.O, crank.start], coordinate: theta}
+  fa: {type: free, of: [ground.O, A.centre], coordinates: [x_A, y_A]}
+  fb: {type: free, of: [ground.O, B.centre], coordinates: [x_B, y_B]}
+  bar: {type: link, of: [crank.end, A.centre], length: l}
+strings: {cord: {ends: [A.centre, B.centre]}}
+initial: {theta: 0.3, x_A: 0.9 m, x_B: 0.9 m, y_B: -1.7 m, guess: {y_A: -1}, rates: {theta: 0, x_A: 0, y_A: 0, x_B: 3, y_B: 0}}
+"""
+TEXTS = {"apart": APART, "words": WORDS, "collar": COLLAR, "string": STRING, "link": LINK, "hanging": HANGING}
 
 
 @pytest.fixture(scope="module", params=family([*NAMED, *TEXTS]))

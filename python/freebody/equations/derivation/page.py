@@ -12,6 +12,7 @@ from freebody.equations.derivation.balance_page import ROOM, Shown, directions_i
 from freebody.equations.derivation.balance_page import fitted as balances
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.directions import Directions
+from freebody.equations.derivation.distances import distances
 from freebody.equations.derivation.pins import from_pins
 from freebody.equations.derivation.plain_rows import on_two_sides
 from freebody.equations.derivation.put_in import Closed
@@ -128,7 +129,7 @@ def closure(subject: SymbolicState, closed: Closed, brief: int = 0) -> list[Bloc
     if not closed.rows:
         return []
     made = roots(closed)
-    places, rates, accelerations = on_two_sides(closed.rows, subject.names)
+    places, rates, accelerations = on_two_sides(closed.rows, subject.names, distances(subject, closed.rows))
     levels = [places, rates if brief < 2 or not places else [], accelerations if brief < 1 else []]
     for left, right in (pair for level in levels for pair in level):
         made.append(Equation(signed(left, subject.constants), signed(right, subject.constants) if is_tree(right) else right))

@@ -8,7 +8,8 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
-from freebody.document.blocks import Written
+from freebody.document.blocks import Written, is_tree
+from freebody.equations.derivation.distances import Distance
 from freebody.solve.symbolic_state import Row
 from freebody.symbolic.algebra import common_factors, divided, quotient, spread, with_zero
 from freebody.symbolic.differentiate import along_motion
@@ -213,19 +214,27 @@ def _held_at_zero(row: Row, coordinates: Sequence[str], values: Mapping[Sym, flo
     return x if abs(evaluate(slope, values)) > _NONE else None
 
 
-def on_two_sides(rows: Sequence[Row], coordinates: Sequence[str]) -> list[list[Sides]]:
-    """Rows as a person puts them on two sides: places, velocities, accelerations; what is prescribed stands by itself."""
+def on_two_sides(rows: Sequence[Row], coordinates: Sequence[str], apart: Mapping[str, Distance]) -> list[list[Sides]]:
+    """Rows as a person puts them on two sides: places, velocities, accelerations; what is prescribed stands by itself, and what keeps
+    two points ``apart``, by name, goes by differences."""
     rates = {id(row): linear_in(row.rate, [Sym(name, 1) for name in coordinates]) for row in rows if row.rate is not None}
     levels: list[list[Sides]] = [[], [], []]
     for row in rows:
-        own = _prescribed(row)
+        own, by_differences = _prescribed(row), apart[row.name].levels(coordinates) if row.name in apart else None
         if row.value is not None:
             kept = _kept(rates.get(id(row)), coordinates) if _winds(row.value) or _of_the_start(row.value) else None
-            levels[0].append(_alone(row.value, own, 0) or kept or on_sides(row.value))
+            levels[0].append(by_differences[0] if by_differences else _alone(row.value, own, 0) or kept or on_sides(row.value))
         if row.rate is not None:
-            levels[1].append(_alone(row.rate, own, 1) or on_sides(_spread(rates[id(row)])))
-        levels[2].append(_alone(_spread(row.linear), own, 2) or _apart(row))
+            usual = _alone(row.rate, own, 1) or on_sides(_spread(rates[id(row)]))
+            levels[1].append(_shorter(by_differences[1], usual) if by_differences else usual)
+        usual = _alone(_spread(row.linear), own, 2) or _apart(row)
+        levels[2].append(_shorter(by_differences[2], usual) if by_differences else usual)
     return levels
+
+
+def _shorter(one: Sides, other: Sides) -> Sides:
+    """The one, unless the other is shorter."""
+    return min((one, other), key=lambda sides: sum(operations(side) for side in sides if is_tree(side)))
 
 
 def _prescribed(row: Row) -> str:
