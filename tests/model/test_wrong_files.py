@@ -79,6 +79,13 @@ CASES = {
     "rates at rest": ("at_rest: true", "at_rest: true, rates: {theta: 1}", 10, 48, ["`at_rest` and `rates` contradict"]),
     "time in metres": ("until: 5 s", "until: 5 m", 11, 14, ["`until` is a time", "`5 m` is a length"]),
     "unknown method": ("until: 5 s", "until: 5 s, method: dop835", 11, 27, ["`dop835`", "did you mean `dop853`?"]),
+    "a place for a name": (
+        "bodies:",
+        "ground: {lines: {wall: {through: [1 m, 0], angle: 90 deg}}}\nbodies:",
+        4,
+        34,
+        ["a name is needed here", "`points: {P: [1 m, 0]}`"],
+    ),
     "event by equality": (
         "run:",
         "events: {e: {when: pivot.Fx = 0}}\nrun:",

@@ -104,3 +104,27 @@ def test_a_rocking_block_comes_to_rest():
     assert np.abs(rest.after["u"]).max() < 1e-15
     before = np.array(rest.before["u"])
     assert rest.lost == pytest.approx([0.5, 0.5, 17 / 24] @ before**2, rel=1e-9)
+
+
+PUSHED = """
+parameters: {P: 1, h: 0.45 m}
+bodies: {box: {shape: rectangle, width: 0.4 m, height: 1 m, mass: 20 kg, points: {A: [-0.2 m, -0.5 m], B: [0.2 m, -0.5 m], H: [-0.2 m, h]}}}
+ground: {lines: {floor: {through: O, angle: 0}}}
+contacts: {CONTACTS}
+forces: {push: {type: force, at: box.H, x: P*60*t, y: 0}}
+initial: {box.x: 0, box.y: 0.5 m, box.angle: 0, at_rest: true}
+"""
+OUTLINE = "floor: {of: [box, ground.floor], friction: 0.4}"
+CORNERS = "heel: {of: [box.A, ground.floor], friction: 0.4}, toe: {of: [box.B, ground.floor], friction: 0.4}"
+
+
+@pytest.mark.parametrize(("contacts", "about"), [(OUTLINE, ""), (CORNERS, " about `toe`")])
+@pytest.mark.parametrize("height", [-0.3, 0.45])
+def test_a_block_that_is_pushed_tips_or_slides_and_that_is_said(contacts, about, height):
+    """Pushed at H above the floor by P it slides at P = μ m g, and tips about its front corner at P H = m g b/2, whichever comes first."""
+    made = motion(PUSHED.replace("CONTACTS", contacts), 1.6, h=height)
+    high = height + 0.5
+    tips, slides = 20 * G * 0.2 / high / 60, 0.4 * 20 * G / 60
+    first = next(change for change in made.changes if change.kind in ("slip", "lift-off"))
+    assert first.t == pytest.approx(min(tips, slides), rel=1e-6)
+    assert first.note.endswith(f"`box` tips{about}" if tips < slides else "`box` slides")

@@ -127,6 +127,9 @@ def _text(value: Any) -> str:
 def _name(value: Any) -> str:
     if isinstance(value, str) and value.strip():
         return str(value)
+    if isinstance(value, list) and len(value) == 2:
+        x, y = value
+        raise refuse("a name is needed here", f"name the place, `points: {{P: [{x}, {y}]}}` of its body, and write `P`")
     raise refuse("a name is needed here", "names are texts; put quotes around one that looks like something else")
 
 

@@ -46,6 +46,7 @@ from freebody.run.records import (
     unit_of,
 )
 from freebody.run.sampling import Times, check_size, output_times
+from freebody.run.tipping import told
 from freebody.solve.instant import Instant, Reaction, Reactions, refuse
 from freebody.solve.rich_tables import PlainText, table
 
@@ -102,8 +103,6 @@ class Run(PlainText):
         """How the run ended."""
         self.events = self.motion.events
         """What happened, in order of time."""
-        self.changes = self.motion.changes
-        """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
 
     def __repr__(self) -> str:
         return f"<run of {self.name!r} to t = {self.end.t:g} s: {self.outcome.sentence}>"
@@ -125,6 +124,11 @@ class Run(PlainText):
         return self.grid() if callable(self.grid) else self.grid
 
     # What happened
+
+    @cached_property
+    def changes(self) -> list[Change]:
+        """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
+        return told(self)
 
     @property
     def impacts(self) -> list[Change]:
