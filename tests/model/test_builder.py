@@ -79,7 +79,8 @@ def test_handles_stand_for_names():
     assert wheel.point("top", (0, np.float64(0.2))) == wheel.top == "wheel.top"
     assert m.model.bodies["wheel"].points == {"rim": [0.2, 0], "top": [0, 0.2]}
     road = m.ground.line("road", m.ground.O, angle="-5 deg")
-    roll = m.rolling(on=road, circle={"centre": wheel.centre, "radius": "200 mm"})
+    assert road == m.ground.road == "ground.road"
+    roll = m.rolling(on=m.ground.road, circle={"centre": wheel.centre, "radius": "200 mm"})
     motor = m.law(along=roll.coordinate, value=3 - roll.coordinate, name="motor")
     assert m.model.forces["motor"].value == "3 - rolling.s"
     assert motor["power"] == "motor.power"

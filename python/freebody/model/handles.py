@@ -34,13 +34,13 @@ def _operand(value: Any) -> str:
 
 
 class Point(str):
-    """A named point, ``body.name``."""
+    """A named point, line or curve, ``body.name``."""
 
     __slots__ = ()
 
 
 class Marked:
-    """A body or the ground. Its points are attributes: ``rod.start``, ``m.ground.O``."""
+    """A body or the ground. Its points, lines and curves are attributes: ``rod.start``, ``m.ground.O``."""
 
     def __init__(self, mechanism: Any, name: str, points: tuple[str, ...] = ()) -> None:
         self._mechanism = mechanism
@@ -64,12 +64,12 @@ class Marked:
         """Names a line through a point, towards another one or at an angle from the body's x axis."""
         turned = {"through": str(through), "angle": 0 if angle is None else angle}
         self._mechanism.mark(self.name, "lines", name, turned if towards is None else [str(through), str(towards)])
-        return f"{self.name}.{name}"
+        return self._has(name)
 
     def curve(self, name: str, shape: Any = None, **coordinates: Any) -> str:
         """Names a curve: ``x=``, ``y=`` as expressions of s, or ``{"arc": …}``, or a list of lines and arcs."""
         self._mechanism.mark(self.name, "curves", name, coordinates or shape)
-        return f"{self.name}.{name}"
+        return self._has(name)
 
     def _has(self, point: str) -> Point:
         handle = Point(f"{self.name}.{point}")
