@@ -9,12 +9,13 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+from freebody import Mechanism
 from freebody.run.peaks import peak_reactions
 from freebody.run.simulation import Run
 from freebody.views.report import report_html, write_report
 from freebody.views.report.data import report_data
 from freebody.views.report.series import Curve, _resolved, plots
-from freebody.views.report.tables import Table, raised
+from freebody.views.report.tables import Table, beside, raised
 
 from .models import run_double_pendulum
 
@@ -103,6 +104,18 @@ def test_lines_that_are_alike_are_one():
     (line, folded), (none, single) = table.groups
     assert line == ["tap, 7 times", "0 to 6", "touch"] and folded == rows[:7]
     assert none is None and single == rows[7:]
+
+
+def test_crossings_up_and_down_are_one_line():
+    swing = "{shape: rod, length: 1, mass: 1}"
+    hinge = "{type: hinge, of: [ground.O, rod.start], coordinate: a}"
+    run = Mechanism.loads(
+        f"freebody: 1\nbodies: {{rod: {swing}}}\njoints: {{pin: {hinge}}}\ninitial: {{a: -30 deg, at_rest: true}}\n"
+        "events: {down: {when: a + 90 deg}}\nrun: {until: 20 s}"
+    ).simulate()
+    [events] = [table for table in beside(run) if table.title == "Events"]
+    [(line, folded)] = events.groups
+    assert line[0] == f"down, {len(run.events)} times" and {row[2] for row in folded} == {"crossing ↑", "crossing ↓"}
 
 
 def test_what_is_round_off_is_zero():

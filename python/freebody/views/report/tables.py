@@ -58,9 +58,9 @@ class Table:
                 yield None, group
 
     def _line(self, group: Sequence[Sequence[str]]) -> list[str]:
-        """The columns in which rows agree, how many they are, and from when to when."""
+        """What is the same in all rows, how many they are, and from when to when."""
         first = self.alike[0]
-        line = [cell if k in self.alike else "" for k, cell in enumerate(group[0])]
+        line = [cells[0] if len(set(cells)) == 1 else "" for cells in zip(*group, strict=True)]
         line[first] = f"{line[first]}, {len(group)} times"
         when = next(k for k, head in enumerate(self.heads) if head == "t / s")
         line[when] = f"{group[0][when]} to {group[-1][when]}"
@@ -93,7 +93,7 @@ def beside(run: Run) -> list[Table]:
     remark = f"the first {_EVENTS} of {len(run.events)}" if len(run.events) > _EVENTS else ""
     tables = (
         Table("Report", ("quantity", "value", "at t / s"), reported),
-        Table("Events", ("event", "t / s", "kind"), events, remark, alike=(0, 2)),
+        Table("Events", ("event", "t / s", "kind"), events, remark, alike=(0,)),
     )
     return [table for table in tables if table.rows]
 
