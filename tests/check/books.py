@@ -88,7 +88,7 @@ class Book:
         """Whether two equations, or what two claims call constant, hold at the same places, whatever the values of their symbols, or are
         one but for a number where these are as joints and laws of forces allow: m R² α is m R a of what rolls."""
         said = [self._equation(text) for text in (one, other)]
-        if "frequenc" in one + other:
+        if "frequenc" in one + other or not self._has_omega:
             name = "ω_1" if self.checker.vibration.count > 1 else "ω_n"
             said = [_OMEGA.sub(name, text) for text in said]
         cases = [self.checker.case(text) for text in said]
@@ -99,10 +99,23 @@ class Book:
         places = cases[0].elsewhere(values)
         at = {n: places[n.key] for n in (*symbols_in(one), *symbols_in(other))}
         scalar = all(np.ndim(value) < 2 for value in at.values())
+        if scalar:  # not every root has a value
+            of_places = 0 * next(iter(at.values()))
+            there = np.isfinite([independent.sides(each, at)[0] + of_places for each in (one, other)]).all(axis=0)
+            at = {n: value[there] for n, value in at.items()}
         if _proportional(one, other, places) or (scalar and independent.says_the_same(one, other, at)):
             return True
         kinematic = any(case.is_kinematic(case.equations[0]) for case in cases)
         return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})
+
+    @cached_property
+    def _has_omega(self) -> bool:
+        """Whether ω means something else than what vibrations have."""
+        known = self.checker.symbols()
+        try:
+            return bool(known.require(known.read("ω = 0")))
+        except StatementError:
+            return False
 
     def _equation(self, text: str) -> str:
         """What is said without the words that say of which motions; of a constant, that it is 0; of a limit, that it is reached."""

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from books import FILES, Book
+from books import FILES, UNSEEN, Book
 from ruamel.yaml import YAML
 from store import SYSTEMS, family
 
@@ -32,7 +32,7 @@ SAID = {
 def checker(name: str) -> Checker:
     if name in DATA["models"]:
         return Checker(Mechanism.loads(DATA["models"][name]))
-    if name in FILES:
+    if name in FILES | UNSEEN:
         return Book(name).checker
     statements = _READ.load((SYSTEMS[f"{name}/model"].parent / "statements.yaml").read_text(encoding="utf-8"))
     return Checker(Mechanism.load(SYSTEMS[f"{name}/model"]), statements.get("letters"))

@@ -133,6 +133,27 @@ SLIPS = {
         "at rest: m_1 tan θ = −m_2 b/a",
         "a factor is forgotten",
     ),
+    "inertia beside a damper": ("fluid_coupling", "(b + c) θ2' = c θ1'", "J_2 θ2'' + (b + c) θ2' = c θ1'", "is left out"),
+    "a coordinate of which nothing was said": (
+        "roller_off_a_drum",
+        "ΣF_n: −N = m v²/(R + r)",
+        "ΣF_n: m g cos θ − N = m v²/(R + r)",
+        "is left out",
+    ),
+    "a root": ("teeterboard", "just before he lands: y' = −2 g h", "just before he lands: y' = −√(2 g h)", "root"),
+    "each wheel": (
+        "wagons_with_buffer",
+        "(M_1 + m) ẋ_1 + (M_2 + m) ẋ_2 = const",
+        "(M_1 + m + J/r²) ẋ_1 + (M_2 + m + J/r²) ẋ_2 = const",
+        "throughout",
+    ),
+    "what is 0 at the start": ("driver_on_sprung_seat", "at t = 0: x₂'' = c₂ Z Ω/m₂", "at t = 0: x₂'' = 0", "no place"),
+    "a strand of a belt that drifts": (
+        "elastic_belt",
+        "ω_n² = k (r_1²/J_1 + r_2²/J_2)",
+        "ω_n² = 2 k (r_1²/J_1 + r_2²/J_2)",
+        "a number",
+    ),
     "a letter for a sum": (
         "ship_with_moving_weight",
         "if c = 0: ½ I_O φ'² + ½ m (s'² + s² φ'²) − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",

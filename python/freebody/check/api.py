@@ -21,7 +21,7 @@ from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Node, Quotient, Sym
 from .assumptions import free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
-from .claims import claimed
+from .claims import OMEGA, claimed
 from .families import ALL, Family, NoMotion
 from .language.dimensions import misfit
 from .language.statements import Program, symbols_in
@@ -45,6 +45,7 @@ _BECOMES = {"taut": "taut|tight|stretched|straight", "slack": "slack|loose", "st
 """What changes in words."""
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
+_SMALL = re.compile(r"\s*(?:(?:for|with|at)\s+)?small\b[^:=]*")
 _STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
@@ -90,7 +91,7 @@ class Checker:
         Raises ``StatementError`` and ``ModelProblem``."""
         given = hypothesis or self.hypothesis
         known = self.symbols(letters)
-        known.vibration = self._vibration_of(given)
+        known.vibration = self.vibration_of(given)
         program = known.read(text, units, tight)
         meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
@@ -104,12 +105,24 @@ class Checker:
         ``hypothesis``: the motions of which it is said. Without ``correcting`` it is only judged, which is quicker where it is wrong.
         Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
+        how = (text, letters, hypothesis, correcting)
         try:
-            return self._checked(text, letters, hypothesis, correcting)
-        except StatementError:
-            if found := self._without_laws(text, letters, hypothesis, correcting):
+            return (_SMALL.match(text) and self._of_frequencies(*how)) or self._checked(*how)
+        except StatementError as error:
+            is_of_omega = re.search("`(?:ω|omega)`", error.what) is not None
+            if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
                 return found
             raise
+
+    def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
+        """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
+        known, (condition, _, said) = self.symbols(letters), text.rpartition(":")
+        if "frequencies:" in text or "ω" in known.meanings or not OMEGA.search(said):
+            return None
+        with suppress(StatementError):
+            if {n.name for n in symbols_in(known.read(OMEGA.sub("(1)", said)))} <= {*known.constants}:
+                return self.check(f"frequencies: {said if _SMALL.fullmatch(condition) else text}", letters, *how)
+        return None
 
     def _without_laws(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where what cannot be read begins with a law, and says something behind it; where both can be read, about both."""
@@ -163,7 +176,7 @@ class Checker:
         other.correcting = self.correcting
         return other
 
-    def _vibration_of(self, family: Family) -> Vibration:
+    def vibration_of(self, family: Family) -> Vibration:
         """The vibration of the model; where parameters have a number of their own, with that: it may rest nowhere else."""
         held = tuple((name, float(value)) for name, value in family.held if str(value).replace(".", "", 1).isdecimal())
         if not held:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 _AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _STEPS = 2000  # of a run, which is short
+_TO_MOMENT = 20_000  # of one up to a moment
 _MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
 _DEPENDENT = (
@@ -89,7 +90,7 @@ class AskedModel:
         """The state at the moment of the motion from a start, with ``rates`` or those there."""
         if rates is not None:
             state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
-        found = state_of(self.mechanism, state, self.core, **self.moment) if not self.stated else state
+        found = state if self.stated else state_of(self.mechanism, state, self.core, **self.moment, max_steps=_TO_MOMENT)
         is_new = found.history is None and self.restricted  # what holds there shows as it begins to move
         return replace(self.run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
 
@@ -108,11 +109,11 @@ class AskedModel:
 
     @cached_property
     def is_held(self) -> bool:
-        """Whether friction of joints or a limit that is closed, and does not stretch, decides what moves."""
+        """Whether friction of joints or a limit that is closed, other than a taut string, decides what moves."""
         rough = any(joint.get("friction") for joint in self.spec["joints"])
-        elastic = {string["name"] for string in self.spec["strings"] if string.get("stiffness") is not None}
+        strings = {string["name"] for string in self.spec["strings"]}
         limits = self.core.instant(self.own if self.moment else self.first).limits
-        return rough or not all(limit.is_open for name, limit in limits.items() if name not in elastic)
+        return rough or not all(limit.is_open for name, limit in limits.items() if name not in strings)
 
     def at_moment_with(self, values: Mapping[str, float]) -> State:
         """The state at the moment with other parameters. Raises ``MotionError`` and ``ModelProblem``."""
@@ -197,6 +198,12 @@ class AskedModel:
         """Free parameters that are a coefficient of friction."""
         rough = [*self.spec["contacts"], *(joint.get("friction") or {} for joint in self.spec["joints"])]
         written = [item.get(word) for item in rough for word in ("friction", "static_friction", "kinetic", "fixed")]
+        return [name for name in self.free_parameters if name in written]
+
+    @cached_property
+    def dampings(self) -> list[str]:
+        """Free parameters that are a coefficient of damping."""
+        written = [force["with"].get(word) for force in self.spec["forces"] for word in ("damping", "coefficient")]
         return [name for name in self.free_parameters if name in written]
 
     @cached_property

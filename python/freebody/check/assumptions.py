@@ -292,6 +292,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         return replace(given, at_rest=True, vanishing=(*given.vanishing, *still))
     if part in WORDS:
         return replace(given, **WORDS[part])
+    if lost := {"without damping": checker.sampler.dampings, "without friction": checker.sampler.frictions}.get(part):
+        return replace(given, held=(*given.held, *((name, 0.0) for name in lost)))
     if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(.+)", part):
         return _with_limit(given, found[1], found[2], checker, declared)
     if found := _ABOVE.fullmatch(part):

@@ -232,7 +232,8 @@ class StatementSymbols:
         some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
-        names = [c["name"] for c in self.sampler.coordinates if c["name"].isidentifier() and c["name"] in self.symbols.meanings]
+        measured = (*self.sampler.coordinates, *self.sampler.metadata["closure_coordinates"])
+        names = [c["name"] for c in measured if c["name"].isidentifier() and c["name"] in self.symbols.meanings]
         found = [*movable, *(Sym(name) for name in names if (name,) not in said)]
         declared = [n for n in map(Sym, self.symbols.of_kind("declared")) if n not in found and self._moves(n)]
         return [*found, *declared[: max(len(self.sampler.coordinates) - len(found), 0)]]

@@ -32,7 +32,7 @@ from .motion_sampler import touching
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 from .worded_claims import IN_WORDS, beside_event, in_words, labelled
-from .wording import as_claim, with_condition_first
+from .wording import as_claim, rooted, with_condition_first
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -73,7 +73,7 @@ def _defined(text: str) -> tuple[dict[str, str], str]:
     lines = [found for line in said if (found := _NAME.fullmatch(line))]
     if ":" not in last or not lines or len(lines) < len(said):
         return {}, text
-    return {found[1]: found[2] for found in lines}, claim
+    return dict(rooted(*found.groups()) for found in lines), claim
 
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
@@ -154,9 +154,9 @@ def _is_of_places(case: Case) -> bool:
 
 def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
     """An equation that each natural frequency satisfies."""
-    count = checker.vibration.count
+    count = checker.vibration_of(checker.hypothesis).count
     names = [f"ω_{i}" for i in range(1, count + 1)] if count > 1 else ["ω_n"]
-    verdicts = [checker.check(_OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names]  # type: ignore[misc]
+    verdicts = [checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names]  # type: ignore[misc]
     return next((verdict for verdict in verdicts if not verdict.ok), verdicts[0])
 
 
@@ -372,7 +372,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-_OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
+OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"

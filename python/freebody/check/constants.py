@@ -30,6 +30,7 @@ from .residual import magnitude
 from .slips import why
 from .solve_for_term import RequiredTerm, parts_inside
 from .stated import Correction, stated
+from .throughout import throughout
 
 if TYPE_CHECKING:
     from .case import Case
@@ -122,7 +123,9 @@ class _Search:
         return chain(*(of(self.equation, self.vocabulary) for of in (edits, conventions, forgotten_factors)))
 
     def _fitted(self, node: Node) -> Iterator[Edit]:
-        return chain(self._factors(node), self._coefficients(node), self._missing(node))
+        left = lambda equation: self._changes(sampled(equation.left, self.values))
+        each_time = throughout(Equation(node, _ZERO), self.vocabulary, self._sizes, left, self._of_motions)
+        return chain(self._factors(node), self._coefficients(node), self._missing(node), each_time)
 
     def _left(self, node: Node) -> float:
         """By how much it changes beside its terms."""

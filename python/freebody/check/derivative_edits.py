@@ -18,10 +18,11 @@ from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, walk
 
 from .coefficients import multiplied
 from .edits import Edit, conventions, depth, edits, forgotten_factors
-from .fitted_edits import FittedEdits, proportional
+from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation
 from .solve_for_term import required_terms
+from .spans import proportional
 
 if TYPE_CHECKING:
     from .case import Case

@@ -11,30 +11,33 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, walk
 
-from .coefficients import more, multiplied, powered, product, recognised, snapped
+from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
+from .roots import rooted
 from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, required_terms
+from .spans import proportional, spanning
 from .square_edits import SquareEdits
+from .throughout import throughout
 from .vocabulary import Vocabulary
+from .weights import pressing
 
 _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _NEARLY = 1e-5  # relative spread below which one is meant
-_LIKELY = 60  # terms of which pairs with all others are tried
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
-_MOST_LENGTHS = 5  # of which sums and differences are thought of
+_MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
 
 @dataclass
@@ -58,6 +61,7 @@ class FittedEdits:
         with np.errstate(all="ignore"):
             yield from shared_ratios(equation, self.values, self.vocabulary, self.blur)
             yield from self.of_parts(equation, required_terms(equation, self.values))
+            yield from throughout(equation, self.vocabulary, self._sizes, self._left)
 
     def of_parts(self, equation: Equation, needed: Iterable[RequiredTerm]) -> Iterator[Edit]:
         """The edits after which parts of an equation are what is needed."""
@@ -73,8 +77,9 @@ class FittedEdits:
             if required.addend:
                 yield from self._forgotten(equation, required)
                 yield from self._factors(equation, required)
+            yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
             yield from self._squares.edits(equation, required)
-            yield from self._weights(equation, required)
+            yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
                 yield from self._parts(equation, required)
             if isinstance(node, Add) or id(node) in whole:
@@ -148,24 +153,21 @@ class FittedEdits:
     def _squares(self) -> SquareEdits:
         return SquareEdits(self.values, self.vocabulary)
 
+    def _left(self, equation: Equation) -> Array:
+        """What the sides of an equation differ by."""
+        return np.asarray(sampled(equation.left, self.values) - sampled(equation.right, self.values))
+
+    @cached_property
+    def _sizes(self) -> Monomials:
+        """Products of quantities of the model."""
+        sizes = [n for n in self.vocabulary.parameters if n not in self.vocabulary.angular]
+        return Monomials(self.values, sizes, [()], self.blur)
+
     @cached_property
     def _known(self) -> list[Sym]:
         known = self.vocabulary
         moving = [Sym(q.name, dots) for q in known.coordinates for dots in range(3)]
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
-
-    def _weights(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A force for a weight: the normal force where something else presses, too."""
-        node = required.node
-        factors = node.factors if isinstance(node, Mul) else ()
-        mass = next((n for n in factors if isinstance(n, Sym) and self.vocabulary.parameters.get(n) == MASS), None)
-        if mass is None or Sym("g") not in factors or required.needed.ndim != 1:
-            return
-        rest = [n for n in factors if n not in (mass, Sym("g"))]
-        needed = required.needed / sampled(product(rest), self.values)
-        for force in self.vocabulary.others:
-            if self.vocabulary.dimension(force) == FORCE and np.allclose(self.values[force.key], needed, rtol=_SAME, atol=0):
-                yield Edit.at(equation, "symbol", node, product([*rest, force]))
 
     def _factors(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A term that lacks a number, or a product of powers of symbols."""
@@ -216,7 +218,7 @@ class FittedEdits:
             return
         number, own = powers_of(node)
         sizes = self.vocabulary.sizes
-        still = [n for n in own if not isinstance(n, Sym) or n in sizes]
+        still = [n for n in own if not isinstance(n, Sym) or n in sizes] + _calls(equation)
         lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), (), self.blur).powers(factor)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
             return
@@ -296,12 +298,16 @@ class FittedEdits:
             known, said = self.vocabulary, symbols_in(equation)
             sizes = known.sizes
             sums = [n for n in walk(equation) if isinstance(n, Add) and {_bare(term) for term in n.terms} <= {*sizes}]
-            lengths = [n for n in known.parameters if known.dimension(n) == LENGTH]
+            lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
             pairs = combinations(lengths[:_MOST_LENGTHS], 2)
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
             pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
+            pairs += [Add(pair) for pair in combinations(masses[:_MOST_LENGTHS], 2)]
             own = [n for n in bases if n in said]
-            every = known.shapes(self._of(equation), [n for n in said if n in known.others], self._angles(equation))
+            moving = [n for n in said if n in known.others]
+            fixed = lambda n: n.symbols <= {*known.parameters}
+            calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
+            every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
             shapes = (shape for shape in every if not any(map(self._is_number, shape)))
             self._terms[equation] = Monomials(
                 self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *pairs, *bases)), shapes, self.blur
@@ -329,7 +335,7 @@ class FittedEdits:
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self.dictionary(equation, NUMBER_ONLY)
-            for pair in self.within(_spanning(rows, required.missing, self.within)):
+            for pair in self.within(spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
@@ -405,24 +411,10 @@ def _linear(term: Node) -> Node:
     return without_ones(term)
 
 
+def _calls(equation: Equation) -> list[Fn]:
+    """The functions of one number that stand in an equation."""
+    return [n for n in dict.fromkeys(walk(equation)) if isinstance(n, Fn) and len(n.args) == 1]
+
+
 def _bare(node: Node) -> Node:
     return node.of if isinstance(node, Negative) else node
-
-
-def proportional(rows: Array, wanted: Array, same: float = _SAME) -> list[int]:
-    """Rows that are ``wanted`` but for a factor."""
-    with np.errstate(all="ignore"):
-        dots, sizes = rows @ wanted, np.sum(rows**2, axis=1)
-        off = np.abs(rows * (dots / sizes)[:, None] - wanted).max(axis=1)
-    return np.flatnonzero(off <= same * np.abs(wanted).max()).tolist()
-
-
-def _spanning(rows: Array, wanted: Array, within: Callable[[Iterable[int]], Iterator[int]]) -> Iterator[tuple[int, int]]:
-    """Pairs of rows of which ``wanted`` is made, the first among those most like it."""
-    sizes = np.linalg.norm(rows, axis=1)
-    order = np.argsort(-np.abs(rows @ wanted) / sizes)[:_LIKELY]
-    for i in within(order.tolist()):
-        along = rows[i] / sizes[i]
-        rest, others = wanted - (wanted @ along) * along, rows - np.outer(rows @ along, along)
-        others[np.linalg.norm(others, axis=1) < 1e-6 * sizes] = np.nan
-        yield from ((i, j) for j in proportional(others, rest) if i < j or j not in order)

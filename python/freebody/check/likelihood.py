@@ -102,10 +102,19 @@ class Likelihood:
             case "symbol", _, new:
                 return self._of_symbols(new)
             case "missing term" | "other term", _, new:
-                return _BOUND * self._at_instant + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
+                undoes = edit.kind == "missing term" and self._undoes(edit.after)
+                odd = _BOUND * self._at_instant + _ODD * undoes
+                return odd + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
         return 0.0
+
+    def _undoes(self, after: Equation) -> bool:
+        """Whether what is new takes away, at every true state, one of several terms as it is written."""
+        made = [_numbers(term, self.values) for term in terms(after, expand=True) if term not in self._expanded]
+        own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
+        whole = len(terms(self.equation)) > 1
+        return whole and any(np.allclose(np.abs(one), np.abs(value), rtol=_SAME, atol=0) for one in made for value in own)
 
     def _of_extra_term(self, term: Node) -> float:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
@@ -207,11 +216,22 @@ class Likelihood:
         """Of an acceleration, or a force that does no work along a coordinate, beside energies or momenta alone."""
         known = self.vocabulary
         loads = [n for n in term.symbols if n not in known.parameters and known.is_load(n)]
-        if not loads or any(known.is_load(n) for n in self._said if n not in known.parameters):
+        if not loads or self._is_balance or any(known.is_load(n) for n in self._said if n not in known.parameters):
             return 0.0
         if not any(map(known.is_rate, self._said)) or any(n in known.coordinates and not n.dots for n in term.symbols):
             return math.inf if any(n.dots == 2 for n in loads) and any(map(known.is_rate, self._said)) else 0.0
         return _MIXED if all(n in known.letters for n in loads) else math.inf
+
+    @cached_property
+    def _is_balance(self) -> bool:
+        """Whether it can only be one of forces or moments, as its dimension says, or a term with one rate, as of a damper."""
+        known = self.vocabulary
+        its = {dimension(term, known.dimensions) for term in self._expanded}
+        rates = [
+            sum(n for base, n in powers_of(term)[1].items() if isinstance(base, Sym) and known.is_rate(base))
+            for term in self._expanded
+        ]
+        return FORCE in its or (ENERGY in its and 1 in rates)
 
     def _is_part_of_mass(self, term: Node) -> bool:
         """Whether it is a third or so of a mass times its acceleration: such numbers belong to rods that turn."""
@@ -259,13 +279,12 @@ def _bare(node: Node) -> Node:
 
 
 def _cancels(equation: Equation) -> bool:
-    """Whether a term stands in a sum beside its opposite."""
-    for node in walk(equation):
-        if isinstance(node, Add):
-            found = addends(node)
-            if any(sign > 0 and (-1, term) in found for sign, term in found):
-                return True
-    return False
+    """Whether a term stands in a sum beside its opposite, or on both sides."""
+    sums = [addends(node) for node in walk(equation) if isinstance(node, Add)]
+    if any(sign > 0 and (-1, term) in found for found in sums for sign, term in found):
+        return True
+    left, right = (addends(side) for side in (equation.left, equation.right))
+    return len(left) + len(right) > 2 and any(each in right and not is_zero(each[1]) for each in left)
 
 
 def _is_place(base: Node, known: Vocabulary) -> bool:

@@ -156,11 +156,11 @@ class Reading:
 
     def _measured(self, program: Program, names: Sequence[str]) -> Program:
         """The same, where 98.1 N is a measure though N is a symbol, if dimensions fit so, too."""
-        if _MEASURE.search(self.text):
+        if measures := {found.end() for found in _MEASURE.finditer(self.text)}:
             with suppress(StatementError):
                 other = self._eliminated(self._parsed(names, units=True), chains=True)
-                more = sum(isinstance(n, Unit) for n in walk(other)) > sum(isinstance(n, Unit) for n in walk(program))
-                if more and not misfit(other, self.known.dimensions, strictly=True):
+                said, units = ({n.span[0] for n in walk(each) if isinstance(n, Unit)} for each in (program, other))
+                if said < units <= said | measures and not misfit(other, self.known.dimensions, strictly=True):
                     return other
         return program
 

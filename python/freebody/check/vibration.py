@@ -1,5 +1,5 @@
-"""The small vibrations of a model about a place of rest: natural frequency, damping ratio, period; of several freedoms without damping, its
-natural frequencies."""
+"""The small vibrations of a model about a place of rest: natural frequency, damping ratio, period; of several freedoms its natural
+frequencies."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ _QUANTITIES = {
 }
 _STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
 _NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
+_APART = 0.1  # of what is typical of each coordinate, to a place where linear equations may be others
 _LENGTHS = 3.0  # of the model, within which a place of rest is looked for
 
 
@@ -101,8 +102,16 @@ class Vibration:
 
     @cached_property
     def _later(self) -> bool:
-        """Whether events have changed what moves."""
-        return self.sampler.restricted
+        """Whether events have changed what moves, or where it is follows from its start."""
+        return self.sampler.restricted or self.sampler.rolls_in_loop
+
+    def _at_rest(self, state: State) -> State | None:
+        """The place of rest next to a state; where nothing holds it, but its linear equations are everywhere the same, that place."""
+        core, sampler = self.sampler.core, self.sampler
+        if (rest := rest_near(core, state)) is not None:
+            return rest
+        a, other = (state_space(core, each).a for each in (state, sampler.moved(state, state.q + _APART * sampler.sizes, {})))
+        return state if a.shape == other.shape and np.abs(a - other).max() <= _NOTHING * np.abs(a).max() else None
 
     @staticmethod
     def _placed(state: State) -> State:
@@ -130,7 +139,7 @@ class Vibration:
             if not free:
                 return None
             if len(free) > 1 or self._later:
-                rest = rest_near(core, first)
+                rest = self._at_rest(first)
                 return rest if rest and _swings(state_space(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
@@ -163,8 +172,8 @@ class Vibration:
         core, rest, values = self.sampler.core, self.rest, dict(zip(self.parameters, row.tolist(), strict=True))
         if self._later:
             try:
-                there = rest_near(core, self._placed(self.sampler.at_moment_with(values)))
-            except (MotionError, ModelError, ModelProblem):
+                there = self._at_rest(self._placed(self.sampler.at_moment_with(values)))
+            except (MotionError, ModelError, ModelProblem, SingularConfiguration):
                 return None
             return a if there and _swings(a := state_space(core, there).a) else None
         p = core.bind(values)
@@ -174,8 +183,8 @@ class Vibration:
                 try:
                     there = rest.p + done * (p - rest.p)
                     near, _ = core.assemble(there, rest.t, guess=dict(zip(self.sampler.names, state.q.tolist(), strict=True)))
-                    state = rest_near(core, near.at(near.q))
-                except (MotionError, ModelError):
+                    state = self._at_rest(near.at(near.q))
+                except (MotionError, ModelError, SingularConfiguration):
                     state = None
                 if state is None:
                     break
@@ -190,14 +199,16 @@ def _swings(a: Array) -> bool:
 
 
 def _squares(a: Array) -> Array:
-    """The squares of the natural frequencies of the linear equations of several freedoms without damping, the least first, without those
-    that are 0; none where it is damped or not stable."""
+    """The squares of the natural frequencies of the linear equations of several freedoms, those without their damping, the least first and
+    without those that are 0; none where it is not stable, or rates bind it otherwise than dampers do."""
     n = len(a) // 2
-    stiff, damped = -a[n:, :n], a[n:, n:]
+    stiff, damped = -a[n:, :n], -a[n:, n:]
     found = np.linalg.eigvals(stiff) if len(a) == 2 * n else np.zeros(1)
     most = float(np.abs(found).max())
+    # of dampers they are real, of gyroscopic forces imaginary
+    fading = np.linalg.eigvals(damped) if len(a) == 2 * n else np.zeros(1)
     if (
-        np.abs(damped).max() ** 2 > _NOTHING * most
+        max(np.abs(fading.imag).max(), -fading.real.min()) ** 2 > _NOTHING * most
         or np.abs(found.imag).max() > _NOTHING * most
         or found.real.min() < -_NOTHING * most
     ):

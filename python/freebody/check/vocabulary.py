@@ -95,9 +95,12 @@ class Vocabulary:
                 factors = (*monomial, *shape)
                 yield Mul(factors) if len(factors) > 1 else factors[0] if factors else Num(1.0, "1")
 
-    def shapes(self, wanted: Known, moving: Sequence[Sym] = (), angles: Sequence[Node] = ()) -> Iterator[tuple[Node, ...]]:
-        """What changes with the motion, in equations of a dimension, times sines and cosines; plain ones first."""
+    def shapes(
+        self, wanted: Known, moving: Sequence[Sym] = (), angles: Sequence[Node] = (), calls: Sequence[Node] = ()
+    ) -> Iterator[tuple[Node, ...]]:
+        """What changes with the motion, in equations of a dimension, times sines and cosines or other ``calls``; plain ones first."""
         functions = [*self._shapes, *((Fn(name, (angle,)),) for angle in angles for name in ("sin", "cos"))]
+        functions += [(call,) for call in calls]
         dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
 

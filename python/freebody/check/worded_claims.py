@@ -75,7 +75,8 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
                 return replace(verdicts[-1], notes=(*verdicts[-1].notes, f"`{words}` is read as after {name}."))
     if "constant:" in statement or any(verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS) for verdict in verdicts):
         raise problem
-    nearest = min(verdicts, key=lambda verdict: verdict.mends[0].size if verdict.mends else np.inf)
+    gone = lambda verdict: any(kind == "extra term" for kind, *_ in verdict.mends[0].edits)  # what it is of may not be there
+    nearest = min(verdicts, key=lambda verdict: (gone(verdict), verdict.mends[0].size) if verdict.mends else (True, np.inf))
     where = " or after ".join(["at first", *happens])
     return replace(nearest, notes=(*nearest.notes, f"`{words}` is not judged: it does not hold {where}."))
 

@@ -22,13 +22,17 @@ _FREQUENCIES = re.compile(
 LASTS = re.compile(r"(?:while|until|during)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
 _WORDS = re.compile(r"[A-Za-z\s'-]+")
+_WITHOUT = re.compile(
+    r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
+    r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b,?\s*"
+)
 _NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
 _SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
-_SMALL = re.compile(rf"\A\s*small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
-"""``small θ:``, ``small φ, s:``, without a word before it; a small block is no angle."""
+_SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
+"""``small θ:``, ``for small φ and s:``; a small block is no angle."""
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
 _STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
@@ -117,6 +121,9 @@ def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
     text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", _SMALL.sub(_all_small, _LABELLED.sub("", text))))
     label, colon, rest = text.partition(":")
+    if colon and "=" in rest and (found := _WITHOUT.search(label)):
+        others = f"{label[: found.start()]} {label[found.end() :]}".strip()
+        return f"if without {'friction' if any(found.groups()) else 'damping'}: {f'{others}:' if others else ''}{rest}"
     if colon and "=" in rest and (found := _FREQUENCIES.search(label)):
         before = label[: found.start()].strip()
         return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
@@ -184,6 +191,12 @@ def _condition(part: str) -> str:
     if _STEADY.fullmatch(said):
         return "in the steady state"
     return "at rest" if said == "rest" else said
+
+
+def rooted(name: str, said: str) -> tuple[str, str]:
+    """What a line gives, ``p = …``; of ``p² = …`` that is the root."""
+    square = re.fullmatch(r"(.+?)(?:²|\^\{?2\}?)", name)
+    return (square[1], f"sqrt({said})") if square else (name, said)
 
 
 def _component(vector: str, axis: str) -> str:

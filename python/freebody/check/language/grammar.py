@@ -354,7 +354,8 @@ class Line:
         ends, at, some_unknown = [], start, False
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
-            named = self.names.find(folded(found["word"])) is not None
+            is_known = lambda name: self.names.find(folded(name)) is not None
+            named = is_known(word := found["word"]) or (word not in units.COMMON and all(map(is_known, word)))  # 2md is no day
             known = named and not (common and found["word"] in units.COMMON)
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
                 break
