@@ -8,7 +8,7 @@ use crate::kinematics::StateView;
 use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
 use crate::scalar::Scalar;
-use crate::solve::{IslandMemory, Islands, Matrix, Orthogonal, SaddleError, Solution, Whole};
+use crate::solve::{Equations, IslandMemory, Islands, Matrix, Orthogonal, SaddleError, Solution, Whole};
 
 /// Memory of the dense solution.
 #[derive(Clone, Debug, Default)]
@@ -173,10 +173,11 @@ impl Workspace<'_> {
             rows_in_coordinates(at, &self.rows, self.length, Row::loads, &mut d.b, &mut d.sizes);
         }
         let b = own.then_some(&d.b);
-        d.is_whole = wanted == Wanted::Motion && d.whole.refactor(&d.mass, &d.g, b, &d.scales, &d.columns);
+        let of = Equations { mass: &d.mass, g: &d.g, b, row_scale: &d.scales, col_scale: &d.columns };
+        d.is_whole = wanted == Wanted::Motion && d.whole.refactor(of);
         let factored = match d.is_whole {
             true => Ok(()),
-            false => d.saddle.refactor(&d.mass, &d.g, b, &d.scales, &d.columns),
+            false => d.saddle.refactor(of),
         };
         let is_target = |row: &Row| row.source == Source::TARGET;
         d.factored.is_known =

@@ -41,16 +41,10 @@ struct Island {
 }
 
 impl Islands {
-    /// Factors other equations; arguments as those of [`Saddle::factor`]. After an error [`rank`](Self::rank),
+    /// Factors other equations. After an error [`rank`](Self::rank),
     /// [`motions`](Self::motions) and [`self_stress`](Self::self_stress) still hold.
-    pub fn refactor(
-        &mut self,
-        mass: &Matrix,
-        g: &Matrix,
-        b: Option<&Matrix>,
-        row_scale: &[f64],
-        col_scale: &[f64],
-    ) -> Result<(), SaddleError> {
+    pub fn refactor(&mut self, of: Equations) -> Result<(), SaddleError> {
+        let Equations { mass, g, b, .. } = of;
         self.size = [g.rows(), g.cols()];
         let groups = self.groups.find(mass, g, b);
         self.islands.resize_with(groups, Island::default);
@@ -69,7 +63,7 @@ impl Islands {
         let mut done = Ok(());
         for island in &mut self.islands {
             let Island { unknowns, rows, saddle } = island;
-            let factored = saddle.refactor_part(Equations { mass, g, b, row_scale, col_scale }, [rows, unknowns]);
+            let factored = saddle.refactor_part(of, [rows, unknowns]);
             done = done.and(factored.map_err(|error| spread_out(error, unknowns, self.size[1])));
         }
         done

@@ -23,7 +23,7 @@ pub use islands::{IslandMemory, Islands};
 pub use matrix::Matrix;
 pub use ordering::minimum_degree;
 pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};
-pub use saddle::{Saddle, SaddleError, Solution};
+pub use saddle::{Equations, Saddle, SaddleError, Solution};
 pub use simplex::keep_above;
 pub use sparse::{Accuracy, Factor, Pattern, Stalled};
 pub use whole::Whole;

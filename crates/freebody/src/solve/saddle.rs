@@ -64,11 +64,16 @@ struct Steps {
 
 /// The matrices of [`Saddle`] with their scales.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Equations<'a> {
+pub struct Equations<'a> {
+    /// M, n × n.
     pub mass: &'a Matrix,
+    /// G, m × n.
     pub g: &'a Matrix,
+    /// B, m × n; G if none.
     pub b: Option<&'a Matrix>,
+    /// Scales of the rows, m positive numbers.
     pub row_scale: &'a [f64],
+    /// Scales of the unknowns, n positive numbers.
     pub col_scale: &'a [f64],
 }
 
@@ -111,36 +116,16 @@ impl fmt::Display for SaddleError {
 impl std::error::Error for SaddleError {}
 
 impl Saddle {
-    /// Factors M (n × n), G (m × n) and B (m × n; G if none) under the given scales (m and n positive
-    /// numbers). The arithmetic grows as n³.
-    pub fn factor(
-        mass: &Matrix,
-        g: &Matrix,
-        b: Option<&Matrix>,
-        row_scale: &[f64],
-        col_scale: &[f64],
-    ) -> Result<Saddle, SaddleError> {
-        let mut s = Saddle::default();
-        s.refactor(mass, g, b, row_scale, col_scale)?;
-        Ok(s)
-    }
-
-    /// Factors other equations in the same memory. After an error [`rank`](Self::rank),
+    /// Factors equations, in the memory of those before; the arithmetic grows as n³. After an error [`rank`](Self::rank),
     /// [`motions`](Self::motions) and [`self_stress`](Self::self_stress) still hold.
-    pub fn refactor(
-        &mut self,
-        mass: &Matrix,
-        g: &Matrix,
-        b: Option<&Matrix>,
-        row_scale: &[f64],
-        col_scale: &[f64],
-    ) -> Result<(), SaddleError> {
+    pub fn refactor(&mut self, of: Equations) -> Result<(), SaddleError> {
+        let Equations { mass, g, b, row_scale, col_scale } = of;
         let (m, n) = (row_scale.len(), col_scale.len());
         assert_eq!((mass.rows(), mass.cols()), (n, n), "M is n × n");
         assert_eq!((g.rows(), g.cols()), (m, n), "G is m × n");
         assert!(b.is_none_or(|b| (b.rows(), b.cols()) == (m, n)), "B is m × n");
         let all = [(0..m).collect::<Vec<_>>(), (0..n).collect()];
-        self.refactor_part(Equations { mass, g, b, row_scale, col_scale }, [&all[0], &all[1]])
+        self.refactor_part(of, [&all[0], &all[1]])
     }
 
     /// Factors some rows of the equations for some of their unknowns.

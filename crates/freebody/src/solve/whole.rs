@@ -23,15 +23,9 @@ pub struct Whole {
 }
 
 impl Whole {
-    /// Factors other equations, as [`Saddle::factor`](super::Saddle::factor) has them; false where it declines.
-    pub fn refactor(
-        &mut self,
-        mass: &Matrix,
-        g: &Matrix,
-        b: Option<&Matrix>,
-        row_scale: &[f64],
-        col_scale: &[f64],
-    ) -> bool {
+    /// Factors other equations, false where it declines.
+    pub fn refactor(&mut self, of: Equations) -> bool {
+        let Equations { mass, row_scale, col_scale, .. } = of;
         let size = row_scale.len() + col_scale.len();
         if size > MOST {
             return false;
@@ -40,7 +34,6 @@ impl Whole {
         if inertia <= 0.0 || !inertia.is_finite() {
             return false;
         }
-        let of = Equations { mass, g, b, row_scale, col_scale };
         with_length!(size, |size| self.set_up(size, of, inertia));
         self.matrix.data().iter().all(|entry| entry.is_finite()) && self.lu.refactor(&self.matrix, CLEAR).is_ok()
     }

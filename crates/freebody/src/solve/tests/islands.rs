@@ -1,5 +1,5 @@
-use super::super::{Islands, Matrix, Saddle};
-use super::{distance, Random};
+use super::super::{Islands, Matrix};
+use super::{distance, factored, unscaled, Random};
 
 /// Equations of two or three groups, their unknowns and rows mixed up, have the solution of the whole: the same
 /// accelerations, multipliers, rank, and counts of motions and self-stresses.
@@ -22,10 +22,10 @@ fn groups_are_solved_as_the_whole() {
         g.row_mut(groups).copy_from_slice(&twice);
         let f = random.vector(n);
         let r = g.mul_vec(&random.vector(n));
-        let (rows, cols) = (vec![1.0; m], vec![1.0; n]);
-        let whole = Saddle::factor(&mass, &g, None, &rows, &cols).expect("factors");
+        let of = unscaled(&mass, &g);
+        let whole = factored(of).expect("factors");
         let mut parts = Islands::default();
-        parts.refactor(&mass, &g, None, &rows, &cols).expect("factors");
+        parts.refactor(of).expect("factors");
         let (a, b) = (parts.solve(&f, &r), whole.solve(&f, &r));
         assert!(distance(&a.a, &b.a) < 1e-9, "case {case}: accelerations");
         assert!(distance(&a.lambda, &b.lambda) < 1e-9, "case {case}: multipliers");

@@ -1,6 +1,6 @@
 //! Properties of the solvers on random problems, from seeds so that a failure can be repeated.
 
-use super::Matrix;
+use super::{Equations, Matrix, Saddle, SaddleError};
 
 mod dense;
 mod islands;
@@ -35,6 +35,17 @@ impl Random {
     pub fn matrix(&mut self, rows: usize, cols: usize) -> Matrix {
         Matrix::from_fn(rows, cols, |_, _| self.unit())
     }
+}
+
+/// Equations without scales, actuated as they are constrained.
+pub fn unscaled<'a>(mass: &'a Matrix, g: &'a Matrix) -> Equations<'a> {
+    let ones = &[1.0; 200];
+    Equations { mass, g, b: None, row_scale: &ones[..g.rows()], col_scale: &ones[..mass.cols()] }
+}
+
+pub fn factored(of: Equations) -> Result<Saddle, SaddleError> {
+    let mut saddle = Saddle::default();
+    saddle.refactor(of).map(|()| saddle)
 }
 
 /// max |x − y| / max |y|.

@@ -1,5 +1,5 @@
-use super::super::{dot, max_abs, Lu, Matrix, Saddle, SaddleError, Solution, Whole};
-use super::{distance, Random};
+use super::super::{dot, max_abs, Equations, Lu, Matrix, Saddle, SaddleError, Solution, Whole};
+use super::{distance, factored, unscaled, Random};
 
 /// A random instant: n unknowns, m rows of rank r, masses over two decades either way.
 struct Instant {
@@ -31,8 +31,12 @@ impl Instant {
         }
     }
 
+    fn equations<'a>(&'a self, b: Option<&'a Matrix>) -> Equations<'a> {
+        Equations { mass: &self.mass, g: &self.g, b, row_scale: &self.rows, col_scale: &self.cols }
+    }
+
     fn factor(&self, b: Option<&Matrix>) -> Result<Saddle, SaddleError> {
-        Saddle::factor(&self.mass, &self.g, b, &self.rows, &self.cols)
+        factored(self.equations(b))
     }
 
     /// The largest residual as a fraction of the largest term, in forces and in rows.
@@ -94,7 +98,7 @@ fn the_whole_has_the_same_solution_or_declines() {
             let row: Vec<f64> = p.g.row(i).iter().zip(&p.cols).map(|(g, col)| g * col).collect();
             p.rows[i] = 1.0 / dot(&row, &row).sqrt();
         }
-        if whole.refactor(&p.mass, &p.g, None, &p.rows, &p.cols) {
+        if whole.refactor(p.equations(None)) {
             assert_eq!(spare, 0, "seed {seed}: a redundant row");
             whole.solve_into(&p.f, &p.r, &mut found);
             let s = p.factor(None).unwrap().solve(&p.f, &p.r);
@@ -106,7 +110,7 @@ fn the_whole_has_the_same_solution_or_declines() {
     }
     assert!(solved > 100, "{solved}");
     let massless = Matrix::from_fn(2, 2, |i, j| f64::from(i + j == 0));
-    assert!(!whole.refactor(&massless, &Matrix::zeros(0, 2), None, &[], &[1.0; 2]));
+    assert!(!whole.refactor(unscaled(&massless, &Matrix::zeros(0, 2))));
 }
 
 #[test]
@@ -121,7 +125,8 @@ fn redundant_rows_leave_the_motion_unchanged() {
         let s = saddle.solve(&p.f, &p.r);
         assert!(p.residual(&p.g, &s) < 1e-13, "seed {seed}");
         let short = |a: &Matrix| Matrix::from_fn(rank, n, |i, j| a[(i, j)]);
-        let independent = Saddle::factor(&p.mass, &short(&p.g), None, &p.rows[..rank], &p.cols).unwrap();
+        let independent =
+            factored(Equations { g: &short(&p.g), row_scale: &p.rows[..rank], ..p.equations(None) }).unwrap();
         let a = independent.solve(&p.f, &p.r[..rank]).a;
         // Random rows reach conditions of 1e4 or so.
         assert!(distance(&s.a, &a) < 1e-11, "seed {seed}: {:e}", distance(&s.a, &a));
@@ -156,7 +161,7 @@ fn multipliers_are_least(p: &Instant, saddle: &Saddle, s: &Solution) {
 #[test]
 fn contradictory_rows_are_reported() {
     let (mass, g) = (Matrix::identity(2), Matrix::from_fn(2, 2, |_, j| [1.0, 0.0][j]));
-    let saddle = Saddle::factor(&mass, &g, None, &[1.0; 2], &[1.0; 2]).unwrap();
+    let saddle = factored(unscaled(&mass, &g)).unwrap();
     let agreeing = saddle.solve(&[0.0, 1.0], &[3.0, 3.0]);
     assert!(agreeing.inconsistency < 1e-15);
     let contradictory = saddle.solve(&[0.0, 1.0], &[3.0, 4.0]);
@@ -170,8 +175,7 @@ fn without_inertia(p: &mut Instant, also: Option<&[f64]>) {
     let extra = also.map_or(0, |_| 1);
     let rows =
         Matrix::from_fn(p.g.rows() + extra, n, |i, j| if i < p.g.rows() { p.g[(i, j)] } else { also.unwrap()[j] });
-    let ones = vec![1.0; n];
-    let kernel = Saddle::factor(&Matrix::identity(n), &rows, None, &vec![1.0; rows.rows()], &ones).unwrap().motions();
+    let kernel = factored(unscaled(&Matrix::identity(n), &rows)).unwrap().motions();
     let along = Matrix::from_fn(kernel.cols(), n, |k, j| kernel[(j, k)]);
     p.mass = along.t_mul(&along);
 }
@@ -209,13 +213,13 @@ fn a_motion_without_inertia_is_named() {
 
 #[test]
 fn actuators_must_reach_the_prescribed_motion() {
-    let (mass, ones) = (Matrix::identity(2), [1.0; 2]);
+    let mass = Matrix::identity(2);
     let g = Matrix::from_fn(1, 2, |_, j| [1.0, 0.0][j]);
     let beside = Matrix::from_fn(1, 2, |_, j| [0.0, 1.0][j]);
-    let error = Saddle::factor(&mass, &g, Some(&beside), &ones[..1], &ones).unwrap_err();
+    let error = factored(Equations { b: Some(&beside), ..unscaled(&mass, &g) }).unwrap_err();
     assert!(matches!(error, SaddleError::InsufficientActuation { .. }), "{error}");
     let none = Matrix::zeros(1, 2);
-    let error = Saddle::factor(&mass, &g, Some(&none), &ones[..1], &ones).unwrap_err();
+    let error = factored(Equations { b: Some(&none), ..unscaled(&mass, &g) }).unwrap_err();
     assert_eq!(error, SaddleError::RankMismatch { motion: 1, force: 0 });
 }
 
@@ -227,7 +231,7 @@ fn refactoring_is_the_same_as_factoring() {
         let (n, m) = sizes(&mut random);
         let p = Instant::new(&mut random, n, m, m);
         let b = (seed % 2 == 0).then_some(&p.b);
-        reused.refactor(&p.mass, &p.g, b, &p.rows, &p.cols).unwrap();
+        reused.refactor(p.equations(b)).unwrap();
         assert_eq!(reused.solve(&p.f, &p.r), p.factor(b).unwrap().solve(&p.f, &p.r));
         assert_eq!(reused.dof(), n - m);
     }

@@ -1,5 +1,5 @@
-use super::super::{max_abs, minimum_degree, Factor, Matrix, Pattern, Saddle};
-use super::{distance, Random};
+use super::super::{max_abs, minimum_degree, Factor, Matrix, Pattern};
+use super::{distance, factored, unscaled, Random};
 
 /// Rigid bars with pins, in the plane: three unknowns to a bar, two rows to a pin.
 struct Truss {
@@ -96,9 +96,8 @@ impl Truss {
 
     /// Accelerations by the dense solver, with K's sign of λ.
     fn dense(&self, rhs: &[f64]) -> Vec<f64> {
-        let (n, g) = (3 * self.bars(), self.g());
-        let (rows, cols) = (vec![1.0; g.rows()], vec![1.0; n]);
-        let saddle = Saddle::factor(&self.mass(), &g, None, &rows, &cols).unwrap();
+        let n = 3 * self.bars();
+        let saddle = factored(unscaled(&self.mass(), &self.g())).unwrap();
         saddle.solve(&rhs[..n], &rhs[n..]).a
     }
 }
