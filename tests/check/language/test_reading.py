@@ -87,7 +87,7 @@ ONE_READING = {
     "T = 3 N·m": ["T = 3 N·m"],
     "xdot = 2 m/s": ["ẋ = 2 m/s"],
     "F = 3 N*m": ["F = 3 N m"],
-    "x = 30 °*l": ["x = 30° l"],
+    "x = 30 °*l": ["x = 30° l", r"x = 30^\circ l", r"x = 30^{\circ}\,l"],
     "2*m*g = F": ["2 m g = F"],
     "m · x = m2 · y": ["m·x = m2·y", r"m \cdot x = m_2 \cdot y"],
     "F = (3*i - j) N": ["F = (3 i − j) N", r"F = (3\,i - j)\,\mathrm{N}"],
@@ -196,3 +196,10 @@ def test_spans_point_at_the_characters():
 def test_spelling_reads_back_as_the_same_tree(tree):
     assert parse_expression(spell(tree)) == tree
     assert parse_expression(latex(tree)) == tree
+
+
+def test_letters_of_the_model_are_a_product_before_they_are_an_index():
+    """M g of the model's own is no couple M_g of a guide; a parameter m_b of its own goes before m b."""
+    own = ("M", "g", "m", "b", "m_b")
+    assert spell(parse("Mg + M_g = 0", (*own, "M_g"), own)) == "M*g + M_g = 0"
+    assert spell(parse("mb = 0", (*own, "M_g"), own)) == "m_b = 0"

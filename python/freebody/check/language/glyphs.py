@@ -47,6 +47,8 @@ _SAME = {
 }
 _FRACTION = re.compile("[½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞]|[⁰¹²³⁴-⁹]+⁄[₀-₉]+")
 """A number in small figures."""
+_DEGREE = re.compile(r"\^\s*(?:\{\s*\\circ\s*\}|\\circ(?![A-Za-z]))")
+"""``30^\\circ``."""
 _COMMANDS = {
     **{"cdot": "·", "times": "×", "wedge": "×", "ast": "*"},
     **dict.fromkeys(("approx", "simeq", "cong", "equiv"), "="),
@@ -173,6 +175,9 @@ class _Reader:
             self.at = fraction.end()
             plainly = unicodedata.normalize("NFKC", fraction[0]).replace("⁄", "/")
             return [Glyph(Kind.SIGN, f"({plainly})", (start, self.at))]
+        if degree := _DEGREE.match(self.text, start):
+            self.at = degree.end()
+            return [_plain_glyph("°", (start, self.at))]
         self.at += 1
         if char == "∫":
             return self.integral(start)

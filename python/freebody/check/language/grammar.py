@@ -336,6 +336,8 @@ class Line:
         inside = self.now.kind in CLOSES.values() or self.now.span[0] < start  # ½, or the braces of a fraction
         if inside or self.now.kind == "differential":
             return None
+        if self.now.text == "°" and self.text.startswith("^", self.now.span[0]):
+            return self.unit_of("°", start, self.now.span[1])
         if upright := _UPRIGHT.match(self.text, start):
             # A word with a subscript, or one that is a symbol here, is printed upright as well.
             named = self.text.startswith("_", upright.end()) or (len(upright[1]) > 1 and self.names.find(folded(upright[1])))

@@ -59,8 +59,9 @@ class Names:
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
-        """The declared name of each folded spelling; a name that is spelled just so goes first."""
-        return {**{folded(n): n for n in reversed(self.known)}, **{n: n for n in self.known}}
+        """The declared name of each folded spelling; a name that is spelled just so goes first. ``Mg`` is no M_g where it is M times g."""
+        folding = (n for n in reversed(self.known) if n in self.constants or not self.constants.issuperset(folded(n)))
+        return {**{folded(n): n for n in folding}, **{n: n for n in self.known}}
 
     @cached_property
     def odd(self) -> list[str]:
