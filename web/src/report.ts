@@ -2,6 +2,7 @@ import type { Point, ReportData } from "./data/types";
 import { Choice } from "./loads/choice.svelte";
 import { LoadHistory } from "./loads/loads";
 import { LoadScale } from "./loads/scale.svelte";
+import { shaftsOf } from "./loads/shafts";
 import { ScaleSide } from "./loads/side.svelte";
 import { TimeWindow } from "./plots/window.svelte";
 import { Camera } from "./scene/camera.svelte";
@@ -33,9 +34,10 @@ export class Report {
     this.scale = new LoadScale(this.loads?.usual() ?? { force: 0, couple: 0 }, this.choice);
     this.moment = new Moment(data, this.clock, this.motion, this.loads, this.choice);
     this.window = new TimeWindow(this.clock);
-    this.camera = new Camera(data.scene, () => this.followed());
+    const shafts = this.loads ? shaftsOf(this.clock, this.motion, this.loads, this.scale.unstretched) : [];
+    this.camera = new Camera(data.scene, () => this.followed(), shafts);
     this.zooming = new Zooming(this.camera);
-    this.scaleSide = new ScaleSide(this.clock, this.motion, this.loads, this.scale, this.camera);
+    this.scaleSide = new ScaleSide(shafts, this.camera);
   }
 
   /** Of the loads that something exerts, by its name. */

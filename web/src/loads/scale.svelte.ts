@@ -10,9 +10,14 @@ export class LoadScale {
     private readonly choice: Choice,
   ) {}
 
+  /** px for each N, before anyone has stretched arrows. */
+  get unstretched(): number {
+    return this.usual.force ? LENGTH / this.usual.force : 0;
+  }
+
   /** px for each N. */
   get force(): number {
-    return this.usual.force ? (LENGTH / this.usual.force) * this.choice.stretch : 0;
+    return this.unstretched * this.choice.stretch;
   }
 
   /** rad of an arc for each N·m. */

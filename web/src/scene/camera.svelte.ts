@@ -1,6 +1,9 @@
 import type { Point, Scene } from "../data/types";
+import type { Shaft } from "../loads/shafts";
 
-const ROOM = { aside: 40, above: 30, below: 62 }; // px, for arrows and the scales
+const ROOM = { aside: 40, above: 30, below: 62 }; // px at least, for symbols and the scales
+const LONGEST = 160; // px of an arrow that is made room for: a longer one is a peak, not worth making all else small
+const LABEL = 20; // px beyond its head
 const LEAST = 40; // px, however narrow the stage
 
 const SYMBOL = { least: 6, most: 12 }; // px
@@ -13,10 +16,11 @@ export class Camera {
   readonly #size: number;
   readonly #box: { middle: Point; wide: number; tall: number };
 
-  /** `followed` is what stays in the middle of the stage, if anything. */
+  /** `followed` is what stays in the middle of the stage, if anything; `shafts` are the arrows that it has room for. */
   constructor(
     scene: Scene,
     private readonly followed: () => Point | null,
+    private readonly shafts: Shaft[] = [],
   ) {
     const [x0, x1, y0, y1] = scene.bounds;
     this.#size = scene.size;
@@ -30,15 +34,35 @@ export class Camera {
 
   /** How tall the stage is at its width. */
   tallness(innerHeight: number): number {
-    const wanted = ((this.width - 2 * ROOM.aside) * this.#box.tall) / this.#box.wide + ROOM.above + ROOM.below;
-    return Math.round(Math.min(Math.max(wanted, 240), Math.max(300, 0.62 * innerHeight)));
+    const fit = (this.width - 2 * ROOM.aside) / this.#box.wide;
+    const { above, below } = this.#roomAt(fit);
+    return Math.round(Math.min(Math.max(fit * this.#box.tall + above + below, 240), Math.max(300, 0.62 * innerHeight)));
   }
 
-  /** Pixels a metre when everything fits. */
-  get fit(): number {
-    const [wide, tall] = [this.width - 2 * ROOM.aside, this.height - ROOM.above - ROOM.below];
+  /** px around the mechanism that arrows reach into, at so many pixels a metre. */
+  #roomAt(fit: number): typeof ROOM {
+    const { middle, wide, tall } = this.#box;
+    return this.shafts.reduce((room, { at: [x, y], by: [dx, dy] }) => {
+      const drawn = Math.min(1, LONGEST / Math.hypot(dx, dy));
+      const [right, up] = [drawn * dx + fit * (x - middle[0]), fit * (y - middle[1]) - drawn * dy];
+      return {
+        aside: Math.max(room.aside, Math.abs(right) - (fit * wide) / 2 + LABEL),
+        above: Math.max(room.above, up - (fit * tall) / 2 + LABEL),
+        below: Math.max(room.below, -up - (fit * tall) / 2 + LABEL),
+      };
+    }, ROOM);
+  }
+
+  #fitIn({ aside, above, below }: typeof ROOM): number {
+    const [wide, tall] = [this.width - 2 * aside, this.height - above - below];
     return Math.min(Math.max(wide, LEAST) / this.#box.wide, Math.max(tall, LEAST) / this.#box.tall);
   }
+
+  /** The smaller the mechanism, the farther arrows reach out of it: this settles in a few rounds. */
+  readonly #room = $derived.by(() => Array.from({ length: 4 }).reduce<typeof ROOM>((room) => this.#roomAt(this.#fitIn(room)), ROOM));
+
+  /** Pixels a metre when everything fits. */
+  readonly fit = $derived.by(() => this.#fitIn(this.#room));
 
   /** Pixels a metre. */
   readonly scale = $derived.by(() => this.zoom.k * this.fit);
@@ -56,7 +80,7 @@ export class Camera {
   }
 
   get #level(): number {
-    return (this.height + ROOM.above - ROOM.below) / 2;
+    return (this.height + this.#room.above - this.#room.below) / 2;
   }
 
   readonly #origin: Point = $derived.by(() => {
