@@ -116,11 +116,13 @@ class Checker:
 
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
-        known, (condition, _, said) = self.symbols(letters), text.rpartition(":")
-        if "frequencies:" in text or "ω" in known.meanings or not OMEGA.search(said):
+        condition, _, said = text.rpartition(":")
+        if "frequencies:" in text or not OMEGA.search(said):
             return None
-        with suppress(StatementError):
-            if {n.name for n in symbols_in(known.read(OMEGA.sub("(1)", said)))} <= {*known.constants}:
+        with suppress(StatementError, ModelProblem):  # what letters lack is told of the statement itself
+            known = self.symbols(letters)
+            used = {n.name for n in symbols_in(known.read(OMEGA.sub("(1)", said)))}
+            if "ω" not in known.meanings and used <= {*known.constants}:
                 return self.check(f"frequencies: {said if _SMALL.fullmatch(condition) else text}", letters, *how)
         return None
 

@@ -179,7 +179,9 @@ class Symbols:
         """An expression of a statement in the model language; what is asked of the start of a motion between ⟦ and ⟧. Raises
         ``StatementError`` and ``ModelProblem``."""
         program = self.read(f"{text} = 0")
-        (line,), given = inlined(program), {}
+        (line, *others), given = inlined(program), {}
+        if others:
+            raise ModelProblem(f"`{text}` is more than one expression", "write one, without a sign of equality")
         for symbol in self.require(program):
             meaning = self._meaning(symbol)
             said = (
