@@ -61,7 +61,7 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         return beside_event(checker, {**declared, **given}, "", "after", name, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
-            raise ModelProblem(f"a part of this claim is missing: `{claim}`", f"write `{form}`")
+            raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")
     return None
 
 
