@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter, defaultdict
 from zlib import crc32
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded: the processes of a test run share the cores already
 
 import pytest
 from store import sample

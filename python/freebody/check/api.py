@@ -8,7 +8,7 @@ from contextlib import suppress
 from copy import copy
 from dataclasses import replace
 from functools import cached_property
-from time import process_time
+from time import thread_time
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import ModelError, MotionError
@@ -145,7 +145,7 @@ class Checker:
             raise StatementError("this is no character", broken.span(), "write it again", shown)
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
-        checker.budget = Budget(self.seconds, begins=process_time())
+        checker.budget = Budget(self.seconds, begins=thread_time())
         plain, passed = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
         try:
             found = claimed(checker, plain, letters or {})

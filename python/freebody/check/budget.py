@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from time import process_time
+from time import thread_time
 from typing import TypeVar
 
 import numpy as np
@@ -18,7 +18,8 @@ _SECONDS = (10, 20), (2.0, 10.0)
 
 @dataclass
 class Budget:
-    """Seconds of computing from the first question on. ``spent``: something was left out for want of time."""
+    """Seconds that the asking thread computes, from the first question on: those of the threads of linear algebra do not count.
+    ``spent``: something was left out for want of time."""
 
     seconds: float
     spent: bool = False
@@ -45,12 +46,12 @@ class Budget:
         """The part of the whole that is gone when a part of what is left is."""
         if math.isnan(self.begins) or math.isinf(self.seconds):
             return part
-        gone = min((process_time() - self.begins) / self.seconds, 1.0)
+        gone = min((thread_time() - self.begins) / self.seconds, 1.0)
         return gone + part * (1 - gone)
 
     def lasts(self, part: float = 1.0) -> bool:
         """Whether there is time, or a ``part`` of it, left."""
-        self.begins = process_time() if math.isnan(self.begins) else self.begins
-        over = process_time() - self.begins > part * self.seconds
+        self.begins = thread_time() if math.isnan(self.begins) else self.begins
+        over = thread_time() - self.begins > part * self.seconds
         self.spent |= over
         return not over

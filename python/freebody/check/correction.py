@@ -54,6 +54,7 @@ _CONFIRMING = 0.1  # of it, for what was found by then
 _OF_BALANCE = 0.5  # more, where motions alone were spoken of, for what only a balance makes true
 _FRESH, _FRESH_STATES = 1, 16
 _WORTH = 10  # characters that an edit of size 1 may save
+_LIKELIEST = 1.0  # size of a single edit; none is smaller
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
@@ -125,10 +126,13 @@ def _of_row(
         if step is _Search.pairs and not some and (late := _from_start(case, row, families, part)):
             yield from late
             return
-        for (search, _), seen in zip(searches, tried, strict=True):
+        some = []
+        for (search, given), seen in zip(searches, tried, strict=True):
             seen += step(search)
-        every = [(search.best(seen), given) for (search, given), seen in zip(searches, tried, strict=True)]
-        some = [(found, given) for found, given in every if found]
+            if found := search.best(seen):
+                some.append((found, given))
+                if found[0].size <= _LIKELIEST:  # no smaller one is in a narrower family
+                    break
         if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
             found, given = min(some, key=lambda pair: pair[0][0].size)
             yield from (each.correction(given, searches[0][0].why(each)) for each in found)
@@ -179,7 +183,7 @@ class _Search:
             () if readable else forgotten_factors(self.equation, self.vocabulary),
         )
         for edit in self._promising(found):
-            if edit.size <= 1:  # nothing is likelier, and only its equals are looked for
+            if edit.size <= _LIKELIEST:  # only its equals are looked for
                 self._part = min(self._part, self.case.budget.with_rest(_FOR_EQUALS))
             yield _Found((edit,))
 

@@ -371,7 +371,9 @@ class FittedEdits:
             )
             rows = self._rows(nodes)
             good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
-            good &= np.array([not any(map(self._is_number, n.factors if isinstance(n, Mul) else ())) for n in nodes], dtype=bool)
+            factors = {id(f): f for n in nodes if isinstance(n, Mul) for f in n.factors}  # by identity: many terms share them
+            still = {key for key, factor in factors.items() if self._is_number(factor)}
+            good &= np.array([not (isinstance(n, Mul) and any(id(f) in still for f in n.factors)) for n in nodes], dtype=bool)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
         return self._made[key]
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
-from time import process_time
+from time import thread_time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -105,15 +105,15 @@ class MotionSampler(AskedModel):
         """``count`` samples, each with where its motion began if that is known; none where the first ones already fail."""
         rng = np.random.default_rng([self.seed, fresh])
         found: list[tuple[State, State | None]] = []
-        began, seconds = process_time(), Budget.seconds_for(len(self.metadata["bodies"]))
+        began, seconds = thread_time(), Budget.seconds_for(len(self.metadata["bodies"]))
         for i in range(count):
-            spent = (process_time() - began) / seconds
+            spent = (thread_time() - began) / seconds
             if (i >= _PATIENCE and not found) or spent > _MOST:
                 break
             if len(found) >= _FEWER and spent > _SHARE:
                 return found
             for failed in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
-                if process_time() - began > _MOST * seconds:
+                if thread_time() - began > _MOST * seconds:
                     break
                 with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
                     if (made := self._made(rng, self._parameters(rng, family), family, _NEARER**failed)) is not None:

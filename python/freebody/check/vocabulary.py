@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
@@ -159,14 +160,20 @@ class Vocabulary:
         sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
         sizes = sizes if wanted is None else [n for n in sizes if n.name in self.dimensions]
         turning = any(self.is_rate(n) for n in self.parameters)  # m Ω² R² has five
+        alike: dict[Known, list[tuple[Node, ...]]] = {}  # what changes with the motion, by the dimension that is left for it
+        left: dict[tuple[Sym, ...], Known] = {(): wanted}
         for degree in range((_BLIND_DEGREE if wanted is None else _DEGREE + turning) + 1):
             for chosen in combinations_with_replacement(sizes, degree):
-                if max([chosen.count(n) for n in chosen], default=0) > 2:
+                powers = Counter(chosen)
+                if max(powers.values(), default=0) > 2:
                     continue
-                left = None if wanted is None else reduce(lambda rest, n: rest.times(self.dimensions[n.name], -1), chosen, wanted)
-                for factors, own in dynamic:
-                    if left is None or own is None or own == left:
-                        yield (*(n if chosen.count(n) == 1 else _square(n) for n in dict.fromkeys(chosen)), *factors)
+                if chosen:
+                    before = left[chosen[:-1]]
+                    left[chosen] = None if before is None else before.times(self.dimensions[chosen[-1].name], -1)
+                if (rest := left[chosen]) not in alike:
+                    alike[rest] = [factors for factors, own in dynamic if rest is None or own is None or own == rest]
+                for factors in alike[rest]:
+                    yield (*(n if count == 1 else _square(n) for n, count in powers.items()), *factors)
 
     @cached_property
     def _shapes(self) -> list[tuple[Node, ...]]:
