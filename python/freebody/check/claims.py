@@ -32,7 +32,7 @@ from .motion_sampler import touching
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
 from .worded_claims import IN_WORDS, beside_event, in_words, labelled
-from .wording import as_claim, rooted, with_condition_first
+from .wording import as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -73,7 +73,7 @@ def _defined(text: str) -> tuple[dict[str, str], str]:
     lines = [found for line in said if (found := _NAME.fullmatch(line))]
     if ":" not in last or not lines or len(lines) < len(said):
         return {}, text
-    return dict(rooted(*found.groups()) for found in lines), claim
+    return dict(named(*found.groups()) for found in lines), claim
 
 
 def _if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:

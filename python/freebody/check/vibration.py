@@ -202,11 +202,11 @@ def _squares(a: Array) -> Array:
     """The squares of the natural frequencies of the linear equations of several freedoms, those without their damping, the least first and
     without those that are 0; none where it is not stable, or rates bind it otherwise than dampers do."""
     n = len(a) // 2
-    stiff, damped = -a[n:, :n], -a[n:, n:]
-    found = np.linalg.eigvals(stiff) if len(a) == 2 * n else np.zeros(1)
+    if len(a) != 2 * n:
+        return np.zeros(0)
+    found, fading = np.linalg.eigvals(-a[n:, :n]), np.linalg.eigvals(-a[n:, n:])
     most = float(np.abs(found).max())
-    # of dampers they are real, of gyroscopic forces imaginary
-    fading = np.linalg.eigvals(damped) if len(a) == 2 * n else np.zeros(1)
+    # The rates at which dampers make it fade are real; those of gyroscopic forces are imaginary.
     if (
         max(np.abs(fading.imag).max(), -fading.real.min()) ** 2 > _NOTHING * most
         or np.abs(found.imag).max() > _NOTHING * most

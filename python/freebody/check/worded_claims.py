@@ -52,11 +52,11 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     }
     names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
     said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
-    lasts = lasts and said and not names and _ONE_PART.search(words) is None
-    verdict = checker.check(statement, declared, correcting=checker.correcting and (names or lasts)) if said else None
-    if verdict is None or not (names or lasts or verdict.ok):
+    stretch = lasts and said and not names and _ONE_PART.search(words) is None
+    verdict = checker.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
+    if verdict is None or not (names or stretch or verdict.ok):
         raise problem
-    if lasts and not verdict.ok:
+    if stretch and not verdict.ok:
         return _later(checker, declared, words, statement, verdict, problem)
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
 

@@ -193,8 +193,8 @@ def _condition(part: str) -> str:
     return "at rest" if said == "rest" else said
 
 
-def rooted(name: str, said: str) -> tuple[str, str]:
-    """What a line gives, ``p = …``; of ``p² = …`` that is the root."""
+def named(name: str, said: str) -> tuple[str, str]:
+    """A name and what a line, ``p = …``, says that it is; of ``p² = …`` that is the root."""
     square = re.fullmatch(r"(.+?)(?:²|\^\{?2\}?)", name)
     return (square[1], f"sqrt({said})") if square else (name, said)
 

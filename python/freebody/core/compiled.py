@@ -79,8 +79,7 @@ class PlotItem:
 @dataclass(frozen=True, eq=False)
 class CompiledModel:
     """A mechanism without numbers, with the ``spec`` that it was compiled from; beside it the ``model`` as its file says it, what to
-    ``report``, which ``plots`` it wants, how its bodies
-    look, and what is worth saying about its assembly (``notes``).
+    ``report``, which ``plots`` it wants, how its bodies look (``looks``), and what is worth saying about its assembly (``notes``).
 
     Where a state has no answer ``MotionError`` is raised, and ``ModelError`` for an expression or word that means nothing."""
 

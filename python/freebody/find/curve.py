@@ -119,12 +119,15 @@ class Curve:
     @property
     def level(self) -> float:
         """Differences below this may be errors."""
-        return max(self.error, _LEVEL * max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0))
+        return max(self.error, self._round_off)
+
+    @property
+    def _round_off(self) -> float:
+        return _LEVEL * max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0)
 
     def printed(self, unit: str, y: float, most: int = 6) -> str:
         """A value of the quantity as it is shown; what is round-off beside its size is 0."""
-        size = max((abs(sample.y) for sample in self.samples if sample.is_known), default=0.0)
-        return figure_in(unit, y if abs(y) > _LEVEL * size else 0.0, most)
+        return figure_in(unit, y if abs(y) > self._round_off else 0.0, most)
 
     def sentence(self, unit: str) -> str:
         """How closely it was looked at."""

@@ -50,7 +50,7 @@ class Extremes(PlainText):
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        at, value = (partial(of, each) for of, each in zip((figure_in, self.curve.printed), self.units, strict=True))
+        at, value = partial(figure_in, self.units[0]), partial(self.curve.printed, self.units[1])
         unit, of_value = (f" {shown(each).unit}".rstrip() for each in self.units)
         told = [
             f"{word}, {value(each.value, 10)}{of_value}, at {self.varied} = {at(each.where, 8)}{unit}"
@@ -72,7 +72,7 @@ class Extremes(PlainText):
 
     def __rich_console__(self, console: Any, options: Any) -> Iterator[Any]:
         yield self.sentence
-        at, value = (partial(of, each) for of, each in zip((figure_in, self.curve.printed), self.units, strict=True))
+        at, value = partial(figure_in, self.units[0]), partial(self.curve.printed, self.units[1])
         named = zip((self.varied, self.of), self.units, strict=True)
         heads = ["", *(f"{name} [{shown(unit).unit}]" if unit else name for name, unit in named)]
         rows = [(each.kind, at(each.where, 8), value(each.value, 10), "edge" * each.at_edge) for each in self.all]

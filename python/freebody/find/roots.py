@@ -65,7 +65,7 @@ class Found(PlainText):
     @property
     def sentence(self) -> str:
         """The answer, with its unit."""
-        at, value = (partial(of, each) for of, each in zip((figure_in, self.curve.printed), self.units, strict=True))
+        at, value = partial(figure_in, self.units[0]), partial(self.curve.printed, self.units[1])
         unit, of_value = (f" {shown(each).unit}".rstrip() for each in self.units)
         asked = f"{self.of} is {figure_in(self.units[1], self.target, 10)}{of_value}"
         between = f"between {at(self.curve.start)} and {at(self.curve.end)}{unit}"

@@ -83,9 +83,8 @@ def _level(write: Writer, path: Path, stated: Any) -> str:
     if not compared or any(side.count("(") != side.count(")") for side in compared.group("left", "right")):
         return write.expression(path, stated)
     left, sign, right = (part.strip() for part in compared.groups())
-    level = (
-        left if re.fullmatch(r"0(\.0*)?", right) else f"{left} - ({right})" if re.search(r"[-+]", right) else f"{left} - {right}"
-    )
+    taken = f"({right})" if re.search(r"[-+]", right) else right
+    level = left if re.fullmatch(r"0(\.0*)?", right) else f"{left} - {taken}"
     way = ", direction: rising" if ">" in sign else ", direction: falling" if "<" in sign else ""
     write.scope.complain(path, f"`when` is what passes zero, and `{stated}` is a comparison", f"write `when: {level}{way}`")
     return "0"

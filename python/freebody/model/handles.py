@@ -33,8 +33,8 @@ def _operand(value: Any) -> str:
     return text if alone else f"({text})"
 
 
-class Point(str):
-    """A named point, line or curve, ``body.name``."""
+class Mark(str):
+    """A named point, line or curve of a body, ``body.name``."""
 
     __slots__ = ()
 
@@ -54,35 +54,35 @@ class Marked:
     def __repr__(self) -> str:
         return f"<{type(self).__name__.lower()} {self.name}>"
 
-    def point(self, name: str, at: Any) -> Point:
+    def point(self, name: str, at: Any) -> Mark:
         """Names a point: coordinates in the body's frame, or the name of another point of it. Also ``body.name`` from now on."""
         at = at.removeprefix(f"{self.name}.") if isinstance(at, str) else at
         self._mechanism.mark(self.name, "points", name, at)
         return self._has(name)
 
-    def line(self, name: str, through: Any, towards: Any = None, *, angle: Any = None) -> str:
+    def line(self, name: str, through: Any, towards: Any = None, *, angle: Any = None) -> Mark:
         """Names a line through a point, towards another one or at an angle from the body's x axis."""
         turned = {"through": str(through), "angle": 0 if angle is None else angle}
         self._mechanism.mark(self.name, "lines", name, turned if towards is None else [str(through), str(towards)])
         return self._has(name)
 
-    def curve(self, name: str, shape: Any = None, **coordinates: Any) -> str:
+    def curve(self, name: str, shape: Any = None, **coordinates: Any) -> Mark:
         """Names a curve: ``x=``, ``y=`` as expressions of s, or ``{"arc": …}``, or a list of lines and arcs."""
         self._mechanism.mark(self.name, "curves", name, coordinates or shape)
         return self._has(name)
 
-    def _has(self, point: str) -> Point:
-        handle = Point(f"{self.name}.{point}")
-        if point.isidentifier() and not hasattr(type(self), point):
-            setattr(self, point, handle)
-        return handle
+    def _has(self, name: str) -> Mark:
+        mark = self[name]
+        if name.isidentifier() and not hasattr(type(self), name):
+            setattr(self, name, mark)
+        return mark
 
     def _ipython_key_completions_(self) -> list[str]:
-        return [str(value).partition(".")[2] for value in vars(self).values() if isinstance(value, Point)]
+        return [str(value).partition(".")[2] for value in vars(self).values() if isinstance(value, Mark)]
 
-    def __getitem__(self, point: str) -> Point:
-        """The point of that name, also when it is no Python word."""
-        return Point(f"{self.name}.{point}")
+    def __getitem__(self, name: str) -> Mark:
+        """The point, line or curve of that name, also when it is no Python word."""
+        return Mark(f"{self.name}.{name}")
 
 
 class Body(Marked):

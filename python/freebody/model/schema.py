@@ -83,7 +83,6 @@ class Piece(Shaped):
     """A piece of a composite body, in a frame of its own."""
 
     look: PieceLook = Field(None, description="How it is drawn, where not as its body.")
-
     mass: Mass = Field(description="Mass; 0 is allowed.")
     at: Pair = Field([0, 0], description="Place of the piece's own origin in the body's frame.")
     angle: Angle = Field(0, description="Angle of the piece's x axis in the body's frame.")

@@ -15,6 +15,8 @@ _WORDS = re.compile(r"[MmZzLlHhVvCcSsQqTtAaEe\d\s,.+-]+")
 _BEND = np.linspace(0.0, 1.0, 17)[1:, None]
 _MOST = 5000
 """Corners of one outline: more than a page of pictures can bear."""
+_Drawn = list[tuple[str, tuple[tuple[float, float], ...]]]
+"""What a pen was told: a word, ``moveTo``, ``lineTo`` …, and its points."""
 
 
 def subpaths(text: str) -> list[tuple[Array, bool]]:
@@ -40,24 +42,24 @@ def subpaths(text: str) -> list[tuple[Array, bool]]:
     return [(points, closed) for points, closed in found if len(points) > 1]
 
 
-def _parts(drawn: list[tuple[str, tuple[tuple[float, float], ...]]]) -> list[list[tuple[str, tuple[tuple[float, float], ...]]]]:
+def _parts(drawn: _Drawn) -> list[_Drawn]:
     starts = [i for i, (word, _) in enumerate(drawn) if word == "moveTo"]
     return [drawn[i:j] for i, j in pairwise([*starts, len(drawn)])]
 
 
-def _polyline(part: list[tuple[str, tuple[tuple[float, float], ...]]]) -> Array:
+def _polyline(part: _Drawn) -> Array:
     """Lines as they are, Bézier curves by points along them."""
     points = [np.array(part[0][1], float)]
-    for _, given in part[1:]:
-        controls = [points[-1][-1], *np.array(given, float).reshape(-1, 2)]
-        points.append(controls[1] if len(controls) == 2 else _curve(controls)) if given else None
+    for given in (given for _, given in part[1:] if given):
+        controls = [points[-1][-1], *np.array(given, float)]
+        points.append(controls[1] if len(controls) == 2 else _curve(controls))
     line = np.vstack(points)
     closed = len(line) > 2 and part[-1][0] == "closePath" and np.allclose(line[0], line[-1], rtol=0, atol=1e-9)
     return line[:-1] if closed else line
 
 
 def _curve(controls: list[Array]) -> Array:
-    """De Casteljau's way along a Bézier curve of any degree, without its start."""
+    """Points along a Bézier curve of any degree by De Casteljau's algorithm, without its start."""
     while len(controls) > 1:
         controls = [a + _BEND * (b - a) for a, b in pairwise(controls)]
     return controls[0]

@@ -18,8 +18,8 @@ _CLEARLY = 1e-6
 
 
 def passages(run: Run) -> list[str]:
-    """A sentence for each body and fixed line through which a named point of the body goes, without a contact of the two; and for a point
-    that starts behind a line which another of its body touches."""
+    """A sentence for each fixed line through which a named point of a body goes, without a contact of the two, or behind which one starts
+    while another of its body touches it; other bodies of which that is so are named in the same."""
     touched: dict[str, tuple[Mapping[str, Any], str, list[Mapping[str, Any]]]] = {}
     for contact in run.source.spec["contacts"]:
         for surface, other in (contact["of"], contact["of"][::-1]):
@@ -27,18 +27,21 @@ def passages(run: Run) -> list[str]:
                 touched.setdefault(repr(surface), (surface["line"], contact["name"], []))[2].append(other)
     found = []
     for line, contact, held in touched.values():
-        said, kept = {GROUND}, [_covered(run, surface) for surface in held]
+        behind, kept = dict[str, tuple[str, str]](), [_covered(run, surface) for surface in held]
         for name, (body, *_) in run.points.items():
-            if body in said or name.endswith(".origin") or any(name in names for names in kept):
+            if body in (GROUND, *behind) or name.endswith(".origin") or any(name in names for names in kept):
                 continue
             height = _height(run.closely, line, name)
             touches = any(run.points[names[0]][0] == body for names in kept)
             if when := _behind(run.closely.t, height, touches):
-                said.add(body)
-                found.append(
-                    f"`{name}` {when} the line of the contact `{contact}`, and has no contact there, so nothing holds it; "
-                    "where something should, give it one of its own"
-                )
+                behind[body] = name, when
+        if behind:
+            (name, when), *others = behind.values()
+            too = f" ({'so do' if others[1:] else 'so does'} {', '.join(f'`{other}`' for other, _ in others)})" if others else ""
+            found.append(
+                f"`{name}` {when} the line of the contact `{contact}`{too}, and has no contact there, so nothing holds it; "
+                "where something should, give it one of its own"
+            )
     return found
 
 

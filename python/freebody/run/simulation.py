@@ -46,7 +46,7 @@ from freebody.run.records import (
     unit_of,
 )
 from freebody.run.sampling import Times, check_size, output_times
-from freebody.run.tipping import told
+from freebody.run.tipping import worded_changes
 from freebody.solve.instant import Instant, Reaction, Reactions, refuse
 from freebody.solve.rich_tables import PlainText, table
 
@@ -128,7 +128,7 @@ class Run(PlainText):
     @cached_property
     def changes(self) -> list[Change]:
         """Everything that switched, in order of time: impacts, contacts that open and close, strings, friction, released parts."""
-        return told(self)
+        return worded_changes(self)
 
     @property
     def impacts(self) -> list[Change]:

@@ -21,7 +21,7 @@ _CLOSED = 1e-9
 _Stands = Mapping[str, tuple[str, str]]
 
 
-def told(run: Run) -> list[Change]:
+def worded_changes(run: Run) -> list[Change]:
     """The mode changes of a run. A body tips where it parts from a line at one place and not at another, and slides where all places
     at which it touches slip."""
     stands, sliding, found = _stands(run), set[str](), []

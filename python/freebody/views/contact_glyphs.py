@@ -1,4 +1,5 @@
-"""How contacts and strings look: surfaces hatched on their solid side with springs that stand for contacts, strings along eyelets, pulleys and drums."""
+"""How contacts and strings look: surfaces hatched on their solid side, springs that stand for contacts, strings along eyelets, pulleys and
+drums."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def width(outline: Array) -> float:
 
 def inside(outline: Array, places: Array) -> Array:
     """Which of some places (k, 2) are within an outline, (k,): those from which a way to the right crosses it an odd number of times.
-    Matplotlib knows this too, but takes a third of the time of a report to load."""
+    Matplotlib knows this too, but a report would wait for it to load."""
     (x0, y0), (x1, y1) = outline.T, np.roll(outline, -1, axis=0).T
     x, y = np.asarray(places, float).T[:, :, None]
     rise = np.where(y1 == y0, 1.0, y1 - y0)

@@ -54,7 +54,7 @@ class Figure:
     points: dict[str, tuple[float, float]] = field(default_factory=dict)
 
     def add(self, points: Array, style: str, closed: bool = True, about: Array | None = None, tone: int | None = None) -> None:
-        """One more stroke; of a symbol, ``about`` its place (2,)."""
+        """One more stroke, as ``Stroke`` says; of a symbol, ``about`` is its place (2,)."""
         place = None if about is None else (float(about[0]), float(about[1]))
         self.strokes.append(Stroke(np.asarray(points, float), style, closed, about=place, tone=tone))
 
