@@ -11,9 +11,14 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is loaded: th
 import pytest
 from store import sample
 
+from freebody.check.budget import Budget
+
 SEED = 739_942
 """Any number would do; it is fixed, so that what passes on one day passes on the next. ``--sample`` takes another."""
 SEEN = pytest.StashKey[dict]()
+PATIENCE = 10
+"""How many times the usual seconds a statement may take here, so that what is found does not depend on how fast a machine is."""
+Budget.seconds_for = staticmethod(lambda bodies, usual=Budget.seconds_for: PATIENCE * usual(bodies))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

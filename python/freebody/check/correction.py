@@ -206,7 +206,8 @@ class _Search:
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
         for first, second in chain(combinations(near, 2), combinations(plain, 2)):
-            if second.old is not None and (second.new is not None or second.kind == "extra term"):
+            replaced = (first.kind, second.kind) in _REPLACED
+            if second.old is not None and (second.new is not None or second.kind == "extra term") and not replaced:
                 both = exchange(first.after, second.old, second.new or Num(0.0, "0"))
                 made = [replace(second, after=both)] if both is not first.after else []
                 yield from (_Found((first, edit)) for edit in self._promising(made))

@@ -227,9 +227,10 @@ def of_wrong_dimensions(case: Case, equations: Iterable[Equation], text: str, re
     inside = _in_figures(case, list(fixes)) if least > 1.5 else ()
     if inside and min(each.size for each in inside) < least:
         return Verdict(Kind.WRONG, text, "figures are in SI units", mends=inside)
-    near = (nearest(case, equation) for equation, found in fixes.items() if not found)
+    likely = tuple(each for each in every if len(each.edits) == 1 or each.size <= _FAR)
+    near = (nearest(case, equation) for equation, found in fixes.items() if not {*found} & {*likely})
     true = "\n  ".join(found.text for found in near if found)
-    return Verdict(Kind.DIMENSIONS, text, reason, mends=every, true=true)
+    return Verdict(Kind.DIMENSIONS, text, reason, mends=likely if true else every, true=true)
 
 
 def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, ...]:
