@@ -38,6 +38,8 @@ _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
 _TENDS = re.compile(r"→|->")
 _OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?![A-Za-z0-9_])")
+_NUMBERED = re.compile(r"\bomega_\d\b")
+"""One of several natural frequencies, as a correction writes it."""
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
 
 
@@ -88,8 +90,8 @@ class Book:
         """Whether two equations, or what two claims call constant, hold at the same places, whatever the values of their symbols, or are
         one but for a number where these are as joints and laws of forces allow: m R² α is m R a of what rolls."""
         said = [self._equation(text) for text in (one, other)]
-        if "frequenc" in one + other or not self._has_omega:
-            name = "ω_1" if self.checker.vibration.count > 1 else "ω_n"
+        if (numbered := _NUMBERED.search(one)) or "frequenc" in one + other or not self._has_omega:
+            name = numbered[0] if numbered else "ω_1" if self.checker.vibration.count > 1 else "ω_n"
             said = [_OMEGA.sub(name, text) for text in said]
         cases = [self.checker.case(text) for text in said]
         values = {**cases[0].values(), **cases[1].values()}

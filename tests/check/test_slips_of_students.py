@@ -160,6 +160,42 @@ SLIPS = {
         "if c = 0: ½ I_O φ'² + ½ m [(s' − h φ')² + s² φ'²] − M g a cos φ + m g (s sin φ + h cos φ) + ½ k s² = const",
         "",
     ),
+    "rotation left out everywhere": (
+        "hoop_and_disk_linked",
+        "½ (m_1 + m_2) x'² = (m_1 + m_2) g (x − x_0) sin β",
+        "(m_1 + ¾ m_2) x'² = (m_1 + m_2) g (x − x_0) sin β",
+        "kinetic energy",
+    ),
+    "moment of the force of a pin": (
+        "saloon_door",
+        "AMB/G: −κθ − cθ' = (1/12) m w² θ''",
+        "AMB/G: (H_x sin θ − H_y cos θ) w/2 − κθ − cθ' = (1/12) m w² θ''",
+        "a force or a moment",
+    ),
+    "speed with a letter": (
+        "chaplygin_sleigh",
+        "(J + m c²) θ'' = 0",
+        "(J + m c²) θ'' + m c u θ' = 0",
+        "is left out",
+    ),
+    "force of a neighbour by its letter": (
+        "stacked_blocks_and_cord",
+        "P − T − f_2 = m_B x''",
+        "P − T − f_1 − f_2 = m_B x''",
+        "a force",
+    ),
+    "one of several natural frequencies": (
+        "swinging_spring",
+        "small swings: ω = √(g/l_0)",
+        "small swings: ω = √(g/(l_0 + m g/k))",
+        "an arm",
+    ),
+    "a stretch up to an impact": (
+        "hexagon_tumbles",
+        "until the impact: ρ² θ'' = −g a sin(30° − θ)",
+        "until the impact: (ρ² + a²) θ'' = −g a sin(30° − θ)",
+        "is left out",
+    ),
 }
 
 

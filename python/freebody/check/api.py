@@ -46,6 +46,8 @@ _BECOMES = {"taut": "taut|tight|stretched|straight", "slack": "slack|loose", "st
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*(?:(?:for|with|at)\s+)?small\b[^:=]*")
+_JOINED = re.compile(r",\s*(?:and\b)?|\b(?:with|and|if|when)\b")
+"""What joins the conditions of ``small motions with c = 0 and L = 0``."""
 _STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
@@ -117,13 +119,19 @@ class Checker:
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
         condition, _, said = text.rpartition(":")
+        words, *given = (part.strip() for part in _JOINED.split(condition.replace("$", "")))
+        if _SMALL.fullmatch(words):
+            claim = f"if {', '.join(given)}: frequencies: {said}" if given else f"frequencies: {said}"
+        else:
+            claim = f"frequencies: {text}"
         if "frequencies:" in text or not OMEGA.search(said):
             return None
         with suppress(StatementError, ModelProblem):  # what letters lack is told of the statement itself
             known = self.symbols(letters)
-            used = {n.name for n in symbols_in(known.read(OMEGA.sub("(1)", said)))}
-            if "ω" not in known.meanings and used <= {*known.constants}:
-                return self.check(f"frequencies: {said if _SMALL.fullmatch(condition) else text}", letters, *how)
+            if "ω" not in known.meanings and all(
+                OMEGA.fullmatch(n.name) or n.name in known.constants for n in symbols_in(known.read(with_condition_first(said)))
+            ):
+                return self.check(claim, letters, *how)
         return None
 
     def _without_laws(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:

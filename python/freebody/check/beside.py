@@ -60,8 +60,14 @@ def difference(said: Sequence[Term], true: Sequence[Term]) -> Difference:
             del rest[place]
     if alone and (lost := _lacking(said, true)) is not None:
         return lost
-    missing = (multiplied(node, float(factor)) for node, _ in rest.values())
-    return Difference(tuple(node for node in missing if node is not None), tuple(n for n, _ in alone), len(said) - len(alone))
+    common, shares = len(said) - len(alone), {}
+    for i, (node, _) in enumerate(said if common else ()):  # a part of a term of the balance
+        place = next((k for k in rest if 0 < ratios.get((i, k), 0) / factor < 1 and k not in shares), None)
+        if place is not None and any(node is each for each, _ in alone):
+            shares[place] = ratios[i, place]
+            alone = [each for each in alone if each[0] is not node]
+    missing = (multiplied(node, float(factor - shares.get(k, 0.0))) for k, (node, _) in rest.items())
+    return Difference(tuple(node for node in missing if node is not None), tuple(n for n, _ in alone), common)
 
 
 def _lacking(said: Sequence[Term], true: Sequence[Term]) -> Difference | None:

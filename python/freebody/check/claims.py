@@ -153,10 +153,12 @@ def _is_of_places(case: Case) -> bool:
 
 
 def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
-    """An equation that each natural frequency satisfies."""
+    """An equation that each natural frequency satisfies; that one of them does, where it says what ω is."""
     count = checker.vibration_of(checker.hypothesis).count
     names = [f"ω_{i}" for i in range(1, count + 1)] if count > 1 else ["ω_n"]
     verdicts = [checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names]  # type: ignore[misc]
+    if _SAYS_OMEGA.fullmatch(statement):
+        return min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
     return next((verdict for verdict in verdicts if not verdict.ok), verdicts[0])
 
 
@@ -373,6 +375,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
 OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
+_SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"

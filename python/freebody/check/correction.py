@@ -18,10 +18,11 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, is_zero, walk
 
-from .coefficients import tidied
+from .coefficients import more, tidied
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
-from .families import NoMotion
+from .energy_terms import lacking_energies
+from .families import NoMotion, Samples
 from .fitted_edits import FittedEdits
 from .language.dimensions import dimension
 from .language.spelling import spell
@@ -61,8 +62,9 @@ _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large a
 _BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
+_OF_ENERGY = 0.3  # by which a correction is larger for each term of the energy that it brings
 _SWAPPED = ("missing factor", "symbol", "other term")
-_REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"))
+_REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"), ("derivative", "missing factor"))
 """Pairs that take something away and put another in its place: no correction."""
 FROM_START = "motions from the start of this model"
 
@@ -107,7 +109,7 @@ def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator
         yield from whole
         return
     for row in parts:
-        yield from _of_row(case, row, families, (*_SINGLE, _Search.pairs), part)
+        yield from _of_row(case, row, families, (*_SINGLE, _Search.energies, _Search.pairs), part)
 
 
 def _of_row(
@@ -144,7 +146,8 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
     ((given, words), *_) = families
     if given.since or given.at_rest or given.at_start or given.small or given.scaled:
         return []
-    return list(_of_row(case, row, [(replace(given, since="start"), words or FROM_START)], _SINGLE, part))
+    since = replace(given, since="start")
+    return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.energies), part))
 
 
 class _Search:
@@ -198,6 +201,22 @@ class _Search:
         """Every term that should be quite another."""
         if self._residual(self.equation, self.few):
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
+
+    def energies(self) -> Iterator[_Found]:
+        """All terms that it lacks of the change of the energy since the start of the motions."""
+        samples, equation = self.case.samples(self.family), self.equation
+        if not samples.starts or len(rows(equation)) > 1 or not any(n.dots == 1 for n in symbols_in(equation)):
+            return
+        began, now = (
+            self.case.meaning.values(Samples(samples.core, samples.starts, samples.starts)),
+            self.case.values(self.family),
+        )
+        changes = lambda term: sampled(term, now) - sampled(term, began)
+        with suppress(KeyError, StatementError):
+            if lost := lacking_energies(self.case, Add((equation.left, Negative(equation.right))), changes):
+                after = exchange(equation, equation.left, more(equation.left, *lost))
+                found = [Edit("missing term", None, Add(lost), after, _OF_ENERGY * len(lost))]
+                yield from (_Found((edit,)) for edit in self._promising(found))
 
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""

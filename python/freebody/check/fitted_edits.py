@@ -37,6 +37,7 @@ _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
+_MOST_LETTERS = 3  # of rates of which the equation says nothing
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
 
@@ -305,6 +306,8 @@ class FittedEdits:
             pairs += [Add(pair) for pair in combinations(masses[:_MOST_LENGTHS], 2)]
             own = [n for n in bases if n in said]
             moving = [n for n in said if n in known.others]
+            if not any(isinstance(_bare(side), Sym) for side in (equation.left, equation.right)):  # no answer
+                moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
             fixed = lambda n: n.symbols <= {*known.parameters}
             calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)

@@ -182,8 +182,16 @@ class Likelihood:
             yield from [part] * 2 * (isinstance(part, Add) and part not in angles and part not in self._parts)
         for symbol in term.symbols:
             yield from [symbol] * 2 * (symbol.dots == 2 and self._is_solved_for_another(symbol))
-        if self._is_part_of_mass(term):
+        if self._is_part_of_mass(term) or self._is_of_another(term):
             yield term
+
+    def _is_of_another(self, term: Node) -> bool:
+        """Whether it is of parameters alone, and of two or more of which nothing was said: in a balance, of which no side is an answer, a letter
+        for all of it is likelier."""
+        unsaid = term.symbols - self._said
+        if any(isinstance(side, Sym) for side in self._sides):
+            return False
+        return term.symbols <= {*self.vocabulary.parameters} and len([n for n in unsaid if n.name != "g"]) > 1
 
     @cached_property
     def _loads(self) -> list[Sym]:

@@ -114,6 +114,8 @@ _REASON = re.compile(
 """``no force acts along x, so p_x = const``."""
 _CLOSES = r"(?=\s*(?:\$+|\\[\])]|\\end\s*\{[^{}]*\})?\s*(?:\Z|[;\n]|\\\\|⇒))"
 """The end of a line, behind which only its display is closed."""
+_WHICH_POINT = re.compile(r"\A([^:=]*?)\(\s*[A-Z]\s*:\s*([A-Za-z\s]+)\)(?=[^:=]*:)")
+"""``ΣM_A (A: contact):``."""
 _STOP = re.compile(
     rf"\s*(?:\\q?quad\s*)?(?:(?<![.;,])[.;,!]|[□■∎✓✔]|\\(?:square|blacksquare|checkmark)|\bq\.?e\.?d\b\.?){_CLOSES}",
     re.IGNORECASE,
@@ -161,7 +163,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _REST_AT.sub(r"\1, \2_0 = \3", _FROM_REST.sub("if the start is at rest", said))
     said = _THESE_NUMBERS.sub("if with these numbers", said)
-    said = _REMARK.sub("", said)
+    said = _WHICH_POINT.sub(r"\1", _REMARK.sub("", said))
     for sense, sign in _SENSE.items():
         said = sense.sub(f" {sign}", said)
     said = _ALWAYS.sub(" ", _STOP.sub("", _FOLLOWS.sub(r"\1 ⇒", said)))

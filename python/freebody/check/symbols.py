@@ -43,6 +43,9 @@ _WITHOUT = {
 """Readings of every limit that say nothing of one kind."""
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
+_WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_FUNCTIONS = ("sqrt", "sin", "cos", "tan", "pi")
+"""Of parameters, what does not change."""
 _SHORT = {"Fx": "x", "Fy": "y"}
 DOUBTFUL = re.compile(r"/\s*\d+[^\W\d]")
 """2k/3m, of which only a person knows whether m is below the stroke."""
@@ -118,8 +121,10 @@ class Symbols:
 
     @property
     def constants(self) -> list[str]:
-        """Symbols that do not change with time."""
-        return self.of_kind("parameter", "gravity", "direction", "initial", "vibration", "inertia")
+        """Symbols that do not change with time; letters for what parameters make are among them."""
+        still = {*map(spell, self.of_kind("parameter")), *_FUNCTIONS}
+        made = [n for n in self.of_kind("declared") if all({*_WORD.findall(text)} <= still for text in self.meanings[n].texts)]
+        return [*self.of_kind("parameter", "gravity", "direction", "initial", "vibration", "inertia"), *made]
 
     def read(self, text: str, units: bool = True, tight: bool = False) -> Program:
         """The statement that a text is, see ``Reading``. Raises ``StatementError``."""

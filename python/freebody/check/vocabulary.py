@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from itertools import combinations, combinations_with_replacement, islice, permutations, product
 
-from freebody.symbolic.dimensions import ENERGY, LENGTH, NUMBER_ONLY, TIME, Dimension, Known
+from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, NUMBER_ONLY, TIME, Dimension, Known
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Negative, Node, Num, Pow, Sym
 
 _DEGREE = 4  # of the product of parameters in a term: m l² has three, m l r g four
@@ -104,6 +104,18 @@ class Vocabulary:
         functions += [(call,) for call in calls]
         dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
+        yield from ((part,) for part in self.turned_components)
+
+    @cached_property
+    def turned_components(self) -> list[Node]:
+        """The components of forces, of which those along x and y have letters, along and across directions at each angle."""
+        forces = [n for n in self.others if self.dimension(n) == FORCE and n.name.endswith("x")]
+        pairs = [(n, other) for n in forces if (other := Sym(f"{n.name[:-1]}y")) in self.others]
+        out: list[Node] = []
+        for (x, y), angle in product(pairs, self.angles):
+            sine, cosine = (Fn(name, (angle,)) for name in ("sin", "cos"))
+            out += [Add((Mul((x, cosine)), Mul((y, sine)))), Add((Mul((x, sine)), Negative(Mul((y, cosine)))))]
+        return out
 
     def is_rate(self, symbol: Sym) -> bool:
         its = self.dimension(symbol)

@@ -55,6 +55,9 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     stretch = lasts and said and not names and _ONE_PART.search(words) is None
     verdict = checker.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
     if verdict is None or not (names or stretch or verdict.ok):
+        with suppress(ModelProblem):
+            if said and (until := _UNTIL.fullmatch(words)):
+                return beside_event(checker, declared, "", "before", until[1], statement)
         raise problem
     if stretch and not verdict.ok:
         return _later(checker, declared, words, statement, verdict, problem)
@@ -96,6 +99,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
 
 IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
+_UNTIL = re.compile(r"until (.+)", re.S)
 _ONE_PART = re.compile(
     r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
 )
