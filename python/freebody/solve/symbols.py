@@ -71,7 +71,7 @@ def _of_loads(source: CompiledModel, loads: Iterable[Load], taken: Taken) -> dic
     """The symbol of every load but weights. Two that would have the same are written by their symbols."""
     forces = {force["name"]: force for force in source.spec.get("forces", [])}
     laws = {load: forces.get(load.name) if load.kind == "force" else None for load in loads if load.kind != "weight"}
-    made = {load.symbol: _name(load, law) for load, law in laws.items()}
+    made = {load.symbol: _name(load, law) for load, law in laws.items()} | _of_locks([*laws])
     own, named = {load.symbol for load, law in laws.items() if _given(law)}, {load.symbol: load for load in laws}
     alike = Counter(folded(name.ascii()) for symbol, name in made.items() if symbol not in own)
     for symbol, name in made.items():
@@ -79,6 +79,13 @@ def _of_loads(source: CompiledModel, loads: Iterable[Load], taken: Taken) -> dic
             wanted = [Name(symbol)] if alike[folded(name.ascii())] > 1 else [name, Name(symbol)]
             made[symbol] = taken.give(load_words(named[symbol]), *wanted, key=symbol)
     return made
+
+
+def _of_locks(loads: Iterable[Load]) -> dict[str, Name]:
+    """The symbols of locks that hold an expression, by their place among them."""
+    locks = [load for load in loads if load.kind == "lock" and not PLAIN.fullmatch(load.name.removeprefix("lock "))]
+    number = lambda k: (str(k),) if len(locks) > 1 else ()
+    return {load.symbol: Name(load.card.stem, ("lock", *number(k))) for k, load in enumerate(locks, 1)}
 
 
 def load_words(load: Load, bodies: Collection[str] = ()) -> str:
