@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
 _CORNER = 74.0  # points
 _USUAL, _LARGE, _MANY = (8.0, 6.0), (11.0, 8.5), 20  # inches of the drawing; how many names take a large one
+_NARROWEST = 0.8  # of its height, the width of a drawing at least: labels stand beside what is upright
 _OVER_LINES, _OVER_ARROWS = 8.0, 40.0  # what a label pays for each place that it covers
 FORMATS = Formats("a drawing is", dict.fromkeys((".svg", ".png", ".pdf")))
 UNNAMED = ("origin", "G", "centre", "start", "end")
@@ -94,7 +95,8 @@ def _make_room(sheet: _Drawing) -> None:
         corner = _CORNER * max((x1 - x0) / width, (y1 - y0) / height)
         x, y = shapes.dense(lines, corner / 20).T
         y0 = min(y0, y[(x < x0 + corner) | (x > x1 - corner)].min(initial=np.inf) - corner)
-    ax.set(xlim=(x0, x1), ylim=(y0, y1))
+    wider = max(0.0, _NARROWEST * (y1 - y0) - (x1 - x0)) / 2
+    ax.set(xlim=(x0 - wider, x1 + wider), ylim=(y0, y1))
 
 
 def _write_labels(sheet: _Drawing) -> None:
