@@ -190,6 +190,12 @@ SLIPS = {
         "small swings: ω = √(g/(l_0 + m g/k))",
         "an arm",
     ),
+    "a balance of two bodies has no force between them": (
+        "lanchester_damper",
+        "hub + ring, oil internal: J θ'' = T_0 sin Ωt − k θ",
+        "hub + ring: J θ'' + J_d φ'' = T_0 sin Ωt − k θ",
+        "moves as well",
+    ),
     "a stretch up to an impact": (
         "hexagon_tumbles",
         "until the impact: ρ² θ'' = −g a sin(30° − θ)",

@@ -23,6 +23,7 @@ from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import OMEGA, claimed
 from .families import ALL, Family, NoMotion
+from .inner_forces import without_inner_forces
 from .language.dimensions import misfit
 from .language.statements import Program, symbols_in
 from .laws import without_laws
@@ -159,6 +160,9 @@ class Checker:
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
+            label, colon, _ = plain.partition(":")
+            if colon and len(verdict.mends) > 1:
+                verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:
             return Verdict(Kind.UNDECIDABLE, text, str(error))

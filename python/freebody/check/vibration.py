@@ -38,6 +38,8 @@ _QUANTITIES = {
 }
 _STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
 _NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
+_WELDS = 1e3  # of the largest natural frequency: rates at which dampers make motions fade, above which they are as good as rigid
+_LASTING = 30.0  # of the rate at which it fades, the rate of what swings for long
 _APART = 0.1  # of what is typical of each coordinate, to a place where linear equations may be others
 _LENGTHS = 3.0  # of the model, within which a place of rest is looked for
 
@@ -200,12 +202,16 @@ def _swings(a: Array) -> bool:
 
 def _squares(a: Array) -> Array:
     """The squares of the natural frequencies of the linear equations of several freedoms, those without their damping, the least first and
-    without those that are 0; none where it is not stable, or rates bind it otherwise than dampers do."""
+    without those that are 0; none where it is not stable, or rates bind it otherwise than dampers do. Dampers that are far stiffer than all
+    springs let nothing slide past each other: then those of what swings beside them."""
     n = len(a) // 2
     if len(a) != 2 * n:
         return np.zeros(0)
     found, fading = np.linalg.eigvals(-a[n:, :n]), np.linalg.eigvals(-a[n:, n:])
     most = float(np.abs(found).max())
+    if most > 0 and np.abs(fading).max() > _WELDS * np.sqrt(most):
+        swinging = np.linalg.eigvals(a)
+        return np.sort(np.abs(swinging[swinging.imag > _LASTING * np.abs(swinging.real)]) ** 2)
     # The rates at which dampers make it fade are real; those of gyroscopic forces are imaginary.
     if (
         max(np.abs(fading.imag).max(), -fading.real.min()) ** 2 > _NOTHING * most
