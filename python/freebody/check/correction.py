@@ -289,14 +289,16 @@ class _Search:
 
     def _changes_the_subject(self, found: _Found) -> bool:
         """Whether two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
-        after two edits, or with all gone from it that was said of forces, masses or weights."""
+        after two edits, or with all gone from it that was said of forces, masses, weights or, after two, of a given speed."""
         own = {n.key for n in symbols_in(found.after)}
         solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
         lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
         mechanics = any(its is not None and (its.mass or its.time == -2) for its in lost)
         two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
+        gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
+        given = two and any((its := self.vocabulary.dimension(n)) is not None and its.time for n in gone)
         return (two and bool(solved) and not solved & own) or (
-            (two or mechanics) and not self._is_constraint and self.case.is_kinematic(found.after)
+            (given or ((two or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
         )
 
     def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
