@@ -166,7 +166,7 @@ IMPOSSIBLE = [
 
 @pytest.mark.parametrize(("model", "text", "why"), IMPOSSIBLE)
 def test_a_condition_that_cannot_be_arranged_is_not_decidable(model: str, text: str, why: str) -> None:
-    verdict = Checker(Mechanism.loads(model)).check(text)
+    verdict = Checker(Mechanism.loads(model), seconds=1).check(text)
     assert verdict.kind is Kind.UNDECIDABLE
     assert why in verdict.reason
 

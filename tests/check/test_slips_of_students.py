@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import pytest
 from books import Book
+from store import every
 
 from freebody.check.file import judged_alone
 
@@ -205,7 +205,7 @@ SLIPS = {
 }
 
 
-@pytest.mark.parametrize("slip", SLIPS)
+@every(SLIPS, "slip", share=3)
 def test_the_first_correction_is_that_of_a_tutor(slip: str) -> None:
     name, said, right, words = SLIPS[slip]
     book = Book(name)

@@ -72,6 +72,7 @@ class MotionSampler(AskedModel):
         super().__init__(mechanism, **asked)
         self.seed = seed
         self._families: dict[tuple[Family, int], Samples] = {}
+        self._without: set[tuple[Family, int]] = set()  # families of which no state was found
 
     @cached_property
     def admissible(self) -> MotionSampler:
@@ -105,6 +106,8 @@ class MotionSampler(AskedModel):
         """``count`` samples, each with where its motion began if that is known; none where the first ones already fail."""
         rng = np.random.default_rng([self.seed, fresh])
         found: list[tuple[State, State | None]] = []
+        if (family, fresh) in self._without:
+            return found
         began, seconds = thread_time(), Budget.seconds_for(len(self.metadata["bodies"]))
         for i in range(count):
             spent = (thread_time() - began) / seconds
@@ -119,6 +122,8 @@ class MotionSampler(AskedModel):
                     if (made := self._made(rng, self._parameters(rng, family), family, _NEARER**failed)) is not None:
                         found.append(made)
                         break
+        if not found and count >= _PATIENCE:
+            self._without.add((family, fresh))
         return found if len(found) >= min(_LATE_ENOUGH if family.late else _ENOUGH, count) else []
 
     def _made(
