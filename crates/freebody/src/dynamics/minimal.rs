@@ -8,7 +8,7 @@ use crate::kinematics::StateView;
 use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
 use crate::scalar::Scalar;
-use crate::solve::{Equations, IslandMemory, Islands, Matrix, Orthogonal, SaddleError, Solution, Whole};
+use crate::solve::{Equations, IslandMemory, Islands, Matrix, Orthogonal, Quasidefinite, SaddleError, Solution, Whole};
 
 /// Memory of the dense solution.
 #[derive(Clone, Debug, Default)]
@@ -19,7 +19,9 @@ pub struct Dense {
     pub(super) saddle: Islands,
     /// The same equations, where only their solution was asked for and they are few and clear.
     whole: Whole,
-    is_whole: bool,
+    /// And where every motion has inertia too.
+    quasidefinite: Quasidefinite,
+    form: Form,
     /// Units of the coordinates, and what makes the rows of order one.
     columns: Vec<f64>,
     scales: Vec<f64>,
@@ -30,6 +32,15 @@ pub struct Dense {
     factored: Factored,
     /// Memory of the rank of the rows.
     pub(super) independence: Orthogonal,
+}
+
+/// In which form the equations were factored last.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Form {
+    #[default]
+    Islands,
+    Whole,
+    Quasidefinite,
 }
 
 /// Of what the equations were factored last.
@@ -45,9 +56,26 @@ struct Factored {
 impl Dense {
     /// Solves the equations factored last, into `found`.
     pub(super) fn solve_into(&mut self, f: &[f64], r: &[f64], found: &mut Solution, memory: &mut IslandMemory) {
-        match self.is_whole {
-            true => self.whole.solve_into(f, r, found),
-            false => self.saddle.solve_into(f, r, found, memory),
+        match self.form {
+            Form::Quasidefinite => self.quasidefinite.solve_into(f, r, found),
+            Form::Whole => self.whole.solve_into(f, r, found),
+            Form::Islands => self.saddle.solve_into(f, r, found, memory),
+        }
+    }
+}
+
+impl Dense {
+    /// Factors mass matrix and rows, made of order one, where nothing is known of them; `own`: the multipliers act along others.
+    fn factor_scaled(&mut self, wanted: Wanted, own: bool) -> Result<(), SaddleError> {
+        self.scales.clear();
+        self.scales.extend(row_scales(&self.g, &self.columns));
+        let b = own.then_some(&self.b);
+        let of = Equations { mass: &self.mass, g: &self.g, b, row_scale: &self.scales, col_scale: &self.columns };
+        let is_whole = wanted == Wanted::Motion && self.whole.refactor(of);
+        self.form = if is_whole { Form::Whole } else { Form::Islands };
+        match is_whole {
+            true => Ok(()),
+            false => self.saddle.refactor(of),
         }
     }
 }
@@ -106,7 +134,7 @@ impl Workspace<'_> {
         self.solved.nu_dot.copy_from_slice(&found.a);
         self.solved.lambda.clone_from(&found.lambda);
         self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
-        if self.dense.is_whole {
+        if self.dense.form != Form::Islands {
             return Ok(());
         }
         self.propagate_joint_wrenches();
@@ -166,18 +194,19 @@ impl Workspace<'_> {
         rows_in_coordinates(at, &self.rows, self.length, |row| &row.motion, &mut d.g, &mut d.sizes);
         d.columns.clear();
         d.columns.extend(column_scales(at, self.length));
-        d.scales.clear();
-        d.scales.extend(row_scales(&d.g, &d.columns));
         let own = force == Force::ActuatorDirection && self.rows.iter().any(|row| row.force.is_some());
-        if own {
-            rows_in_coordinates(at, &self.rows, self.length, Row::loads, &mut d.b, &mut d.sizes);
-        }
-        let b = own.then_some(&d.b);
-        let of = Equations { mass: &d.mass, g: &d.g, b, row_scale: &d.scales, col_scale: &d.columns };
-        d.is_whole = wanted == Wanted::Motion && d.whole.refactor(of);
-        let factored = match d.is_whole {
-            true => Ok(()),
-            false => d.saddle.refactor(of),
+        let is_quasidefinite = wanted == Wanted::Motion && !own && d.quasidefinite.refactor(&d.mass, &d.g, &d.columns);
+        let factored = match is_quasidefinite {
+            true => {
+                d.form = Form::Quasidefinite;
+                Ok(())
+            }
+            false => {
+                if own {
+                    rows_in_coordinates(at, &self.rows, self.length, Row::loads, &mut d.b, &mut d.sizes);
+                }
+                d.factor_scaled(wanted, own)
+            }
         };
         let is_target = |row: &Row| row.source == Source::TARGET;
         d.factored.is_known =

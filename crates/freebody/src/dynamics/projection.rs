@@ -13,7 +13,7 @@ use crate::solve::{Lu, Matrix, Orthogonal, Rank};
 const CORRECTIONS: usize = 12;
 /// Gap, relative to the characteristic length, at which a loop counts as closed.
 pub(crate) const CLOSED: f64 = 1e-14;
-/// Gap below which a contact is closed: no place is known any closer.
+/// Gap below which all is closed: no place is known any closer.
 const SHUT: f64 = 0.1 * CLOSED;
 /// Gap above which the closing of a loop has failed.
 pub(crate) const OPEN: f64 = 1e-9;
@@ -56,7 +56,8 @@ impl Workspace<'_> {
 
     /// Largest gap of the present state, lengths in units of the characteristic length.
     pub fn worst_gap(&mut self) -> f64 {
-        self.worst_gap_with(&[])
+        self.update_rows();
+        self.widest_gap()
     }
 
     /// The same with rows that hold gauges at given values.
@@ -64,6 +65,11 @@ impl Workspace<'_> {
         self.update_rows();
         let targets: Vec<Row> = held.iter().map(|(gauge, value)| self.target_row(gauge, *value, 0.0)).collect();
         self.rows.extend(targets);
+        self.widest_gap()
+    }
+
+    /// Largest gap of the rows as they are.
+    pub(crate) fn widest_gap(&self) -> f64 {
         let size = |row: &Row| self.gap(row).map_or(0.0, |g| g.abs() / self.row_unit(row));
         // What has no gap (wheels that overlap) is wide open.
         self.rows.iter().map(size).fold(0.0, |most, gap| if gap.is_nan() { f64::INFINITY } else { most.max(gap) })
@@ -89,8 +95,22 @@ impl Workspace<'_> {
         self.project_positions_with(mode, t, q, u, &[])
     }
 
-    /// As [`Workspace::project_positions`], with further gauges that must have given values.
+    /// As [`Workspace::project_positions`], with further gauges that must have given values. The closing rows are then those of
+    /// the present state.
     pub(crate) fn project_positions_with(
+        &mut self,
+        mode: &Mode,
+        t: f64,
+        q: &mut [f64],
+        u: &[f64],
+        held: &[(ModelExpr, f64)],
+    ) -> Result<f64, DynamicsError> {
+        let moved = self.close(mode, t, q, u, held);
+        self.rows.retain(|row| row.source != Source::TARGET);
+        moved
+    }
+
+    fn close(
         &mut self,
         mode: &Mode,
         t: f64,
@@ -103,8 +123,7 @@ impl Workspace<'_> {
         for _ in 0..CORRECTIONS {
             self.move_to(t, q, u);
             let gap = self.worst_gap_with(held);
-            let shut = gap <= SHUT && self.m.closures.is_empty();
-            if gap == 0.0 || shut || (gap >= 0.5 * last && gap <= OPEN) {
+            if gap <= SHUT || (gap >= 0.5 * last && gap <= OPEN) {
                 return Ok(moved);
             }
             last = gap;
@@ -138,6 +157,11 @@ impl Workspace<'_> {
     pub fn project_velocities(&mut self, mode: &Mode, t: f64, q: &[f64], u: &mut [f64]) -> Result<f64, DynamicsError> {
         self.place(mode, t, q, u);
         self.update_rows();
+        self.close_rates(u)
+    }
+
+    /// The same at the present state, of which the closing rows are.
+    pub(crate) fn close_rates(&mut self, u: &mut [f64]) -> Result<f64, DynamicsError> {
         let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
         if asked.iter().all(|&r| r == 0.0) {
             return Ok(0.0);

@@ -6,11 +6,11 @@
 
 use crate::expr::Env;
 use crate::gauges::ModelExpr;
-use crate::joints::Relative;
+use crate::joints::{Joint as _, Relative};
 use crate::kinematics::{gradient, jet, relative, JointView, MotionView, Poses, SeededView, State, StateView};
 use crate::mechanism::{Drive, DriveGauges, Friction, FrictionSource, Joint, Level, Part};
 use crate::mode::ContactMode;
-use crate::plane::{vec2, Pose, Turn, Twist, Vec2, Wrench};
+use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
 use smallvec::{smallvec, SmallVec};
 
@@ -202,10 +202,24 @@ fn slide_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> BodyWrenches<S>
 /// The rows of one joint expressed as a constraint.
 pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, out: &mut Vec<Row<S>>) {
     let joint = &at.m.joints[index];
-    let going = MotionView { at, bodies: base, accelerations: None };
-    let (axes, place) = relative(joint, at.m, &going);
-    let (axes, now) = values(&axes, &place);
+    let (axes, place) = MotionView { at, bodies: base, accelerations: None }.relative(joint);
+    let now = Relative { x: place.x.d0, y: place.y.d0, angle: place.angle.d0 };
     let point = axes.place(now.at());
+    let mut push = |row: usize, of: Jet<S>, slope: [S; 3]| {
+        let ([x, y, angle], source) = (slope, Source::Joint(index, row));
+        let (value, rate, motion) = (Some(of.d0), Some(of.d1), smallvec![]);
+        // Filled in place: a row is long.
+        out.push(Row { source, value, rate, bias: of.d2, motion, force: None });
+        let motion = &mut out.last_mut().expect("pushed").motion;
+        push_pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle }, motion);
+    };
+    if let Some(held) = joint.kind.held() {
+        let along = |part: usize| std::array::from_fn(|i| if i == part { S::one() } else { S::zero() });
+        for &row in &joint.rows {
+            push(row, [place.x, place.y, place.angle][held[row]], along(held[row]));
+        }
+        return;
+    }
     let view = JointView::in_mode(at, index, Jet::constant);
     if let Some(coefficients) = view.rate_row(&place) {
         let rates = [place.x, place.y, place.angle];
@@ -228,38 +242,33 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
     };
     let slopes = JointView::in_mode(at, index, Dual::constant).residual(&seeded);
     for &row in &joint.rows {
-        let [x, y, angle] = slopes[row].du;
-        out.push(Row {
-            source: Source::Joint(index, row),
-            value: Some(jets[row].d0),
-            rate: Some(jets[row].d1),
-            bias: jets[row].d2,
-            motion: pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle }),
-            force: None,
-        });
+        push(row, jets[row], slopes[row].du);
     }
-}
-
-/// Where a pose and a relative place are that move.
-#[inline(always)]
-fn values<S: Scalar>(pose: &Pose<Jet<S>>, place: &Relative<Jet<S>>) -> (Pose<S>, Relative<S>) {
-    let turn = Turn { angle: pose.turn.angle.d0, cos: pose.turn.cos.d0, sin: pose.turn.sin.d0 };
-    let at = vec2(pose.at.x.d0, pose.at.y.d0);
-    (Pose { at, turn }, Relative { x: place.x.d0, y: place.y.d0, angle: place.angle.d0 })
 }
 
 /// A load on the second body at a place, and its opposite on the first, each at its body's joint origin.
 #[inline(always)]
 pub fn pair<S: Scalar>(at: StateView<'_, S>, joint: &Joint, place: Vec2<S>, load: Wrench<S>) -> BodyWrenches<S> {
-    let [a, b] = at.m.ends(joint);
     let mut wrenches = smallvec![];
+    push_pair(at, joint, place, load, &mut wrenches);
+    wrenches
+}
+
+#[inline(always)]
+fn push_pair<S: Scalar>(
+    at: StateView<'_, S>,
+    joint: &Joint,
+    place: Vec2<S>,
+    load: Wrench<S>,
+    wrenches: &mut BodyWrenches<S>,
+) {
+    let [a, b] = at.m.ends(joint);
     if b > 0 {
         wrenches.push((b, load.seen_from(place - at.k.pose[b].at)));
     }
     if a > 0 {
         wrenches.push((a, -load.seen_from(place - at.k.pose[a].at)));
     }
-    wrenches
 }
 
 /// The row of a coupling or of a prescribed motion.

@@ -86,6 +86,8 @@ pub struct HybridSystem<'m> {
     near_singular: bool,
     /// Independence of the closing rows at the end of the last step; 0 where a phase begins, before it is known.
     pub(super) independence: f64,
+    /// The coordinates at which it was found.
+    independence_at: Vec<f64>,
     /// How many steps in a row have ended next to a singular configuration.
     pub(super) singular_steps: usize,
     pub(super) scales: Vec<f64>,
@@ -128,6 +130,7 @@ impl<'m> HybridSystem<'m> {
             worst_gap: 0.0,
             near_singular: false,
             independence: 0.0,
+            independence_at: vec![],
             singular_steps: 0,
             scales: vec![1.0; size],
             units: vec![],
@@ -214,12 +217,18 @@ impl<'m> HybridSystem<'m> {
         let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
         let dt = if fastest > 0.0 { GLANCE * NEAR_SINGULAR / fastest } else { 0.0 };
         let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
-        let mut independence = |t: f64, y: &[f64]| {
-            self.place(t, y);
-            self.workspace.update_rows();
-            self.workspace.independence()
-        };
-        (dt, [independence(t, y), independence(t + dt, &later)])
+        if self.independence == 0.0 || self.independence_at != y[..n] {
+            self.independence = self.independence_of(t, y);
+            self.independence_at.clear();
+            self.independence_at.extend_from_slice(&y[..n]);
+        }
+        (dt, [self.independence, self.independence_of(t + dt, &later)])
+    }
+
+    fn independence_of(&mut self, t: f64, y: &[f64]) -> f64 {
+        self.place(t, y);
+        self.workspace.update_rows();
+        self.workspace.independence()
     }
 
     /// A gap is known to the round-off of places and angles, which grows with them.
@@ -291,9 +300,11 @@ impl System for HybridSystem<'_> {
         self.workspace.set_states(&y[self.first_state()..]);
         let (q, rest) = y.split_at_mut(n);
         let moved = self.workspace.project_positions_with(&self.mode, t, q, &rest[..n], &self.locked)?;
-        self.worst_gap = self.worst_gap.max(self.workspace.worst_gap());
+        self.worst_gap = self.worst_gap.max(self.workspace.widest_gap());
         self.independence = self.workspace.independence();
-        let turned = self.workspace.project_velocities(&self.mode, t, q, &mut rest[..n])?;
+        self.independence_at.clear();
+        self.independence_at.extend_from_slice(q);
+        let turned = self.workspace.close_rates(&mut rest[..n])?;
         self.note_taut_segments();
         self.check_dead_position(t, y)?;
         let rate = self.scales.get(n).zip(self.scales.first()).map_or(1.0, |(u, q)| u / q);
@@ -324,7 +335,6 @@ impl System for HybridSystem<'_> {
             return None;
         }
         let (dt, [now, next]) = self.independence_ahead(t, y);
-        self.independence = now;
         let left = now * dt / (now - next);
         let ahead = left.is_finite() && left * reach > 0.0;
         self.near_singular = now < NEAR_SINGULAR || ahead && left.abs() <= reach.abs();

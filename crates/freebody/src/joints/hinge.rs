@@ -19,8 +19,8 @@ impl Joint for Hinge {
         Some(Relative { x: S::zero(), y: S::zero(), angle: q[0] })
     }
     #[inline]
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
-        Some(Rows3::of(&[r.x, r.y]))
+    fn held(&self) -> Option<&'static [usize]> {
+        Some(&[0, 1])
     }
     fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         Some(Rows3::of(&[r.angle]))

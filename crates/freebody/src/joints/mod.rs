@@ -77,9 +77,16 @@ pub trait Joint {
     fn pose<S: Scalar>(&self, _n: &Numbers<S>, _q: &[S]) -> Option<Relative<S>> {
         None
     }
-    /// The rows that vanish on the joint; None when it can only be a joint of the tree.
-    fn residual<S: Scalar>(&self, _n: &Numbers<S>, _r: &Relative<S>) -> Option<Rows3<S>> {
+    /// Which of x, y and the angle stay 0, where these are the rows that vanish on the joint.
+    fn held(&self) -> Option<&'static [usize]> {
         None
+    }
+    /// The rows that vanish on the joint; None when it can only be a joint of the tree.
+    #[inline]
+    fn residual<S: Scalar>(&self, _n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
+        let held = self.held()?;
+        let parts: [S; 3] = std::array::from_fn(|i| held.get(i).map_or(S::zero(), |&part| [r.x, r.y, r.angle][part]));
+        Some(Rows3::of(&parts[..held.len()]))
     }
     /// The coefficients of (ẋ, ẏ, rate of the angle) whose sum vanishes, of a row that no residual has for its rate (a
     /// non-holonomic constraint, in Pfaff's form).
@@ -123,6 +130,10 @@ macro_rules! list {
             #[inline]
             fn pose<S: Scalar>(&self, n: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
                 match self { $(Kind::$Joint => $module::$Joint.pose(n, q)),* }
+            }
+            #[inline]
+            fn held(&self) -> Option<&'static [usize]> {
+                match self { $(Kind::$Joint => $module::$Joint.held()),* }
             }
             #[inline]
             fn residual<S: Scalar>(&self, n: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {

@@ -22,8 +22,9 @@ impl Joint for Slider {
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: S::zero() })
     }
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
-        Some(Rows3::of(&[r.y, r.angle]))
+    #[inline]
+    fn held(&self) -> Option<&'static [usize]> {
+        Some(&[1, 2])
     }
     fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         Some(Rows3::of(&[r.x]))

@@ -20,8 +20,9 @@ impl Joint for Slot {
     fn pose<S: Scalar>(&self, _: &Numbers<S>, q: &[S]) -> Option<Relative<S>> {
         Some(Relative { x: q[0], y: S::zero(), angle: q[1] })
     }
-    fn residual<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
-        Some(Rows3::of(&[r.y]))
+    #[inline]
+    fn held(&self) -> Option<&'static [usize]> {
+        Some(&[1])
     }
     fn measure<S: Scalar>(&self, _: &Numbers<S>, r: &Relative<S>) -> Option<Rows3<S>> {
         Some(Rows3::of(&[r.x, r.angle]))

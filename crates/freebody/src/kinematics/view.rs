@@ -268,6 +268,34 @@ impl<S: Scalar> Poses<Jet<S>> for MotionView<'_, S> {
 }
 
 impl<S: Scalar> MotionView<'_, S> {
+    /// As [`relative`], written out: the place of a joint's second marker as seen from its first, in motion, with the pose of the
+    /// first marker.
+    #[inline(always)]
+    pub fn relative(&self, joint: &Joint) -> (Pose<S>, Relative<Jet<S>>) {
+        let StateView { m, n, k, .. } = self.at;
+        let [a, b] = m.ends(joint);
+        let [first, second] = [(a, joint.first.site), (b, joint.second.site)].map(|(body, site)| {
+            let (arm, twist) = (k.pose[body].turn.apply(n.arms[site]), k.twist[body]);
+            let acceleration = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]);
+            let of_site = acceleration.acceleration_at(arm, twist.w);
+            (arm, Twist { v: twist.at(arm), w: twist.w }, Twist { v: of_site, w: acceleration.w })
+        });
+        let axes = joint.first.axes(k.pose[a].turn, n.values[joint.first.angle]);
+        let (d, v, acc) =
+            (self.at.span(joint.first.site, joint.second.site, m), second.1 - first.1, second.2 - first.2);
+        let (w, alpha) = (first.1.w, first.2.w);
+        let at = axes.undo(d);
+        let rate = axes.undo(v.v - d.perp() * w);
+        let bend = axes.undo(acc.v - d.perp() * alpha - v.v.perp() * w.scale(2.0) - d * (w * w));
+        let angle = k.pose[b].turn.angle + n.values[joint.second.angle] - axes.angle;
+        let place = Relative {
+            x: Jet::new(at.x, rate.x, bend.x),
+            y: Jet::new(at.y, rate.y, bend.y),
+            angle: Jet::new(angle, v.w, acc.w),
+        };
+        (Pose { at: k.pose[a].at + first.0, turn: axes }, place)
+    }
+
     /// A coordinate by way of the bodies: right for any accelerations of the bodies.
     fn along_bodies(&self, joint: usize, k: usize) -> Jet<S> {
         let (m, n) = (self.at.m, self.at.n);

@@ -222,7 +222,7 @@ impl Runner<'_> {
         self.next.t = t;
         let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
         attempt.map_err(ending)?;
-        self.project()
+        self.project()?.map_err(ending)
     }
 
     /// What the events at the present do: whether the state or the law changed, and which of them ends the run.

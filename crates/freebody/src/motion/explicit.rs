@@ -36,6 +36,10 @@ pub(super) struct Explicit {
     k: Vec<Vec<f64>>,
     /// State at the stage being evaluated.
     y: Vec<f64>,
+    /// State at the last stage of the step, for the test of stiffness.
+    last: Vec<f64>,
+    /// Whether the error estimate asks for the rate at the end of the step.
+    rates_end: bool,
     weights: Vec<f64>,
     stiffness: Stiffness,
 }
@@ -47,6 +51,8 @@ impl Explicit {
             table,
             k: vec![vec![0.0; n]; stages],
             y: vec![0.0; n],
+            last: vec![0.0; n],
+            rates_end: table.errors.iter().any(|weights| weights.len() > table.b.len()),
             weights: vec![0.0; n],
             stiffness: Stiffness::default(),
         })
@@ -85,10 +91,24 @@ impl Explicit {
 /// Writes Σ aⱼ kⱼ, stage after stage; those without weight are left out.
 #[inline(always)]
 pub(super) fn combine<S: Scalar>(a: &[f64], k: &[Vec<S>], sum: &mut [S]) {
-    sum.fill(S::zero());
+    let (fours, rest) = sum.as_chunks_mut::<4>();
+    let (twos, last) = rest.as_chunks_mut::<2>();
+    let mut from = 0;
+    fours.iter_mut().for_each(|sum| *sum = combined(a, k, &mut from));
+    twos.iter_mut().for_each(|sum| *sum = combined(a, k, &mut from));
+    last.iter_mut().for_each(|sum| [*sum] = combined(a, k, &mut from));
+}
+
+/// The next few components, which stay in registers.
+#[inline(always)]
+fn combined<S: Scalar, const N: usize>(a: &[f64], k: &[Vec<S>], from: &mut usize) -> [S; N] {
+    let mut sum = [S::zero(); N];
     for (&a, k) in a.iter().zip(k).filter(|(&a, _)| a != 0.0) {
-        sum.iter_mut().zip(k).for_each(|(sum, k)| *sum += k.scale(a));
+        let part = &k[*from..*from + N];
+        sum.iter_mut().zip(part).for_each(|(sum, k)| *sum += k.scale(a));
     }
+    *from += N;
+    sum
 }
 
 impl Stepper for Explicit {
@@ -98,14 +118,15 @@ impl Stepper for Explicit {
         for (j, (&c, a)) in table.c.iter().zip(table.a).enumerate() {
             self.stage(system, from, h, (j + 1, c, a))?;
         }
+        self.last.copy_from_slice(&self.y);
         combine(table.b, &self.k, &mut to.y);
         to.y.iter_mut().zip(&from.y).for_each(|(y, from)| *y = from + h * *y);
-        system.rate_of(to)?;
         let stages = table.b.len();
-        self.k[stages].copy_from_slice(&to.dy);
-        if let Some(limit) = table.stability {
-            self.stiffness.note(limit, h, (&self.k[stages - 1], &self.y), to);
+        match self.rates_end {
+            true => system.rate_of(to)?,
+            false => to.dy.copy_from_slice(&self.k[stages - 1]),
         }
+        self.k[stages].copy_from_slice(&to.dy);
         norm.weights(from, to, &mut self.weights);
         Ok(self.error(h))
     }
@@ -113,6 +134,9 @@ impl Stepper for Explicit {
     fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (table, h, stages) = (self.table, to.t - from.t, self.table.b.len());
         self.k[stages].copy_from_slice(&to.dy);
+        if let Some(limit) = table.stability {
+            self.stiffness.note(limit, h, (&self.k[stages - 1], &self.last), to);
+        }
         for (j, (&c, a)) in table.more_c.iter().zip(table.more_a).enumerate() {
             self.stage(system, from, h, (stages + 1 + j, c, a))?;
         }
@@ -122,6 +146,10 @@ impl Stepper for Explicit {
             segment.bend(3 + j, self.y.iter().map(|y| h * y));
         }
         Ok(segment)
+    }
+
+    fn rates_end(&self) -> bool {
+        self.rates_end
     }
 
     fn is_stiff(&self) -> bool {

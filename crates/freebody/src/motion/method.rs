@@ -83,13 +83,18 @@ pub(super) fn all_finite(values: &[f64]) -> Result<(), Failure> {
 
 /// The working part of a method.
 pub(super) trait Stepper {
-    /// Steps from `from` to `to.t`, filling `to.y` and `to.dy`; returns the estimated error in
+    /// Steps from `from` to `to.t`, filling `to.y` and `to.dy`, see [`Stepper::rates_end`]; returns the estimated error in
     /// units of the tolerance (accept when ≤ 1).
     fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure>;
 
     /// The length of the step from a point, where the method knows it before the step is made.
     fn reach(&mut self, _system: &mut Counted, _from: &Point, _norm: &Norm) -> Option<f64> {
         None
+    }
+
+    /// Whether an attempt leaves the rate at its end; otherwise that is nearly it, and is evaluated once the step is accepted.
+    fn rates_end(&self) -> bool {
+        true
     }
 
     /// The dense output of the last attempt, after `to` has been projected.

@@ -182,7 +182,6 @@ impl<'a> Runner<'a> {
         }
         let error = self.accept(options)?;
         let natural = self.natural_step();
-        self.project()?;
         let segment = self.segment()?;
         let marks = self.search(&segment)?;
         if natural {
@@ -205,7 +204,7 @@ impl<'a> Runner<'a> {
         }
     }
 
-    /// Tries steps until one is accurate enough; returns its error.
+    /// Tries steps until one is accurate enough and has a rate at its end; returns its error.
     fn accept(&mut self, options: &Options) -> Result<f64, Outcome> {
         let mut cause = Outcome::StepUnderflow;
         let is_given = options.first_step.is_some() && self.run.accepted == 0;
@@ -221,8 +220,14 @@ impl<'a> Runner<'a> {
                 let known = known.map(Outcome::DynamicsError).or_else(|| self.stuck_law());
                 return Err(known.filter(|_| cause == Outcome::StepUnderflow).unwrap_or(cause));
             }
-            match self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm) {
-                Ok(error) if error <= 1.0 => return Ok(error),
+            let mut made = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
+            if made.as_ref().is_ok_and(|&error| error <= 1.0) {
+                match self.project()? {
+                    Ok(()) => return made.map_err(ending),
+                    Err(failure) => made = Err(failure),
+                }
+            }
+            match made {
                 Ok(error) if error.is_finite() => {
                     cause = Outcome::StepUnderflow;
                     self.steps.rejected(h, error);
@@ -286,8 +291,8 @@ impl<'a> Runner<'a> {
     }
 
     /// Projects the end of the step onto the invariants, but not along what is stiff: even round-off of a loop is a
-    /// vibration there, which the next step would have to follow.
-    pub fn project(&mut self) -> Result<(), Outcome> {
+    /// vibration there, which the next step would have to follow. Answers with the failure of the rate there, if it has none.
+    pub fn project(&mut self) -> Result<Result<(), Failure>, Outcome> {
         self.before.clone_from(&self.next.y);
         for round in 1..=PROJECTIONS {
             self.from.clone_from(&self.next.y);
@@ -295,7 +300,7 @@ impl<'a> Runner<'a> {
             let correction = system.project(self.next.t, &mut self.next.y).map_err(Outcome::DynamicsError)?;
             self.run.largest_correction = self.run.largest_correction.max(correction);
             if round == 1 && self.next.y == self.before {
-                return Ok(());
+                break;
             }
             if round == PROJECTIONS && correction > PROJECTED {
                 break;
@@ -307,10 +312,10 @@ impl<'a> Runner<'a> {
                 break;
             }
         }
-        if self.next.y != self.before {
-            self.system.rate_of(&mut self.next).map_err(ending)?;
+        if self.next.y != self.before || !self.stepper.rates_end() {
+            return Ok(self.system.rate_of(&mut self.next));
         }
-        Ok(())
+        Ok(Ok(()))
     }
 
     pub fn segment(&mut self) -> Result<Segment, Outcome> {

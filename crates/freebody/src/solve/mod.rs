@@ -2,7 +2,7 @@
 //!
 //! [`Saddle`] is the dense solver, exact about rank and about directions without inertia; it suits mechanisms of up to
 //! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart; [`Whole`] is quicker where they are few and
-//! nothing is in doubt. [`Pattern`] and
+//! nothing is in doubt, [`Quasidefinite`] again where every motion has inertia. [`Pattern`] and
 //! [`Factor`] solve the symmetric case for thousands of bodies, at a cost that grows with the fill. The rest is what
 //! they stand on.
 
@@ -13,6 +13,7 @@ mod ldl;
 mod matrix;
 mod ordering;
 mod orthogonal;
+mod quasidefinite;
 mod saddle;
 mod simplex;
 mod sparse;
@@ -23,6 +24,7 @@ pub use islands::{IslandMemory, Islands};
 pub use matrix::Matrix;
 pub use ordering::minimum_degree;
 pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};
+pub use quasidefinite::Quasidefinite;
 pub use saddle::{Equations, Saddle, SaddleError, Solution};
 pub use simplex::keep_above;
 pub use sparse::{Accuracy, Factor, Pattern, Stalled};

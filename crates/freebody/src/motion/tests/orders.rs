@@ -35,6 +35,9 @@ fn errors(method: &Method, known: &Known, steps: usize) -> (f64, f64) {
         let mut to = from.clone();
         to.t = until * step as f64 / steps as f64;
         stepper.attempt(&mut counted, &from, &mut to, &norm).unwrap();
+        if !stepper.rates_end() {
+            counted.rate_of(&mut to).unwrap();
+        }
         let segment = stepper.dense(&mut counted, &from, &to).unwrap();
         for k in 1..20 {
             let t = from.t + (to.t - from.t) * k as f64 / 20.0;

@@ -1,4 +1,4 @@
-use super::super::{dot, max_abs, Equations, Lu, Matrix, Saddle, SaddleError, Solution, Whole};
+use super::super::{dot, max_abs, Equations, Lu, Matrix, Quasidefinite, Saddle, SaddleError, Solution, Whole};
 use super::{distance, factored, unscaled, Random};
 
 /// A random instant: n unknowns, m rows of rank r, masses over two decades either way.
@@ -85,10 +85,12 @@ fn agrees_with_lu_of_the_whole_matrix() {
     }
 }
 
-/// As one matrix the equations have the same solution; where rows depend on each other or a motion has no inertia that declines.
+/// As one matrix, with or without exchange of rows, the equations have the same solution; where rows depend on each other or a
+/// motion has no inertia that declines.
 #[test]
 fn the_whole_has_the_same_solution_or_declines() {
-    let (mut whole, mut found, mut solved) = (Whole::default(), Solution::default(), 0);
+    let (mut whole, mut definite) = (Whole::default(), Quasidefinite::default());
+    let (mut found, mut solved) = (Solution::default(), [0; 2]);
     for seed in 0..400 {
         let mut random = Random(seed);
         let n = random.index(1, 9);
@@ -98,19 +100,24 @@ fn the_whole_has_the_same_solution_or_declines() {
             let row: Vec<f64> = p.g.row(i).iter().zip(&p.cols).map(|(g, col)| g * col).collect();
             p.rows[i] = 1.0 / dot(&row, &row).sqrt();
         }
-        if whole.refactor(p.equations(None)) {
+        let factored = [whole.refactor(p.equations(None)), definite.refactor(&p.mass, &p.g, &p.cols)];
+        for (i, _) in factored.iter().enumerate().filter(|(_, &factored)| factored) {
             assert_eq!(spare, 0, "seed {seed}: a redundant row");
-            whole.solve_into(&p.f, &p.r, &mut found);
+            match i {
+                0 => whole.solve_into(&p.f, &p.r, &mut found),
+                _ => definite.solve_into(&p.f, &p.r, &mut found),
+            }
             let s = p.factor(None).unwrap().solve(&p.f, &p.r);
             let apart = distance(&found.a, &s.a).max(distance(&found.lambda, &s.lambda));
             // Pivots of a hundredth: conditions of 1e4 at most.
             assert!(apart < 1e-11, "seed {seed}: {apart:e}");
-            solved += 1;
+            solved[i] += 1;
         }
     }
-    assert!(solved > 100, "{solved}");
+    assert!(solved[0] > 100 && solved[1] > 50, "{solved:?}");
     let massless = Matrix::from_fn(2, 2, |i, j| f64::from(i + j == 0));
     assert!(!whole.refactor(unscaled(&massless, &Matrix::zeros(0, 2))));
+    assert!(!definite.refactor(&massless, &Matrix::zeros(0, 2), &[1.0; 2]));
 }
 
 #[test]
