@@ -26,12 +26,13 @@ pub struct Dense {
     columns: Vec<f64>,
     scales: Vec<f64>,
     /// The size of what is summed in a row, before it cancels.
-    sizes: Vec<f64>,
+    pub(super) sizes: Vec<f64>,
     /// Inertia of each body with all that hangs on it.
     carried: Vec<Inertia>,
     factored: Factored,
-    /// Memory of the rank of the rows.
+    /// Memory of the rank of the rows, and of the rows in units of the characteristic length.
     pub(super) independence: Orthogonal,
+    pub(super) rows_in_units: Matrix,
 }
 
 /// In which form the equations were factored last.
@@ -119,9 +120,9 @@ pub(super) const CONTRADICTION: f64 = 1e-7;
 impl Workspace<'_> {
     /// Solves for what is wanted.
     pub(super) fn solve_minimal(&mut self, wanted: Wanted) -> Result<(), DynamicsError> {
-        let mut memory = std::mem::take(&mut self.memory);
+        let mut memory = self.memory.take().unwrap_or_default();
         let done = self.solve_minimal_with(&mut memory, wanted);
-        self.memory = memory;
+        self.memory = Some(memory);
         done
     }
 

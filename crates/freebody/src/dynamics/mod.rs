@@ -160,7 +160,8 @@ pub struct Workspace<'m> {
     solved: Solution,
     articulated_body: articulated_body::ArticulatedBody,
     dense: minimal::Dense,
-    memory: minimal::Memory,
+    /// There but while it is in use.
+    memory: Option<Box<minimal::Memory>>,
     sparse: Option<maximal::Sparse>,
     many_loops: bool,
     preferred: Option<Route>,
@@ -202,7 +203,7 @@ impl<'m> Workspace<'m> {
             },
             articulated_body: articulated_body::ArticulatedBody::new(),
             dense: Default::default(),
-            memory: Default::default(),
+            memory: Some(Default::default()),
             sparse: None,
             many_loops: false,
             preferred: None,

@@ -2,7 +2,7 @@
 
 use super::minimal::{Force, Memory, Wanted};
 use super::rows::closing_rows_into;
-use super::tree_matrices::{gradients, row_scales};
+use super::tree_matrices::{column_scales, gradients, row_scales, rows_in_coordinates};
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
@@ -167,7 +167,7 @@ impl Workspace<'_> {
             return Ok(0.0);
         }
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
-        let fastest = self.placed.u.iter().zip(self.units()).map(|(u, unit)| (u / unit).abs()).fold(0.0, f64::max);
+        let fastest = self.size_of(&self.placed.u);
         let rates = self.rows.iter().zip(&asked).map(|(row, asked)| (asked / self.row_unit(row)).abs());
         let near = NEAR.min(UNSEEN * fastest / rates.fold(0.0, f64::max));
         let step = self.correction(&asked, &present, near)?;
@@ -191,7 +191,7 @@ impl Workspace<'_> {
                 return Ok(self.least_motion(&self.rows, &asked));
             }
         }
-        let Memory { force, found, islands, .. } = &mut self.memory;
+        let Memory { force, found, islands, .. } = &mut **self.memory.get_or_insert_default();
         force.clear();
         force.resize(self.m.freedom(), 0.0);
         self.dense.solve_into(force, &asked, found, islands);
@@ -366,34 +366,44 @@ impl Workspace<'_> {
         if self.rows.is_empty() {
             return 1.0;
         }
-        let scaled = self.in_units(&self.rows);
+        let (mut scaled, mut sizes) =
+            (std::mem::take(&mut self.dense.rows_in_units), std::mem::take(&mut self.dense.sizes));
+        self.in_units(&self.rows, &mut scaled, &mut sizes);
+        let independence = self.independence_in_units(&scaled);
+        (self.dense.rows_in_units, self.dense.sizes) = (scaled, sizes);
+        independence
+    }
+
+    fn independence_in_units(&mut self, scaled: &Matrix) -> f64 {
         if self.many_loops {
             let norms = (0..scaled.rows()).map(|i| scaled.row(i).iter().map(|x| x * x).sum::<f64>().sqrt());
             let (least, most) = norms.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
             return least / most;
         }
-        self.dense.independence.refactor(&scaled);
-        self.dense.independence.rank().kept
+        self.dense.independence.find_rank(scaled).kept
     }
 
     /// Rows in units of the characteristic length, and their rank.
     pub(crate) fn independence_of(&self, rows: &[Row]) -> (Matrix, Rank) {
-        let scaled = self.in_units(rows);
+        let mut scaled = Matrix::default();
+        self.in_units(rows, &mut scaled, &mut vec![]);
         let rank = Orthogonal::factor(&scaled).rank();
         (scaled, rank)
     }
 
     /// Rows by coordinates, each over its unit, coordinates in theirs.
-    fn in_units(&self, rows: &[Row]) -> Matrix {
-        let g = gradients(self.at(), rows, self.length);
-        let columns = self.units();
-        let units: Vec<f64> = rows.iter().map(|row| 1.0 / self.row_unit(row)).collect();
-        Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * units[i] * columns[j])
+    fn in_units(&self, rows: &[Row], out: &mut Matrix, sizes: &mut Vec<f64>) {
+        rows_in_coordinates(self.at(), rows, self.length, |row| &row.motion, out, sizes);
+        for (i, row) in rows.iter().enumerate() {
+            let unit = 1.0 / self.row_unit(row);
+            let columns = column_scales(self.at(), self.length);
+            out.row_mut(i).iter_mut().zip(columns).for_each(|(entry, column)| *entry = *entry * unit * column);
+        }
     }
 
     fn size_of(&self, user: &[f64]) -> f64 {
-        let unit = self.units();
-        user.iter().zip(&unit).map(|(x, u)| (x / u).abs()).fold(0.0, f64::max)
+        let unit = column_scales(self.at(), self.length);
+        user.iter().zip(unit).map(|(x, u)| (x / u).abs()).fold(0.0, f64::max)
     }
 
     /// The row that is farthest from closed.

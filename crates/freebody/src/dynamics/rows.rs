@@ -207,9 +207,9 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
     let point = axes.place(now.at());
     let mut push = |row: usize, of: Jet<S>, slope: [S; 3]| {
         let ([x, y, angle], source) = (slope, Source::Joint(index, row));
-        let (value, rate, motion) = (Some(of.d0), Some(of.d1), smallvec![]);
-        // Filled in place: a row is long.
-        out.push(Row { source, value, rate, bias: of.d2, motion, force: None });
+        let (value, rate, bias) = (Some(of.d0), Some(of.d1), of.d2);
+        // Made in place: a row is long.
+        out.resize_with(out.len() + 1, || Row { source, value, rate, bias, motion: SmallVec::new(), force: None });
         let motion = &mut out.last_mut().expect("pushed").motion;
         push_pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle }, motion);
     };

@@ -79,6 +79,16 @@ impl Orthogonal {
         }
     }
 
+    /// The rank of other rows alone, in the same memory; no basis is known then.
+    pub fn find_rank(&mut self, g: &Matrix) -> Rank {
+        with_length!(g.cols(), |n| self.pivoted_qr(n, g));
+        self.rank = Rank::decide(&self.values);
+        if self.rank.uncertain {
+            self.take_svd(g);
+        }
+        self.rank
+    }
+
     /// The rank and its grounds.
     pub fn rank(&self) -> Rank {
         self.rank

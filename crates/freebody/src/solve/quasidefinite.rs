@@ -12,7 +12,7 @@ const CLEAR: f64 = 1e-2;
 #[derive(Clone, Debug, Default)]
 pub struct Quasidefinite {
     size: usize,
-    /// The rows of L below the diagonal, and on it the inverse pivots.
+    /// The rows of D Lᵀ above the diagonal, and on it the inverse pivots.
     factors: Vec<f64>,
 }
 
@@ -41,44 +41,36 @@ impl Quasidefinite {
         of_size!(self.size, self.factor(mass, g, scale, CLEAR * inertia))
     }
 
-    /// `least`: what an inertia must be.
-    #[inline(never)]
+    /// `least`: what an inertia must be. Rows are combined in their whole length, for that is a constant; what that leaves below
+    /// the diagonal is never read.
     fn factor<const N: usize>(&mut self, mass: &Matrix, g: &Matrix, scale: &[f64], least: f64) -> bool {
         let n = scale.len().min(N);
         let mut a = [[0.0; N]; N];
-        for (i, row) in a.iter_mut().enumerate() {
-            let from = if i < n { &mass.row(i)[..=i] } else { g.row(i - n) };
-            row[..from.len()].copy_from_slice(from);
+        for (i, to) in a.iter_mut().enumerate().take(n) {
+            to.iter_mut().zip(mass.row_of(i, n)).for_each(|(to, entry)| *to = *entry);
         }
-        let mut own = [0.0; N];
+        for i in n..N {
+            for (j, &entry) in g.row_of(i - n, n).iter().enumerate().take(n) {
+                (a[i][j], a[j][i]) = (entry, entry);
+            }
+        }
+        let (mut own, mut is_clear) = ([0.0; N], true);
         for k in 0..N {
-            let pivot = a[k][k];
-            if k < n {
-                // Written so that what is not a number declines.
-                if !(pivot * scale[k] * scale[k] > least) {
-                    return false;
-                }
-            } else if !(-pivot > CLEAR * own[k]) {
-                return false;
+            if k == n {
+                own = std::array::from_fn(|i| -a[i][i]);
             }
-            let inverse = 1.0 / pivot;
-            a[k][k] = inverse;
+            let (row, inverse) = (a[k], 1.0 / a[k][k]);
+            is_clear &= if k < n { row[k] * scale[k] * scale[k] > least } else { -row[k] > CLEAR * own[k] };
             for i in k + 1..N {
-                let entry = a[i][k];
-                let part = entry * inverse;
-                for j in k + 1..=i {
-                    a[i][j] -= part * a[j][k];
-                }
-                if k < n && i >= n {
-                    own[i] += part * entry;
+                let part = row[i] * inverse;
+                for j in 0..N {
+                    a[i][j] -= part * row[j];
                 }
             }
-            for row in &mut a[k + 1..] {
-                row[k] *= inverse;
-            }
+            a[k][k] = inverse;
         }
         self.factors[..N * N].copy_from_slice(a.as_flattened());
-        true
+        is_clear
     }
 
     /// M a − Gᵀ λ = f, G a = r: into `found`.
@@ -86,21 +78,21 @@ impl Quasidefinite {
         of_size!(self.size, self.substitute(f, r, found));
     }
 
-    #[inline(never)]
     fn substitute<const N: usize>(&self, f: &[f64], r: &[f64], found: &mut Solution) {
         let rows = self.factors.as_chunks::<N>().0.first_chunk::<N>().expect("room for all sizes");
-        let mut x = [0.0; N];
-        x.iter_mut().zip(f.iter().chain(r)).for_each(|(x, side)| *x = *side);
-        for i in 0..N {
-            for j in 0..i {
-                x[i] -= rows[i][j] * x[j];
+        let (mut side, mut x) = ([0.0; N], [0.0; N]);
+        let (forces, rates) = side.split_at_mut(f.len().min(N));
+        forces.copy_from_slice(f);
+        rates.copy_from_slice(r);
+        for k in 0..N {
+            x[k] = side[k] * rows[k][k];
+            for j in 0..N {
+                side[j] -= rows[k][j] * x[k];
             }
         }
-        for i in (0..N).rev() {
-            x[i] *= rows[i][i];
-            for j in i + 1..N {
-                x[i] -= rows[j][i] * x[j];
-            }
+        for k in (0..N).rev() {
+            let later: f64 = (k + 1..N).map(|j| rows[k][j] * x[j]).sum();
+            x[k] -= rows[k][k] * later;
         }
         found.a.clear();
         found.a.extend_from_slice(&x[..f.len()]);
