@@ -8,11 +8,13 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from freebody.mechanism import Mechanism
 from freebody.views import animate as animation
 from freebody.views import plots, shapes
 from freebody.views.animate import animate
 from freebody.views.diagram import diagram
 from freebody.views.draw import drawing
+from freebody.views.render import height
 from freebody.views.report.data import report_data
 from freebody.views.scene import drawn, of_run
 from freebody.views.sketch import sketch_of_state
@@ -116,6 +118,41 @@ def test_a_drawing_names_everything_and_no_two_labels_overlap(four_bar):
     assert len(boxes) > 10 and not any(a.overlaps(b) for a, b in combinations(boxes, 2))
     assert {"crank", "coupler", "rocker", "main bearing", "crank pin", "motor", "return spring", "coupler.P", "x", "y"} <= stated
     assert "θ = 57.3°" in stated
+
+
+def guided_blocks() -> Mechanism:
+    """Two blocks on one rail with a spring between their coordinates; the first is pulled by its left side and pushed by its right."""
+    m = Mechanism("blocks")
+    rail = m.ground.line("rail", m.ground.O, angle=0)
+    for name in ("first", "second"):
+        block = m.rectangle(name, mass=1, width=0.8, height=0.5)
+        m.slider(along=rail, line=block.line("base", block.centre, angle=0), coordinate=f"x_{name}")
+        for side, at in (("left", -0.4), ("right", 0.4)):
+            point = block.point(side, [at, 0])
+            m.force(name=f"{name} {side}", at=point, x=-2)
+    m.spring(name="spring", along="x_second - x_first", stiffness=5, rest_length=2)
+    m.initial(x_first=0, x_second=3, at_rest=True)
+    return m
+
+
+def test_a_spring_along_the_difference_of_coordinates_lies_between_what_they_measure():
+    m = guided_blocks()
+    state, notes = m.start()
+    sketch = drawn(sketch_of_state(m.source(notes), state))
+    [spring] = [pair for pair in sketch.pairs if pair.name == "spring"]
+    ends = [sketch.moved(sketch.names[i], np.array([[x, y]]))[0] for i, x, y in spring.ends]
+    np.testing.assert_allclose(ends, [[0, 0], [3, 0]], atol=1e-12)
+
+
+def test_a_force_that_pulls_begins_where_it_acts_and_one_that_pushes_ends_there():
+    ax = guided_blocks().drawing(layers=["forces"])
+    arrows = [(note.xyann[0], note.xy[0]) for note in ax.texts if note.get_text() == "" and note.xyann[0] - note.xy[0] > 0.1]
+    for place, pulls in ((-0.4, True), (0.4, False), (2.6, True), (3.4, False)):
+        assert any((start if pulls else end) == pytest.approx(place, abs=1e-9) for start, end in arrows)
+
+
+def test_lines_of_ground_lie_behind_bodies():
+    assert height("rail", "ground") < height("body", "crate") < height("rail", "crate")
 
 
 def test_gif_and_frames(pendulum, tmp_path):

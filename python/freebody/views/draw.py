@@ -30,6 +30,7 @@ _MEASURE, _LOAD = "#7a1fa2", "#b3261e"
 _CORNER = 74.0  # points
 _USUAL, _LARGE, _MANY = (8.0, 6.0), (11.0, 8.5), 20  # inches of the drawing; how many names take a large one
 _NARROWEST = 0.8  # of its height, the width of a drawing at least: labels stand beside what is upright
+_COVERED = 0.3  # of an arrow that pushes, the part in its body from which it is drawn pulling instead
 _OVER_LINES, _OVER_ARROWS = 8.0, 40.0  # what a label pays for each place that it covers
 FORMATS = Formats("a drawing is", dict.fromkeys((".svg", ".png", ".pdf")))
 UNNAMED = ("origin", "G", "centre", "start", "end")
@@ -52,12 +53,22 @@ class _Drawing:
             head = {"arrowstyle": "-|>", "color": tone, "lw": 1.3, "shrinkA": 0, "shrinkB": 0, "mutation_scale": 11}
             self.ax.annotate("", points[-1], points[-2], arrowprops=head, zorder=4)
 
-    def force(self, vector: Array, at: Array, text: str) -> None:
-        """An arrow of one length that ends where a force acts, unless the force is 0."""
+    def force(self, vector: Array, at: Array, text: str, pulled: str = "") -> None:
+        """An arrow of one length that ends where a force acts, unless the force is 0; that begins there, where it would lie in the body
+        that is ``pulled``."""
         if size := float(np.hypot(*vector)):
-            tail = at - vector / size * 6 * self.sketch.size
-            self.line(np.array([tail, at]), _LOAD, arrow=True, lw=1.8)
-            self.label(text, tail, _LOAD)
+            way = vector / size * 6 * self.sketch.size
+            pulls = pulled and self._lies_within(pulled, at - way, at)
+            arrow = np.array([at, at + way] if pulls else [at - way, at])
+            self.line(arrow, _LOAD, arrow=True, lw=1.8)
+            self.label(text, arrow[1 if pulls else 0], _LOAD)
+
+    def _lies_within(self, body: str, start: Array, end: Array) -> bool:
+        """Whether a good part of a way lies in a body."""
+        way = np.linspace(start, end, 21)
+        outlines = [stroke.line for stroke in self.sketch.strokes(0) if stroke.body == body and stroke.closed]
+        covered = np.any([shapes.inside(outline, way) for outline in outlines], axis=0) if outlines else np.zeros(21, bool)
+        return bool(covered.mean() > _COVERED)
 
     def label(self, text: str, anchor: Array, tone: str = INK, size: float = 9.0, bold: bool = False) -> None:
         """A label, to be placed when everything is drawn."""
@@ -169,7 +180,8 @@ def _draw_forces(sheet: _Drawing) -> None:
             sheet.line(bow, _LOAD, arrow=True, lw=1.6)
             sheet.label(force["name"], bow[-1], _LOAD)
         elif force["type"] == "force":
-            sheet.force(_vector(sheet.sketch, fields), sheet.sketch.place(fields["at"]), force["name"])
+            body = sheet.sketch.at[fields["at"]][0]
+            sheet.force(_vector(sheet.sketch, fields), sheet.sketch.place(fields["at"]), force["name"], pulled=body)
     for limit in sheet.sketch.limits().values():
         if limit.kind == "contact" and limit.at is not None and limit.N > 0:
             vector = np.array([limit.Fx, limit.Fy]) * (-1 if limit.first == GROUND else 1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -21,6 +21,7 @@ Place = tuple[str, Array]
 """A body, and where on it, in its frame (2,)."""
 _NEAR, _ROOM = 0.15, 0.4
 """Of a spring along a line, parts of its travel: how near its end comes to the beginning of the line, and how long it is at least."""
+_PARALLEL = 1e-6  # rad
 
 
 def draw_joints(sketch: Sketch) -> None:
@@ -61,18 +62,34 @@ def _ends(sketch: Sketch, fields: Fields) -> list[Place] | None:
     if "between" in fields:
         return [sketch.at[point] for point in fields["between"]]
     along = fields["along"]
-    for joint in sketch.spec["joints"]:
-        own, given = joint["with"], sketch.metadata["joints"]
-        coordinates = next((each["coordinates"] for each in given if each["name"] == joint["name"]), [])
-        if coordinates[:1] == [along] and joint["type"] == "polar":
-            return [sketch.at[point] for point in own["of"]]
-        if coordinates[:1] == [along] and (point := guided_point(joint)):
-            return _from_wall(sketch, *sketch.line(own["along"]), point)
+    if (joint := _measured_by(sketch, along)) and joint["type"] == "polar":
+        return [sketch.at[point] for point in joint["with"]["of"]]
+    if joint and (point := guided_point(joint)):
+        return _from_wall(sketch, *sketch.line(joint["with"]["along"]), point)
+    if (parts := along.split(" - "))[1:]:
+        return _between_guided(sketch, parts)
     if (found := re.fullmatch(r"([xy])\((.+)\)", along)) and found[2] in sketch.at:
         way = np.array([1.0, 0.0] if found[1] == "x" else [0.0, 1.0])
         middle = sketch.seen_from(GROUND, found[2]).mean(axis=0) * way[::-1]
         return _from_wall(sketch, GROUND, middle, way, found[2])
     return None
+
+
+def _measured_by(sketch: Sketch, coordinate: str) -> Mapping[str, Any] | None:
+    """The joint whose first coordinate it is."""
+    named = {each["coordinates"][0]: each["name"] for each in sketch.metadata["joints"] if each["coordinates"]}
+    return next((joint for joint in sketch.spec["joints"] if joint["name"] == named.get(coordinate)), None)
+
+
+def _between_guided(sketch: Sketch, coordinates: Sequence[str]) -> list[Place] | None:
+    """Of a difference of two coordinates: the points that go along parallel lines of one body."""
+    guided = [joint for name in coordinates if (joint := _measured_by(sketch, name)) and guided_point(joint)]
+    if len(guided) != 2:
+        return None
+    (first, _, one), (second, _, other) = (sketch.line(joint["with"]["along"]) for joint in guided)
+    if first != second or abs(one[0] * other[1] - one[1] * other[0]) > _PARALLEL:
+        return None
+    return [sketch.at[str(guided_point(joint))] for joint in reversed(guided)]
 
 
 def guided_point(joint: Mapping[str, Any]) -> str | None:

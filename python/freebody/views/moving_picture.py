@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import GROUND, Array
-from freebody.views.render import ORDER
+from freebody.views.render import ORDER, height
 from freebody.views.scene import of_run
 from freebody.views.sketch import Figure, Pair, Sketch, Stroke
 from freebody.views.style import PALETTE
@@ -86,7 +86,7 @@ class _Drawn:
         for i, figure in enumerate(self.sketch.figures.values()):
             for stroke in figure.strokes:
                 yield (
-                    (self.sketch.layer(figure.name), ORDER.index(stroke.style)),
+                    (self.sketch.layer(figure.name), height(stroke.style, figure.name)),
                     self._with_body(i, self._stroke(figure, stroke)),
                 )
         for pair in self.sketch.pairs:

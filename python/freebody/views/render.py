@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
+from freebody.core import GROUND as FIXED
 from freebody.views.sketch import Drawn, Sketch
 from freebody.views.style import GROUND, IMPACT, INK, PAPER
 
@@ -16,6 +17,11 @@ if TYPE_CHECKING:
 # Later styles lie on top of earlier ones.
 ORDER = ("hatch", "band", "body", "dash", "rail", "block", "mark", "slot", "coil", "mass", "weld", "pin")
 _LAYER = 0.6  # more than all styles of one body need
+
+
+def height(style: str, body: str) -> int:
+    """The place of a stroke in the order: the lines of ground lie behind all bodies."""
+    return ORDER.index("hatch" if body == FIXED and style == "rail" else style)
 
 
 def render(sketch: Sketch, ax: Axes, frame: int = 0) -> list[Artist]:
@@ -45,7 +51,7 @@ def patch(stroke: Drawn, shift: ArrayLike = (0.0, 0.0)) -> Any:
     """A stroke on the axes, moved by a ``shift``."""
     from matplotlib.patches import Polygon
 
-    order, look = 2 + 0.05 * ORDER.index(stroke.style) + _LAYER * stroke.layer, _look(stroke.style, stroke.tint)
+    order, look = 2 + 0.05 * height(stroke.style, stroke.body) + _LAYER * stroke.layer, _look(stroke.style, stroke.tint)
     return Polygon(stroke.points + shift, closed=stroke.closed, zorder=order, joinstyle="round", **look)
 
 
