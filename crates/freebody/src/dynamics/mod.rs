@@ -345,7 +345,7 @@ impl<'m> Workspace<'m> {
         loads::loads(at, &self.arms, &mut self.loads);
         joint_friction::add_joint_friction(at, &self.joint_friction_forces, &mut self.loads);
         contact_forces::add_compliant_forces(at, &mut self.loads);
-        if !self.loads.iter().flat_map(Wrench::parts).all(f64::is_finite) {
+        if !self.loads.iter().all(|load| load.parts().iter().all(|part| part.is_finite())) {
             return Err(self.infinite_load());
         }
         let at = self.placed.view(self.m, &self.n, &self.k);
@@ -353,10 +353,14 @@ impl<'m> Workspace<'m> {
             Route::Minimal if !self.is_closed() => {
                 self.rows.clear();
                 self.solved.lambda.clear();
-                let s = &mut self.solved;
-                self.articulated_body.solve(at, &self.arms, &self.loads, &mut s.nu_dot, &mut s.bodies, |i, wrench| {
-                    s.joint_wrenches[i] = wrench
-                })
+                let Solution { nu_dot, bodies, joint_wrenches, .. } = &mut self.solved;
+                let (sweep, arms, loads) = (&mut self.articulated_body, &self.arms, &self.loads);
+                match wanted {
+                    Wanted::Motion => sweep.solve(at, arms, loads, nu_dot, bodies, |_, _| {}),
+                    Wanted::Reactions => {
+                        sweep.solve(at, arms, loads, nu_dot, bodies, |i, wrench| joint_wrenches[i] = wrench)
+                    }
+                }
             }
             Route::Minimal => self.solve_minimal(wanted),
             Route::NewtonEuler => self.solve_newton_euler(),

@@ -86,10 +86,17 @@ pub fn closing_rows<S: Scalar>(at: StateView<'_, S>, base: Base<S>) -> Vec<Row<S
 
 /// The same in the memory of other rows.
 pub(super) fn closing_rows_into<S: Scalar>(at: StateView<'_, S>, base: Base<S>, rows: &mut Vec<Row<S>>) {
-    rows.clear();
+    let mut count = 0;
     for &joint in at.m.closures.iter().filter(|&&j| at.mode.has(Part::Joint(j))) {
-        joint_rows(at, joint, base, rows);
+        visit_joint_rows(at, joint, base, |row| {
+            match rows.get_mut(count) {
+                Some(old) => row.write(old),
+                None => rows.push(row.new_row()),
+            }
+            count += 1;
+        });
     }
+    rows.truncate(count);
     for (drive, _) in at.drives() {
         rows.push(drive_row(at, drive, base));
     }
@@ -199,24 +206,62 @@ fn slide_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> BodyWrenches<S>
     constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect()
 }
 
+/// A row of a joint; its load for a unit multiplier is one on the second body and its opposite on the first.
+struct JointRow<S> {
+    source: Source,
+    value: Option<S>,
+    rate: S,
+    bias: S,
+    /// On the second body and the first, at their joint origins, ground included.
+    loads: [(usize, Wrench<S>); 2],
+}
+
+impl<S: Scalar> JointRow<S> {
+    /// Writes it in place of another row, for a row is long.
+    #[inline(always)]
+    fn write(self, row: &mut Row<S>) {
+        (row.source, row.value, row.rate, row.bias, row.force) =
+            (self.source, self.value, Some(self.rate), self.bias, None);
+        row.motion.clear();
+        let [second, first] = self.loads;
+        if second.0 > 0 {
+            row.motion.push(second);
+        }
+        if first.0 > 0 {
+            row.motion.push(first);
+        }
+    }
+
+    fn new_row(self) -> Row<S> {
+        let (source, bias) = (self.source, self.bias);
+        let mut row = Row { source, value: None, rate: None, bias, motion: smallvec![], force: None };
+        self.write(&mut row);
+        row
+    }
+}
+
 /// The rows of one joint expressed as a constraint.
 pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, out: &mut Vec<Row<S>>) {
+    visit_joint_rows(at, index, base, |row| out.push(row.new_row()));
+}
+
+#[inline(always)]
+fn visit_joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, mut visit: impl FnMut(JointRow<S>)) {
     let joint = &at.m.joints[index];
     let (axes, place) = MotionView { at, bodies: base, accelerations: None }.relative(joint);
     let now = Relative { x: place.x.d0, y: place.y.d0, angle: place.angle.d0 };
-    let point = axes.place(now.at());
-    let mut push = |row: usize, of: Jet<S>, slope: [S; 3]| {
-        let ([x, y, angle], source) = (slope, Source::Joint(index, row));
-        let (value, rate, bias) = (Some(of.d0), Some(of.d1), of.d2);
-        // Made in place: a row is long.
-        out.resize_with(out.len() + 1, || Row { source, value, rate, bias, motion: SmallVec::new(), force: None });
-        let motion = &mut out.last_mut().expect("pushed").motion;
-        push_pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle }, motion);
+    let (point, [a, b]) = (axes.place(now.at()), at.m.ends(joint));
+    let (first, second) = (point - at.k.pose[a].at, point - at.k.pose[b].at);
+    let mut push = |row: usize, value: Option<S>, [rate, bias]: [S; 2], load: Wrench<S>| {
+        let loads = [(b, load.seen_from(second)), (a, -load.seen_from(first))];
+        visit(JointRow { source: Source::Joint(index, row), value, rate, bias, loads });
     };
+    let along = |[x, y, angle]: [S; 3]| Wrench { f: axes.turn.apply(vec2(x, y)), m: angle };
     if let Some(held) = joint.kind.held() {
-        let along = |part: usize| std::array::from_fn(|i| if i == part { S::one() } else { S::zero() });
         for &row in &joint.rows {
-            push(row, [place.x, place.y, place.angle][held[row]], along(held[row]));
+            let (of, part) = ([place.x, place.y, place.angle][held[row]], held[row]);
+            let unit = std::array::from_fn(|i| if i == part { S::one() } else { S::zero() });
+            push(row, Some(of.d0), [of.d1, of.d2], along(unit));
         }
         return;
     }
@@ -228,10 +273,7 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
             rate += c.d0 * r.d1;
             bias += c.d0 * r.d2 + c.d1 * r.d1;
         }
-        let [x, y, angle] = coefficients.map(|c| c.d0);
-        let motion = pair(at, joint, point, Wrench { f: axes.turn.apply(vec2(x, y)), m: angle });
-        let source = Source::Joint(index, 0);
-        out.push(Row { source, value: None, rate: Some(rate), bias, motion, force: None });
+        push(0, None, [rate, bias], along(coefficients.map(|c| c.d0)));
         return;
     }
     let jets = view.residual(&place);
@@ -242,33 +284,22 @@ pub fn joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>, 
     };
     let slopes = JointView::in_mode(at, index, Dual::constant).residual(&seeded);
     for &row in &joint.rows {
-        push(row, jets[row], slopes[row].du);
+        push(row, Some(jets[row].d0), [jets[row].d1, jets[row].d2], along(slopes[row].du));
     }
 }
 
 /// A load on the second body at a place, and its opposite on the first, each at its body's joint origin.
 #[inline(always)]
 pub fn pair<S: Scalar>(at: StateView<'_, S>, joint: &Joint, place: Vec2<S>, load: Wrench<S>) -> BodyWrenches<S> {
-    let mut wrenches = smallvec![];
-    push_pair(at, joint, place, load, &mut wrenches);
-    wrenches
-}
-
-#[inline(always)]
-fn push_pair<S: Scalar>(
-    at: StateView<'_, S>,
-    joint: &Joint,
-    place: Vec2<S>,
-    load: Wrench<S>,
-    wrenches: &mut BodyWrenches<S>,
-) {
     let [a, b] = at.m.ends(joint);
+    let mut wrenches = smallvec![];
     if b > 0 {
         wrenches.push((b, load.seen_from(place - at.k.pose[b].at)));
     }
     if a > 0 {
         wrenches.push((a, -load.seen_from(place - at.k.pose[a].at)));
     }
+    wrenches
 }
 
 /// The row of a coupling or of a prescribed motion.

@@ -42,6 +42,7 @@ pub(super) fn gradients(at: StateView<'_>, rows: &[Row], length: f64) -> Matrix 
 }
 
 /// What loads of rows do on the joint coordinates, n columns, with memory for their sizes.
+#[inline]
 pub(super) fn rows_in_coordinates(
     at: StateView<'_>,
     rows: &[Row],
@@ -60,6 +61,7 @@ pub(super) fn rows_in_coordinates(
 
 /// As [`generalized_force`], but 0 where loads cancel, or pass through a joint origin, but for round-off: such a row asks for
 /// nothing of that coordinate, and must not be scaled up to a constraint. `size`, 0 before, is what does not cancel.
+#[inline]
 fn generalized_force_clean(
     at: StateView<'_>,
     wrenches: &BodyWrenches<f64>,
@@ -80,6 +82,7 @@ fn generalized_force_clean(
 
 /// The mass matrix of the tree by joint coordinates, n × n, from the inertia of each body with all that hangs on it
 /// (composite rigid bodies; Featherstone ch. 6).
+#[inline]
 pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<Inertia>, out: &mut Matrix) {
     let bodies = at.m.bodies.len();
     out.reset(at.m.freedom(), at.m.freedom());
@@ -115,6 +118,7 @@ pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<In
 }
 
 /// Enters what the load of coordinate `j` does on every coordinate from body `i` down to ground.
+#[inline]
 fn couple(at: StateView<'_>, i: usize, j: usize, load: Wrench, out: &mut Matrix) {
     let (mut body, mut load) = (i, load);
     while let Some(b) = at.m.bodies[body].tree_joint {

@@ -274,12 +274,13 @@ impl<S: Scalar> MotionView<'_, S> {
     pub fn relative(&self, joint: &Joint) -> (Pose<S>, Relative<Jet<S>>) {
         let StateView { m, n, k, .. } = self.at;
         let [a, b] = m.ends(joint);
-        let [first, second] = [(a, joint.first.site), (b, joint.second.site)].map(|(body, site)| {
+        let moving = |body: usize, site: usize| {
             let (arm, twist) = (k.pose[body].turn.apply(n.arms[site]), k.twist[body]);
             let acceleration = self.bodies.map_or(Twist::zero(), |bodies| bodies[body]);
             let of_site = acceleration.acceleration_at(arm, twist.w);
             (arm, Twist { v: twist.at(arm), w: twist.w }, Twist { v: of_site, w: acceleration.w })
-        });
+        };
+        let (first, second) = (moving(a, joint.first.site), moving(b, joint.second.site));
         let axes = joint.first.axes(k.pose[a].turn, n.values[joint.first.angle]);
         let (d, v, acc) =
             (self.at.span(joint.first.site, joint.second.site, m), second.1 - first.1, second.2 - first.2);

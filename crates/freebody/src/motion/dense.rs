@@ -32,6 +32,11 @@ impl<S: Scalar> Segment<S> {
         Self { t0, t1, y0: y0.to_vec(), y1: y1.to_vec(), bends }
     }
 
+    /// Makes room for that many further F.
+    pub(super) fn expect(&mut self, more: usize) {
+        self.bends.reserve_exact(more * self.y0.len());
+    }
+
     /// Adds the next F, replacing those beyond `index` (F₃ has index 3).
     pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = S>) {
         self.bends.truncate((index - 1) * self.y0.len());

@@ -141,6 +141,7 @@ impl Stepper for Explicit {
             self.stage(system, from, h, (stages + 1 + j, c, a))?;
         }
         let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
+        segment.expect(table.dense.len());
         for (j, row) in table.dense.iter().enumerate() {
             combine(row, &self.k, &mut self.y);
             segment.bend(3 + j, self.y.iter().map(|y| h * y));
