@@ -10,7 +10,7 @@ use crate::joints::{Joint as _, Relative};
 use crate::kinematics::{gradient, jet, relative, JointView, MotionView, Poses, SeededView, State, StateView};
 use crate::mechanism::{Drive, DriveGauges, Friction, FrictionSource, Joint, Level, Part};
 use crate::mode::ContactMode;
-use crate::plane::{vec2, Twist, Vec2, Wrench};
+use crate::plane::{vec2, Turn, Twist, Vec2, Wrench};
 use crate::scalar::{Dual, Jet, Scalar};
 use smallvec::{smallvec, SmallVec};
 
@@ -256,15 +256,19 @@ fn visit_joint_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>
         let loads = [(b, load.seen_from(second)), (a, -load.seen_from(first))];
         visit(JointRow { source: Source::Joint(index, row), value, rate, bias, loads });
     };
-    let along = |[x, y, angle]: [S; 3]| Wrench { f: axes.turn.apply(vec2(x, y)), m: angle };
     if let Some(held) = joint.kind.held() {
+        let (one, zero, Turn { cos, sin, .. }) = (S::one(), S::zero(), axes.turn);
         for &row in &joint.rows {
-            let (of, part) = ([place.x, place.y, place.angle][held[row]], held[row]);
-            let unit = std::array::from_fn(|i| if i == part { S::one() } else { S::zero() });
-            push(row, Some(of.d0), [of.d1, of.d2], along(unit));
+            let (of, f, m) = match held[row] {
+                0 => (&place.x, vec2(cos, sin), zero),
+                1 => (&place.y, vec2(-sin, cos), zero),
+                _ => (&place.angle, Vec2::zero(), one),
+            };
+            push(row, Some(of.d0), [of.d1, of.d2], Wrench { f, m });
         }
         return;
     }
+    let along = |[x, y, angle]: [S; 3]| Wrench { f: axes.turn.apply(vec2(x, y)), m: angle };
     let view = JointView::in_mode(at, index, Jet::constant);
     if let Some(coefficients) = view.rate_row(&place) {
         let rates = [place.x, place.y, place.angle];
