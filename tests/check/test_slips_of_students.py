@@ -202,6 +202,12 @@ SLIPS = {
         "until the impact: (ρ² + a²) θ'' = −g a sin(30° − θ)",
         "is left out",
     ),
+    "energy in an impact that takes some": (
+        "crate_trips",
+        "just after the trip: ½ m v² = ½ I_K ω²",
+        "just after the trip: ½ m v h = I_K ω",
+        "momentum",
+    ),
 }
 
 

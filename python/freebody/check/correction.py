@@ -28,6 +28,7 @@ from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
+from .momentum_edits import momentum_edits
 from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
 from .slips import is_constraint, why
 from .stated import Correction, stated
@@ -183,6 +184,7 @@ class _Search:
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
             self.differentiated,
+            momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
             () if readable else forgotten_factors(self.equation, self.vocabulary),
         )
         for edit in self._promising(found):

@@ -46,6 +46,7 @@ _WHY = {
     "inverses": "the inverse of a sum is not the sum of the inverses: springs, masses or inertias count otherwise together",
     "brackets": "what stands behind a fraction is not below it",
     "unit vector": "a vector and a number cannot be equal: a direction is missing",
+    "momentum": "an impact takes energy: it is momentum that it keeps, or that about a point through which all its impulses go",
     "other term": "this part is no balance of what acts and moves",
 }
 
