@@ -208,6 +208,12 @@ SLIPS = {
         "just after the trip: ½ m v h = I_K ω",
         "momentum",
     ),
+    "energy of a fall in an impact that takes some": (
+        "bar_caught",
+        "just after the catch: (m + M) g h = ½ (⅓ m + M) L² ω²",
+        "just after the catch: (½ m + M) √(2 g h) = (⅓ m + M) L ω",
+        "momentum",
+    ),
 }
 
 

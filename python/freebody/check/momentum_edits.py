@@ -10,14 +10,14 @@ import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import ZERO, Add, Fn, Negative, Node, Sym, addends, is_zero
+from freebody.symbolic.tree import ZERO, Add, Fn, Mul, Negative, Node, Num, Sym, addends, is_zero
 
 from .edits import Edit
 from .language.statements import Equation
 from .powers import powers_of, written
 from .vocabulary import Vocabulary
 
-_SPEED, _SPIN = LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1)
+_SPEED, _SPIN, _GRAVITY = LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1), LENGTH.times(TIME, -2)
 _PARTS = (1.0, 0.5)  # of a length, as an arm
 _HELD = 1e-9  # relative: below it a sum is 0
 _MOST_ARMS = 2  # momenta that have one, all lengths being tried for each
@@ -64,15 +64,21 @@ def momentum_edits(equation: Equation, vocabulary: Vocabulary, values: Mapping[s
 
 
 def _momentum(sign: int, term: Node, vocabulary: Vocabulary) -> _Momentum | None:
-    """Of a term that is a kinetic energy of one speed."""
+    """Of a term that is a kinetic energy of one speed, or that of a fall, m g h, from which the speed is √(2 g h)."""
     number, powers = powers_of(term)
-    speeds = [
-        base for base, n in powers.items() if n == 2 and isinstance(base, Sym) and vocabulary.dimension(base) in (_SPEED, _SPIN)
+    of = {base: vocabulary.dimension(base) for base in powers if isinstance(base, Sym)}
+    speeds = [base for base, its in of.items() if powers[base] == 2 and its in (_SPEED, _SPIN)]
+    if len(speeds) == 1:
+        (speed,) = speeds
+        return _Momentum(2 * sign * number, {**powers, speed: 1}, of[speed] == _SPIN)
+    fall = [
+        next((base for base, its in of.items() if its == wanted and powers[base] == 1), None) for wanted in (_GRAVITY, LENGTH)
     ]
-    if len(speeds) != 1:
+    if speeds or None in fall or len(powers) != len(of):
         return None
-    (speed,) = speeds
-    return _Momentum(2 * sign * number, {**powers, speed: 1}, vocabulary.dimension(speed) == _SPIN)
+    speed_of_fall = Fn("sqrt", (Mul((Num(2.0, "2"), *filter(None, fall))),))
+    rest = {base: n for base, n in powers.items() if base not in fall}
+    return _Momentum(sign * number, {**rest, speed_of_fall: 1}, False)
 
 
 def _balanced(
