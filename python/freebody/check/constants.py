@@ -13,7 +13,7 @@ from freebody.symbolic.differentiate import rate
 from freebody.symbolic.dimensions import LENGTH, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, unsigned, walk
 
 from .coefficients import more, multiplied, product, tidied
 from .correction import EQUAL, MOST
@@ -236,7 +236,7 @@ class _Search:
         """What may stand before what changes."""
         sizes = [n for n in self.vocabulary.parameters if n not in self.vocabulary.angular]
         said = {*symbols_in(self.equation)}
-        sums = [n for n in walk(self.node) if isinstance(n, Add) and {_bare(t) for t in n.terms} <= {*sizes}]
+        sums = [n for n in walk(self.node) if isinstance(n, Add) and {unsigned(t) for t in n.terms} <= {*sizes}]
         ordered = sorted(sizes, key=lambda n: (n not in said, n in self.vocabulary.letters))
         return Monomials(self.values, dict.fromkeys((*(n for n in ordered if n in said), *sums, *ordered)), [()], _BLUR)
 
@@ -311,7 +311,3 @@ def _addends(node: Node, before: Node) -> Iterator[tuple[Node, Node]]:
 
 def _terms(node: Node) -> tuple[Node, ...]:
     return node.terms if isinstance(node, Add) else (node,)
-
-
-def _bare(node: Node) -> Node:
-    return node.of if isinstance(node, Negative) else node

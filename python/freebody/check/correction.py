@@ -16,7 +16,7 @@ import numpy as np
 from freebody.symbolic.dimensions import Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, is_zero, walk
+from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, is_zero, unsigned, walk
 
 from .coefficients import more, tidied
 from .derivative_edits import DerivativeEdits
@@ -321,7 +321,7 @@ class _Search:
     def _oddness(self, found: _Found) -> tuple[bool, int, float]:
         """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
         nothing was said, long, and large."""
-        sides = [side.of if isinstance(side, Negative) else side for side in (self.equation.left, self.equation.right)]
+        sides = [unsigned(side) for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
         length = len(spell(tidied(found.after))) + _WORTH * self._size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)

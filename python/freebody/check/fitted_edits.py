@@ -13,7 +13,7 @@ import numpy as np
 
 from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, unsigned, walk
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
@@ -92,7 +92,7 @@ class FittedEdits:
         """Terms that should be quite other ones."""
         with np.errstate(all="ignore"):
             for required in self.within(required_terms(equation, self.values)):
-                whole = any(required.node is part for side in (equation.left, equation.right) for part in (side, _bare(side)))
+                whole = any(required.node is part for side in (equation.left, equation.right) for part in (side, unsigned(side)))
                 for term in self._matching(equation, required.needed) if required.addend and not whole else ():
                     yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
@@ -132,8 +132,8 @@ class FittedEdits:
         off = (np.abs(rows) if isinstance(node, Pow) else rows) - needed
         for place in np.flatnonzero(np.abs(off).max(axis=1, initial=0.0) <= _SAME * np.abs(needed).max()).tolist():
             a, b = pairs[place]
-            its, fixed = self.vocabulary.dimension(own), [n in self.vocabulary.parameters for n in (a, _bare(b))]
-            if own in (a, _bare(b)) and (its == LENGTH or all(fixed) or not any(fixed)):  # no g + ÿ
+            its, fixed = self.vocabulary.dimension(own), [n in self.vocabulary.parameters for n in (a, unsigned(b))]
+            if own in (a, unsigned(b)) and (its == LENGTH or all(fixed) or not any(fixed)):  # no g + ÿ
                 found = Add((a, b), span=node.span)
                 size = 0.2 if own in self.vocabulary.parameters else 0.0 if isinstance(node, Mul) else 0.1
                 yield Pow(found, node.exponent) if isinstance(node, Pow) else found, size
@@ -289,7 +289,7 @@ class FittedEdits:
             if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
                 more = Add((Num(1.0, "1"), term))
                 old, new = (other, Mul((more, other))) if isinstance(node, Sym) else (node, Quotient(node, more))
-                answers = any(isinstance(_bare(side), Sym) for side in (equation.left, equation.right))
+                answers = any(isinstance(unsigned(side), Sym) for side in (equation.left, equation.right))
                 size = 0.02 * depth(term) + _NO_ANSWER * (not answers)
                 yield Edit("missing term", None, term, exchange(equation, old, new), size)
 
@@ -298,7 +298,7 @@ class FittedEdits:
         if equation not in self._terms:
             known, said = self.vocabulary, symbols_in(equation)
             sizes = known.sizes
-            sums = [n for n in walk(equation) if isinstance(n, Add) and {_bare(term) for term in n.terms} <= {*sizes}]
+            sums = [n for n in walk(equation) if isinstance(n, Add) and {unsigned(term) for term in n.terms} <= {*sizes}]
             lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
             pairs = combinations(lengths[:_MOST_LENGTHS], 2)
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
@@ -306,7 +306,7 @@ class FittedEdits:
             pairs += [Add(pair) for pair in combinations(masses[:_MOST_LENGTHS], 2)]
             own = [n for n in bases if n in said]
             moving = [n for n in said if n in known.others]
-            if not any(isinstance(_bare(side), Sym) for side in (equation.left, equation.right)):  # no answer
+            if not any(isinstance(unsigned(side), Sym) for side in (equation.left, equation.right)):  # no answer
                 moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
             fixed = lambda n: n.symbols <= {*known.parameters}
             calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
@@ -327,7 +327,7 @@ class FittedEdits:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
         said = set(symbols_in(equation))
         new = [n for n in symbols_in(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
-        first = _bare(term.top if isinstance(term, Quotient) else term)
+        first = unsigned(term.top if isinstance(term, Quotient) else term)
         its = self._of(equation)
         return (its is None or its.mass != 0) and bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
 
@@ -419,7 +419,3 @@ def _linear(term: Node) -> Node:
 def _calls(equation: Equation) -> list[Fn]:
     """The functions of one number that stand in an equation."""
     return [n for n in dict.fromkeys(walk(equation)) if isinstance(n, Fn) and len(n.args) == 1]
-
-
-def _bare(node: Node) -> Node:
-    return node.of if isinstance(node, Negative) else node

@@ -12,7 +12,7 @@ import numpy as np
 from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, addends, is_zero, walk
+from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, addends, is_zero, unsigned, walk
 
 from .edits import FIGURES, Edit
 from .language.dimensions import dimension
@@ -80,7 +80,7 @@ class Likelihood:
         self._at_instant = at_instant
         self.equation, self.vocabulary, self.values, self.elsewhere = equation, vocabulary, values, elsewhere
         self._said = equation.symbols
-        self._sides = [_bare(side) for side in (equation.left, equation.right)]
+        self._sides = [unsigned(side) for side in (equation.left, equation.right)]
 
     def lack(self, edit: Edit) -> float:
         """By how much an edit is larger than its kind says; without bound where it would be no correction: a mass or an inertia below
@@ -118,10 +118,10 @@ class Likelihood:
 
     def _of_extra_term(self, term: Node) -> float:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
-        other = next((side for side in self._sides if side is not _bare(term)), None)
+        other = next((side for side in self._sides if side is not unsigned(term)), None)
         alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
         solved = alone or (isinstance(term, Sym) and term in self._sides)
-        inside = all(part is not term and _bare(part) is not term for side in self._sides for part in _terms_of(side))
+        inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
         return _ODD * solved + _ONCE * (not self._is_there(term, but=term)) + _INSIDE * inside
 
     def _of_symbol(self, old: Sym, new: Sym) -> float:
@@ -217,7 +217,7 @@ class Likelihood:
         """Whether it is another term of the equation times a number."""
         own = _numbers(term, self.elsewhere)
         with np.errstate(all="ignore"):
-            ratios = [own / value for other, value in self._terms if but is None or other is not _bare(but)]
+            ratios = [own / value for other, value in self._terms if but is None or other is not unsigned(but)]
             return any(np.isfinite(r).all() and np.ptp(r) <= _SAME * np.abs(r).max() for r in ratios)
 
     def _mixture(self, term: Node) -> float:
@@ -280,10 +280,6 @@ class Likelihood:
 
 def _terms_of(side: Node) -> tuple[Node, ...]:
     return side.terms if isinstance(side, Add) else (side,)
-
-
-def _bare(node: Node) -> Node:
-    return node.of if isinstance(node, Negative) else node
 
 
 def _cancels(equation: Equation) -> bool:

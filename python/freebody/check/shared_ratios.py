@@ -9,7 +9,7 @@ import numpy as np
 
 from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Mul, Negative, Node, exchange, is_zero
+from freebody.symbolic.tree import Add, Mul, Node, exchange, is_zero, unsigned
 
 from .edits import Edit
 from .language.dimensions import dimension
@@ -52,6 +52,6 @@ def _addends(equation: Equation) -> list[tuple[Node, int]]:
     found = []
     for side, sign in ((equation.left, 1), (equation.right, -1)):
         for term in side.terms if isinstance(side, Add) else (side,):
-            own = term.of if isinstance(term, Negative) else term
+            own = unsigned(term)
             found += [] if is_zero(own) else [(own, -sign if own is not term else sign)]
     return found

@@ -7,7 +7,7 @@ from typing import Any
 
 from freebody.core import Spec, cards
 from freebody.symbolic.dimensions import Dimension
-from freebody.symbolic.tree import Fn, Negative, Node, Num, Sym, walk
+from freebody.symbolic.tree import Fn, Node, Num, Sym, unsigned, walk
 
 from . import syntax, units
 from .arithmetic import Number
@@ -161,7 +161,7 @@ class Writer:
         for call in walk(expression.tree):
             if isinstance(call, Fn) and call.name in _OF_ANGLES:
                 for given in call.args:
-                    angle = given.of if isinstance(given, Negative) else given
+                    angle = unsigned(given)
                     if isinstance(angle, Sym):
                         self.angles.add(angle.name)
                     elif isinstance(angle, Num) and expression.numbers[angle.span] is None:

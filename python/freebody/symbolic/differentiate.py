@@ -26,6 +26,7 @@ from freebody.symbolic.tree import (
     Unit,
     canonical,
     power,
+    unsigned,
     walk,
 )
 
@@ -139,7 +140,7 @@ def _product(factors: Sequence[Node]) -> Node:
     if _ZERO in factors:
         return _ZERO
     negative = sum(isinstance(factor, Negative) for factor in factors) % 2
-    plain = [factor.of if isinstance(factor, Negative) else factor for factor in factors]
+    plain = [unsigned(factor) for factor in factors]
     left = [factor for factor in plain if factor != _ONE] or [_ONE]
     found = left[0] if len(left) == 1 else Mul(tuple(left))
     return Negative(found) if negative else found

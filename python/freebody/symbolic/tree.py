@@ -177,6 +177,11 @@ def negative(tree: Tree) -> Tree:
     return add(*(mul(MINUS_ONE, term) for term in tree.terms)) if isinstance(tree, Add) else mul(MINUS_ONE, tree)
 
 
+def unsigned(node: Node) -> Node:
+    """What a minus stands before; else the node itself."""
+    return node.of if isinstance(node, Negative) else node
+
+
 def minus(left: Tree, right: Tree) -> Tree:
     """left − right."""
     return add(left, negative(right))
