@@ -61,6 +61,18 @@ def test_a_rod_ends_in_the_point_that_touches():
     assert outline[:, 0].max() > 2.0  # where nothing touches it is round
 
 
+@pytest.mark.parametrize("ends", ["{A: start, B: end}", "{A: end, B: start}"])
+def test_a_rod_that_comes_to_lie_on_a_line_lies_on_it(ends):
+    both = LADDER.replace("{A: start, B: end}", ends).replace("contacts: {", "contacts: {top: {of: [ladder.B, ground.floor]}, ")
+    free = both.replace(
+        "joints: {top: {type: slot, point: ladder.B, along: {through: ground.O, angle: 90 deg}, coordinate: h}}\n", ""
+    )
+    sketch = sketched(free.replace("[1.2 m, 0]}", "[1.2 m, 0], ladder.B: [-1.2 m, 3.2 m]}").replace("0.9 s", "1.5 s"))
+    [outline] = [stroke.points for stroke in sketch.figures["ladder"].strokes if stroke.style == "body"]
+    places = [sketch.moved("ladder", outline, k)[:, 1] for k in range(len(sketch.t))]
+    assert min(map(np.min, places)) > -1e-3 * sketch.size and np.max(places[-1]) == pytest.approx(1.6 * sketch.size)
+
+
 @pytest.mark.parametrize("surfaces", ["ball, ground.floor", "ground.floor, ball"])
 def test_the_spring_of_a_contact_stands_in_the_ground_while_it_acts(surfaces):
     """From as deep as the ball is pressed in, straight down from the surface, whichever is named first and whatever the friction."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,7 @@ from freebody.views.stop_glyphs import draw_stops
 if TYPE_CHECKING:
     from freebody.run.simulation import Run
 
+_FLAT = 0.99  # cosine of an angle from which on a body lies on a line
 _OWN_POINTS = ("origin", "G", "centre", "start")
 
 
@@ -52,7 +54,7 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
     """The shapes of its pieces; for a body without shape, the hull of its points."""
     figure, look = sketch.figures[body["name"]], sketch.looks.get(body["name"], {})
     thickness = _half(sketch, look, 0.8 * sketch.size)
-    tips = _tips(sketch, body["name"])
+    tips, side = _tips(sketch, body["name"]), _upper_side(sketch, body["name"])
     if (outline := look.get("outline")) is not None:
         _draw_outline(sketch, figure, outline, thickness, tips)
         return
@@ -66,6 +68,8 @@ def _draw_body(sketch: Sketch, body: Mapping[str, Any]) -> None:
         angle = sketch.number(piece.get("angle", 0.0))
         own_tips = shapes.turn(tips - at, -angle)
         for points, style in _outlines(sketch, body["name"], drawn_so, piece["shape"], sizes, corners, half, own_tips):
+            if side and piece["shape"] == "rod":
+                points = np.array([[-1.0, 0], [1, 0], [1, 2 * side], [-1, 2 * side]]) * (sizes["length"] / 2, half)
             placed, place = shapes.turn(points, angle, at), np.array(at)
             figure.add(placed, style, len(points) > 2, place if style == "mass" else None, tone)
     masses = [stroke.points.mean(axis=0) for stroke in figure.strokes if stroke.style == "mass"]
@@ -104,6 +108,26 @@ def _tips(sketch: Sketch, body: str) -> Array:
         surface["point"] for contact in sketch.spec.get("contacts", []) for surface in contact["of"] if "point" in surface
     ]
     return np.array([sketch.at[name][1] for name in touching if sketch.at[name][0] == body]).reshape(-1, 2)
+
+
+def _upper_side(sketch: Sketch, body: str) -> float:
+    """Of a body that comes to lie flat on a line with both of its ends, the side on which it is drawn, so that it lies on it: that of
+    its y axis, 1, or the other, -1; 0 of any other body."""
+    touching = Counter[str]()
+    lines: dict[str, Mapping[str, Any]] = {}
+    for contact in sketch.spec.get("contacts", []):
+        for surface, other in (contact["of"], contact["of"][::-1]):
+            if "line" in other and "point" in surface and sketch.at[surface["point"]][0] == body:
+                touching[repr(other)] += 1
+                lines[repr(other)] = other
+    flat = [lines[words] for words, count in touching.items() if count > 1]
+    for line in flat:
+        owner, _, along = sketch.line(line["line"])
+        turned = sketch.poses[:, sketch.names.index(body), 2] - sketch.poses[:, sketch.names.index(owner), 2]
+        level = np.cos(turned - np.arctan2(along[1], along[0]))
+        if abs(best := level[np.abs(level).argmax()]) > _FLAT:
+            return float(np.sign(best))
+    return 0.0
 
 
 def _outlines(
