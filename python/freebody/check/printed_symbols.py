@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +51,11 @@ class PrintedSymbols:
         return self._of(_momenta)
 
     def _of(self, *parts: Callable[[SymbolicState], Iterator[tuple[str, str]]]) -> dict[str, str]:
-        return {name: meant for part in parts for name, meant in part(self._derived)} if self._derived else {}
+        found: dict[str, str] = {}
+        for part in parts if self._derived else ():
+            with suppress(MotionError):  # what is too long to be written has no letters
+                found |= part(self._derived)
+        return found
 
     @cached_property
     def renamed(self) -> list[Renamed]:

@@ -17,7 +17,8 @@ from .language.tokens import CALLS
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
 _FROM_REST = re.compile(
     rf"(?:\b(?:if|when|after)\s+)?(?:\b(?:it|they|(?:the )?\w+)\s+(?:is|was|are|were)\s+|\b(?:it|they)\s+|\bbeing\s+)?"
-    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\(from rest\)|\bfrom rest(?=\s*\Z)",
+    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\(from rest\)|\bfrom rest(?=\s*\Z)"
+    r"|(?:\b(?:after|for|with|on)\s+)?\ba\s+start\s+from\s+rest\b",
     re.IGNORECASE,
 )
 _REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")

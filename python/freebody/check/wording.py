@@ -8,7 +8,7 @@ import re
 from .language.glyphs import CONDITION
 
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
-_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
+_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long as|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
@@ -19,7 +19,7 @@ _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
 _FREQUENCIES = re.compile(
     r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)\s*\Z"
 )
-LASTS = re.compile(r"(?:while|until|during)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
+LASTS = re.compile(r"(?:while|until|during|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
 _WORDS = re.compile(r"[A-Za-z\s'-]+")
 _WITHOUT = re.compile(
@@ -36,7 +36,7 @@ _SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
 _STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
-_BEFORE_COMMA = re.compile(rf"({_STARTS})\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
+_BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
 _PARTS = re.compile(r",|\band\b")
