@@ -129,7 +129,8 @@ fn rank(pair: &Pair, particle: [bool; 2]) -> [Option<u32>; 2] {
         (true, _, _) => 0,
         (_, true, _) => 1,
         (_, _, true) => 8,
-        _ => 2,
+        // One that frees less is nearer to the coordinates of a book: a hinge before a slot.
+        _ => 1 + card.coordinates.len().max(1) as u32,
     };
     let absolute = pair.element.coordinates.iter().any(|c| c.absolute);
     let turns = card.coordinates.iter().any(|c| c.turn);
