@@ -31,19 +31,26 @@ impl Upper {
     /// y ← K x.
     pub fn apply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         y.fill(0.0);
-        self.each(|i, k, p| {
-            y[i] += values[p] * x[k];
+        self.each(values, |i, k, v| {
+            y[i] += v * x[k];
             if i != k {
-                y[k] += values[p] * x[i];
+                y[k] += v * x[i];
             }
         });
     }
-    /// Calls f(row, column, entry) for every entry of the upper triangle.
-    pub fn each(&self, mut f: impl FnMut(usize, usize, usize)) {
+    /// Calls f(row, column, value) for every entry of the upper triangle.
+    #[inline(always)]
+    pub fn each(&self, values: &[f64], mut f: impl FnMut(usize, usize, f64)) {
         for k in 0..self.len() {
-            for p in self.column(k) {
-                f(self.rows[p], k, p);
-            }
+            let column = self.column(k);
+            self.rows[column.clone()].iter().zip(&values[column]).for_each(|(&row, &v)| f(row, k, v));
+        }
+    }
+    /// K ← diag(s) K diag(s).
+    pub fn scale(&self, s: &[f64], values: &mut [f64]) {
+        for (k, &sk) in s.iter().enumerate() {
+            let column = self.column(k);
+            self.rows[column.clone()].iter().zip(&mut values[column]).for_each(|(&row, v)| *v *= s[row] * sk);
         }
     }
 }
