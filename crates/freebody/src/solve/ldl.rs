@@ -1,5 +1,7 @@
 //! Sparse L D Lᵀ factors of a quasi-definite matrix.
 
+use std::ops::Range;
+
 /// The nonzero structure of L: found once, used by every factorisation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Symbolic {
@@ -25,18 +27,20 @@ impl Upper {
     pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
-    pub fn column(&self, k: usize) -> std::ops::Range<usize> {
+    pub fn column(&self, k: usize) -> Range<usize> {
         self.starts[k]..self.starts[k + 1]
     }
-    /// y ← K x.
-    pub fn apply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
-        y.fill(0.0);
-        self.each(values, |i, k, v| {
-            y[i] += v * x[k];
-            if i != k {
-                y[k] += v * x[i];
+    /// y ← y + factor K x.
+    pub fn add_product(&self, values: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
+        for k in 0..self.len() {
+            let Range { start, end } = self.column(k);
+            let (xk, mut sum) = (factor * x[k], values[end - 1] * x[k]);
+            for (&row, &v) in self.rows[start..end - 1].iter().zip(&values[start..end - 1]) {
+                y[row] += v * xk;
+                sum += v * x[row];
             }
-        });
+            y[k] += factor * sum;
+        }
     }
     /// Calls f(row, column, value) for every entry of the upper triangle.
     #[inline(always)]

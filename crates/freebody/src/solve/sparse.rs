@@ -331,21 +331,25 @@ impl Factor {
         self.pattern.node_of(self.pattern.renumbering().fold((0, 0.0), larger).0)
     }
 
-    /// Refines x until the residual r is `aim`, or no longer halves.
+    /// Refines x, 0 at first, until the residual r is `aim`, or no longer halves.
     fn refine(&self, aim: f64, b: &[f64], x: &mut [f64], r: &mut [f64]) -> Accuracy {
         let upper = &self.pattern.upper;
-        let apply = |x: &[f64], y: &mut [f64]| upper.apply(&self.values, x, y);
+        let apply = |x: &[f64], y: &mut [f64]| {
+            y.fill(0.0);
+            upper.add_product(&self.values, 1.0, x, y);
+        };
         let precondition = |v: &mut [f64]| self.ldl.solve(&self.pattern.symbolic, v);
-        let mut accuracy = Accuracy { iterations: 0, residual: self.residual(b, x, r) };
-        let mut step = r.to_vec();
+        r.copy_from_slice(b);
+        let mut accuracy = Accuracy { iterations: 0, residual: if max_abs(b) == 0.0 { 0.0 } else { 1.0 } };
+        let (mut step, mut terms) = (r.to_vec(), None);
         while accuracy.residual > aim {
             precondition(&mut step);
             axpy(1.0, &step, x);
-            let residual = self.residual(b, x, r);
+            let residual = self.residual(b, x, *terms.get_or_insert_with(|| self.terms(b, x)), r);
             accuracy.iterations += 1;
             if residual.is_nan() || residual > PLAIN_REDUCTION * accuracy.residual {
                 axpy(-1.0, &step, x);
-                accuracy.residual = self.residual(b, x, r);
+                accuracy.residual = self.residual(b, x, self.terms(b, x), r);
                 break;
             }
             accuracy.residual = residual;
@@ -358,13 +362,13 @@ impl Factor {
             let (before, residual) = (x.to_vec(), accuracy.residual);
             let target = 0.5 * aim / residual * max_abs(r);
             accuracy.iterations += gmres::cycle(apply, precondition, r, target, x);
-            accuracy.residual = self.residual(b, x, r);
+            accuracy.residual = self.residual(b, x, self.terms(b, x), r);
             if accuracy.residual <= 0.5 * residual {
                 continue;
             }
             if accuracy.residual > residual || accuracy.residual.is_nan() {
                 x.copy_from_slice(&before);
-                accuracy.residual = self.residual(b, x, r);
+                accuracy.residual = self.residual(b, x, self.terms(b, x), r);
             }
             break;
         }
@@ -379,7 +383,7 @@ impl Factor {
         };
         clear_rows(x);
         let (mut rest, mut r) = (vec![0.0; b.len()], vec![0.0; b.len()]);
-        self.residual(b, x, &mut rest);
+        self.residual(b, x, [1.0; 2], &mut rest);
         clear_rows(&mut rest);
         let mut y = vec![0.0; b.len()];
         let iterations = self.refine(TARGET, &rest, &mut y, &mut r).iterations;
@@ -387,32 +391,34 @@ impl Factor {
         iterations
     }
 
-    /// r ← b − K x; returns the residual as defined by [`Accuracy`].
-    fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) -> f64 {
-        let mut terms = vec![0.0; b.len()];
+    /// r ← b − K x; returns the residual as defined by [`Accuracy`], for sizes of the terms.
+    fn residual(&self, b: &[f64], x: &[f64], terms: [f64; 2], r: &mut [f64]) -> f64 {
         r.copy_from_slice(b);
+        self.pattern.upper.add_product(&self.values, -1.0, x, r);
+        let left = self.largest_of_kinds(r);
+        let ratio = |kind: usize| if left[kind] == 0.0 { 0.0 } else { left[kind] / terms[kind] };
+        max_abs(&[ratio(0), ratio(1)])
+    }
+
+    /// max |K| |x| + max |b|, of bodies and of joints.
+    fn terms(&self, b: &[f64], x: &[f64]) -> [f64; 2] {
+        let mut terms = vec![0.0; b.len()];
         self.pattern.upper.each(&self.values, |i, k, v| {
-            r[i] -= v * x[k];
             terms[i] += (v * x[k]).abs();
             if i != k {
-                r[k] -= v * x[i];
                 terms[k] += (v * x[i]).abs();
             }
         });
         let given = max_abs(b);
-        let of_kind = |v: &[f64], body: bool| {
+        self.largest_of_kinds(&terms).map(|most| most + given)
+    }
+
+    /// The largest entry of bodies, and of joints.
+    fn largest_of_kinds(&self, v: &[f64]) -> [f64; 2] {
+        [true, false].map(|body| {
             let kind = v.iter().zip(&self.shift).filter(|(_, s)| (**s > 0.0) == body);
             largest(kind.map(|(v, _)| *v))
-        };
-        let ratio = |body| {
-            let left = of_kind(r, body);
-            if left == 0.0 {
-                0.0
-            } else {
-                left / (of_kind(&terms, body) + given)
-            }
-        };
-        max_abs(&[ratio(true), ratio(false)])
+        })
     }
 }
 
