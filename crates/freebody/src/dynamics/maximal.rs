@@ -2,8 +2,8 @@
 //! is linear in the number of bodies for trees and for ladders of loops.
 
 use super::momentum::Inertia;
-use super::sparse_tree::SparseTree;
 use super::rows::{closing_rows, joint_rows, joint_tangent, pair};
+use super::sparse_tree::SparseTree;
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::Joint;

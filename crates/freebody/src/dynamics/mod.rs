@@ -67,8 +67,8 @@ use crate::kinematics::{gradient, Kinematics, State, StateView};
 use crate::mechanism::{self, Mechanism, Part};
 use crate::mode::{ContactMode, Mode};
 use crate::plane::{Twist, Vec2, Wrench};
-use generalized_force::{generalized_force, size_of_power, visit_ancestors};
 use crate::solve::Stalled;
+use generalized_force::{generalized_force, size_of_power, visit_ancestors};
 use minimal::Wanted;
 
 /// How the equations of an instant are set up and solved.
@@ -380,7 +380,9 @@ impl<'m> Workspace<'m> {
             }
             Route::Minimal => self.solve_minimal(wanted),
             Route::NewtonEuler => self.solve_newton_euler(),
-            Route::Constraints if wanted == Wanted::Motion && self.preferred.is_none() && self.sparse_tree.is_some() => {
+            Route::Constraints
+                if wanted == Wanted::Motion && self.preferred.is_none() && self.sparse_tree.is_some() =>
+            {
                 self.solve_sparse_tree().or_else(|_| self.solve_constraints())
             }
             Route::Constraints => self.solve_constraints(),

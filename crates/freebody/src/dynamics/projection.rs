@@ -7,8 +7,8 @@ use super::{visit_ancestors, DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
 use crate::mode::Mode;
-use smallvec::SmallVec;
 use crate::solve::{Lu, Matrix, Orthogonal, Rank};
+use smallvec::SmallVec;
 
 /// Corrections after which a position is given up.
 const CORRECTIONS: usize = 12;

@@ -43,8 +43,7 @@ fn coordinates(m: &Mechanism, body: usize) -> Range<usize> {
 
 /// The coordinates on which loads on bodies may do work, each once.
 fn coordinates_below(m: &Mechanism, bodies: &[usize]) -> Vec<usize> {
-    let mut all: Vec<usize> =
-        bodies.iter().flat_map(|&body| branch(m, body)).flat_map(|i| coordinates(m, i)).collect();
+    let mut all: Vec<usize> = bodies.iter().flat_map(|&body| branch(m, body)).flat_map(|i| coordinates(m, i)).collect();
     all.sort_unstable();
     all.dedup();
     all
@@ -52,8 +51,7 @@ fn coordinates_below(m: &Mechanism, bodies: &[usize]) -> Vec<usize> {
 
 /// The groups of closing rows, each with its number of rows and the bodies on which these act.
 fn groups(m: &Mechanism) -> Vec<(Source, usize, Vec<usize>)> {
-    let of_joint =
-        |&j: &usize| (Source::Joint(j, 0), m.joints[j].rows.len(), m.ends(&m.joints[j]).to_vec());
+    let of_joint = |&j: &usize| (Source::Joint(j, 0), m.joints[j].rows.len(), m.ends(&m.joints[j]).to_vec());
     let of_drive = |d: usize| {
         let driven = m.drives[d].of.clone() - m.drives[d].law.clone();
         (Source::Drive(d), 1, m.bodies_of(&driven))
