@@ -22,8 +22,10 @@ pub(crate) const OPEN: f64 = 1e-9;
 const UNMOVED: f64 = 1e-9;
 /// Correction, over the gap that it closes, beyond which the rows all but depend on each other.
 const FAR: f64 = 1e4;
-/// Part of the fastest rate below which what is left of a rate asked for is round-off.
+/// Part of the fastest rate below which what is left of a rate asked for is round-off,
 const UNMET: f64 = 1e-8;
+/// and below which it is not corrected any more.
+const MET: f64 = 1e-13;
 /// Displacement, in the units of the coordinates, within which factored equations close gaps that are no larger themselves,
 const NEAR: f64 = 1e-7;
 /// and part of the velocities that may be wrong in their correction by factors of another state.
@@ -228,10 +230,12 @@ impl Workspace<'_> {
         self.update_rows();
         let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
         self.rows.extend(targets.iter().cloned());
-        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
-        if asked.iter().all(|&rate| rate == 0.0) {
+        let fastest = self.size_of(&self.placed.u);
+        let is_met = |row: &Row| row.rate.is_none_or(|r| (r / self.row_unit(row)).abs() <= MET * fastest);
+        if self.rows.iter().all(is_met) {
             return Ok(());
         }
+        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
         super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
         let sparse = self.many_loops && present.iter().all(|&p| p);
