@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 
@@ -59,8 +61,11 @@ _BOUND = 0.2  # for a term that is lacking at one instant, where many are equal
 _UNDECLARED = 0.6  # for a reaction without a letter in the place of a weight
 _NEW_RATE = 0.05  # for a rate of which the equation did not speak, which is easily taken for another
 _NEW = 0.15  # for any other quantity of which it did not speak, more for a force
+_OTHER_LETTER = 0.2  # more, for a force or a moment in the place of one that differs by more than its index
 PARTNER = 0.15
 """By how much a centripetal term is likelier beside its own second derivative."""
+_STEM = re.compile(r"[^_\d.]*")
+"""A letter without its index."""
 _ACCELERATION = LENGTH.times(TIME, -2)
 _SAME = 1e-9
 
@@ -107,6 +112,8 @@ class Likelihood:
                 return odd + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
+            case "angle", _, new:
+                return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
 
     def _undoes(self, after: Equation) -> bool:
@@ -134,16 +141,23 @@ class Likelihood:
         mixed = old in known.parameters and new not in known.parameters and not (turns or moves)
         unsaid = new in known.others and new not in self._said
         solved = any(side is old for side in self._sides)
-        return _ODD * mixed + (_NEW_RATE if known.is_rate(new) else _NEW) * unsaid + _SOLVED * solved
+        other = known.is_load(new) and _STEM.match(old.name)[0] != _STEM.match(new.name)[0]  # type: ignore[index]
+        new_letter = (_NEW_RATE if known.is_rate(new) else _NEW) + _OTHER_LETTER * other
+        return _ODD * mixed + new_letter * unsaid + _SOLVED * solved
 
     def _of_symbols(self, new: Node) -> float:
         """Of a sum or a square for a symbol, or of a force for a weight."""
         known, unsaid = self.vocabulary, new.symbols - self._said
         if isinstance(new, Pow):
-            return _NEW * len(unsaid)
+            return _NEW * len(unsaid) + _ODD * self._cancels_within(new.base)
         if isinstance(new, Add):
             return _NEW * sum(3 if known.is_rate(n) else 1 + (n in known.others and n not in known.letters) for n in unsaid)
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
+
+    def _cancels_within(self, whole: Node) -> bool:
+        """Whether one part of a sum takes another away at every true state: then that is what has no place."""
+        values = [_numbers(part, self.values) for part in _terms_of(whole)]
+        return any(np.allclose(one, -other, rtol=_SAME, atol=0) for one, other in combinations(values, 2))
 
     def _of_factor(self, old: Node, new: Node) -> float:
         """Of a factor that is no parameter and of which nothing was said, or a place below a line, and of a term for a quite other one."""
@@ -252,9 +266,11 @@ class Likelihood:
         return moves and not lengths and not any(n in self.vocabulary.angular for base in powers for n in base.symbols)
 
     def _is_force(self, term: Node) -> bool:
-        """Whether it is a force, a weight, or a mass times its acceleration, with no number: another one is forgotten rather than that."""
+        """Whether it is a force, a weight, or a mass times its acceleration, or a component of one, with no number: another one is
+        forgotten rather than that."""
         number, powers = powers_of(term)
         known, factors = self.vocabulary, [n for n in powers if isinstance(n, Sym)]
+        powers = {n: power for n, power in powers.items() if not isinstance(n, Fn)}
         masses = [n for n in factors if known.dimension(n) == MASS]
         moves = [n for n in factors if known.dimension(n) == _ACCELERATION]
         alone = len(factors) == 1 and known.dimension(factors[0]) == FORCE
