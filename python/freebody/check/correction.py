@@ -21,7 +21,7 @@ from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, is_z
 from .coefficients import more, tidied
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
-from .energy_terms import lacking_energies
+from .energy_terms import lacking_energies, lacking_of
 from .families import NoMotion, Samples
 from .fitted_edits import FittedEdits
 from .language.dimensions import dimension
@@ -126,9 +126,10 @@ def _of_row(
     tried: list[list[_Found]] = [[] for _ in searches]
     some: list[tuple[list[_Found], str]] = []
     for step in steps:
-        if step is _Search.pairs and not some and (late := _from_start(case, row, families, part)):
-            yield from late
-            return
+        if step is _Search.pairs and (late := _from_start(case, row, families, part)):
+            if not some or late[0].size < some[0][0][0].size:
+                yield from late
+                return
         some = []
         for (search, given), seen in zip(searches, tried, strict=True):
             seen += step(search)
@@ -205,18 +206,25 @@ class _Search:
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def energies(self) -> Iterator[_Found]:
-        """All terms that it lacks of the change of the energy since the start of the motions."""
-        samples, equation = self.case.samples(self.family), self.equation
-        if not samples.starts or len(rows(equation)) > 1 or not any(n.dots == 1 for n in symbols_in(equation)):
+        """All terms that it lacks of the energy that a letter stands for, or of the change of the energy since the start of the motions."""
+        sides = (self.equation.left, self.equation.right)
+        if len(rows(self.equation)) > 1:
             return
-        began, now = (
-            self.case.meaning.values(Samples(samples.core, samples.starts, samples.starts)),
-            self.case.values(self.family),
-        )
-        changes = lambda term: sampled(term, now) - sampled(term, began)
+        for one, other in (sides, sides[::-1]):
+            if isinstance(one, Sym):
+                yield from self._with_energies(other, lambda: lacking_of(self.case, one, other))
+        if (samples := self.case.samples(self.family)).starts and any(n.dots == 1 for n in symbols_in(self.equation)):
+            began = self.case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
+            now = self.case.values(self.family)
+            changes = lambda term: sampled(term, now) - sampled(term, began)
+            whole = Add((sides[0], Negative(sides[1])))
+            yield from self._with_energies(sides[0], lambda: lacking_energies(self.case, whole, changes))
+
+    def _with_energies(self, side: Node, lacking: Callable[[], tuple[Node, ...]]) -> Iterator[_Found]:
+        """With terms of the energy that a side lacks."""
         with suppress(KeyError, StatementError):
-            if lost := lacking_energies(self.case, Add((equation.left, Negative(equation.right))), changes):
-                after = exchange(equation, equation.left, more(equation.left, *lost))
+            if lost := lacking():
+                after = exchange(self.equation, side, more(side, *lost))
                 found = [Edit("missing term", None, Add(lost), after, _OF_ENERGY * len(lost))]
                 yield from (_Found((edit,)) for edit in self._promising(found))
 
@@ -300,7 +308,7 @@ class _Search:
         gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
         given = two and any((its := self.vocabulary.dimension(n)) is not None and its.time for n in gone)
         return (two and bool(solved) and not solved & own) or (
-            (given or ((two or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
+            (given or (((two and lost) or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
         )
 
     def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
@@ -326,6 +334,7 @@ class _Search:
         length = len(spell(tidied(found.after))) + _WORTH * self._size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
+        new |= {n.name for n in symbols_in(found.after) for side in alone if n.name == side.name and n.dots < side.dots}
         solved = any(edit.old in alone and edit.old is not None for edit in found.edits)
         return solved or any(map(self._is_elsewhere, found.edits)), len(new & {n.name for n in strange}), length
 

@@ -1,4 +1,4 @@
-"""Slips made before something was differentiated by time: edits inside of d/dt(…)."""
+"""Slips made where something was differentiated by time: edits inside of d/dt(…), and factors that were taken for constants."""
 
 from __future__ import annotations
 
@@ -14,13 +14,14 @@ import numpy as np
 from freebody.symbolic.differentiate import rate
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym, addends, exchange, is_zero, walk
 
-from .coefficients import multiplied
+from .coefficients import more, multiplied
 from .edits import Edit, conventions, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
-from .language.statements import Equation
+from .language.statements import Equation, without_ones
+from .powers import powers_of, written
 from .solve_for_term import required_terms
 from .spans import proportional
 
@@ -29,7 +30,9 @@ if TYPE_CHECKING:
 
 _DERIVATIVE = re.compile(r"\(?(?:d\s*/\s*d\s*t|\\[dt]?frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\})\)?\s*")
 _SAME = 1e-8  # relative spread below which a number is one
-_ZERO = Num(0.0, "0")
+_ZERO, _TWO = Num(0.0, "0"), Num(2.0, "2")
+_TAKEN = 0.2  # by which what is differentiated is less likely to have a term too many: who wrote an energy of all forgot a power
+_OF_PRODUCT = -0.15  # by which what a product's rule has is likelier than other terms that are lacking
 
 
 class DerivativeEdits:
@@ -37,19 +40,36 @@ class DerivativeEdits:
 
     def __init__(self, case: Case, equation: Equation, values: Mapping[str, Array], fits: FittedEdits) -> None:
         self.equation, self.values, self.fits = equation, values, fits
-        self._text, self._read, self._constants = (
-            case.program.text,
-            case.meaning.symbols.read,
-            case.meaning.symbols.constants,
-        )
+        self._text, self._read, self._fits = case.program.text, case.meaning.symbols.read, case.meaning.fits
+        self._constants = case.meaning.symbols.constants
 
     def __iter__(self) -> Iterator[Edit]:
+        yield from self._of_products()
         for node, inside in self._differentiated:
             given = Equation(inside, _ZERO)
             plain = chain(*(of(given, self.fits.vocabulary) for of in (edits, conventions, forgotten_factors)))
             for edit in chain(plain, self._fitted(node, given)):
-                with suppress(StatementError):
-                    yield self._outside(node, edit)
+                if self._fits(edit.after) or not self._fits(given):  # a factor taken from what is differentiated makes it a constant
+                    with suppress(StatementError):
+                        yield self._outside(node, edit)
+
+    def _of_products(self) -> Iterator[Edit]:
+        """Terms of which a derivative is a factor, as that of a product of which only one factor was differentiated; and half of what is
+        lacking then, as Lagrange's equation of an inertia that changes has it."""
+        for side in (self.equation.left, self.equation.right):
+            parts = side.terms if isinstance(side, Add) else (side,)
+            lost = list(chain(*map(self._of_other_factors, parts)))
+            for term in (*lost, *([Add(tuple(lost))] if len(lost) > 1 else []), *(Quotient(term, _TWO) for term in lost)):
+                yield Edit("missing term", None, term, exchange(self.equation, side, more(side, term)), _OF_PRODUCT)
+
+    def _of_other_factors(self, term: Node) -> Iterator[Node]:
+        """What the derivative of a product has beside a term in which one factor of it is differentiated."""
+        for symbol in {n: None for n in walk(term) if isinstance(n, Sym) and n.dots}:
+            rest = without_ones(exchange(term, symbol, Num(1.0, "1")))
+            with suppress(StatementError):
+                if not is_zero(slope := rate(rest, self._constants)) and symbol not in rest.symbols:
+                    lost = addends(Mul((slope, Sym(symbol.name, symbol.dots - 1))), expand=True)
+                    yield from (written(sign * number, powers) for sign, each in lost for number, powers in [powers_of(each)])
 
     def is_within(self, edit: Edit) -> bool:
         """Whether an edit is of a part that came from differentiating."""
@@ -76,7 +96,8 @@ class DerivativeEdits:
         inside = edit.after.left
         after = exchange(self.equation, node, rate(inside, self._constants))
         shown = exchange(self.equation, node, Sym(f"d/dt({spell(inside)})"))
-        return Edit(edit.kind, edit.old, edit.new, after, edit.extra, edit.words, shown)
+        extra = edit.extra + _TAKEN * (edit.kind == "extra term")
+        return Edit(edit.kind, edit.old, edit.new, after, extra, edit.words, shown)
 
     def _fitted(self, node: Node, given: Equation) -> Iterator[Edit]:
         """Another number before a term, and a term that is lacking."""

@@ -117,7 +117,10 @@ class Likelihood:
         return 0.0
 
     def _undoes(self, after: Equation) -> bool:
-        """Whether what is new takes away, at every true state, one of several terms as it is written."""
+        """Whether what is new takes away, at every true state, one of several terms as it is written. A power may: that of what turns is the
+        change of its energy."""
+        if any(its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))):
+            return False
         made = [_numbers(term, self.values) for term in terms(after, expand=True) if term not in self._expanded]
         own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
         whole = len(terms(self.equation)) > 1
@@ -238,7 +241,9 @@ class Likelihood:
         """Of an acceleration, or a force that does no work along a coordinate, beside energies or momenta alone."""
         known = self.vocabulary
         loads = [n for n in term.symbols if n not in known.parameters and known.is_load(n)]
-        if not loads or self._is_balance or any(known.is_load(n) for n in self._said if n not in known.parameters):
+        said = [n for n in self._said if n not in known.parameters]
+        driven = any(known.is_load(n) or (n in known.others and known.dimension(n) is None) for n in said)  # the load of a motor
+        if not loads or self._is_balance or driven:
             return 0.0
         if not any(map(known.is_rate, self._said)) or any(n in known.coordinates and not n.dots for n in term.symbols):
             return math.inf if any(n.dots == 2 for n in loads) and any(map(known.is_rate, self._said)) else 0.0

@@ -29,6 +29,8 @@ class Vocabulary:
     angular: frozenset[Sym] = frozenset()
     letters: frozenset[Sym] = frozenset()
     """What was declared for the statements."""
+    energies: frozenset[Sym] = frozenset()
+    """Of the others those that stand for an energy, which a couple could be by its dimension."""
 
     @cached_property
     def angles(self) -> list[Sym]:
