@@ -60,6 +60,7 @@ _LIKELIEST = 1.0  # size of a single edit; none is smaller
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
+_OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
 _BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
@@ -171,7 +172,9 @@ class _Search:
         )
         self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
         self.holds, self._near = (
-            (_LIMIT, _LIMIT) if family.scaled or family.late else (_LINEAR if family.small else HOLDS, _PROMISING)
+            (_LIMIT, _LIMIT)
+            if family.scaled or family.late
+            else (_LINEAR if family.small else _OF_RUN if case.sampler.moment else HOLDS, _PROMISING)
         )
         self.right = self._worst(equation, self.values) < self.holds
 

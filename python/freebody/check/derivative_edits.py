@@ -49,7 +49,9 @@ class DerivativeEdits:
             given = Equation(inside, _ZERO)
             plain = chain(*(of(given, self.fits.vocabulary) for of in (edits, conventions, forgotten_factors)))
             for edit in chain(plain, self._fitted(node, given)):
-                if self._fits(edit.after) or not self._fits(given):  # a factor taken from what is differentiated makes it a constant
+                if self._fits(edit.after) or not self._fits(
+                    given
+                ):  # a factor taken from what is differentiated makes it a constant
                     with suppress(StatementError):
                         yield self._outside(node, edit)
 
@@ -73,8 +75,8 @@ class DerivativeEdits:
 
     def is_within(self, edit: Edit) -> bool:
         """Whether an edit is of a part that came from differentiating."""
-        begin, end = edit.old.span if edit.old is not None and edit.shown is None else (0, 0)
-        return any(node.span[0] <= begin < end <= node.span[1] for node, _ in self._differentiated)
+        own = edit.old if edit.shown is None else None
+        return any(part is own for node, _ in self._differentiated for part in walk(node))
 
     @cached_property
     def _differentiated(self) -> list[tuple[Node, Node]]:

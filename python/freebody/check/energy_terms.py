@@ -38,7 +38,9 @@ def lacking_of(case: Case, letter: Sym, node: Node) -> tuple[Node, ...]:
     """What an expression lacks of the energy that a letter stands for, in its own letters where it has a part of a term; none where it has
     others, or too much of one."""
     kind = "".join(case.meaning.texts(letter))
-    true, said = _beside(case, node, kind, lambda term: np.asarray(sampled(term, case.admissible))) if kind in _KINDS else ([], [])
+    true, said = (
+        _beside(case, node, kind, lambda term: np.asarray(sampled(term, case.admissible))) if kind in _KINDS else ([], [])
+    )
     shares: dict[int, tuple[float, Node]] = {}
     for own, value in said:
         found = ((i, ratio(value, its)) for i, (_, its) in enumerate(true))

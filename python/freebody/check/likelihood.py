@@ -98,16 +98,17 @@ class Likelihood:
             return math.inf
         match edit.kind, edit.old, edit.new:
             case "factor", Node() as old, new:
-                usual = _ODD if is_constraint(self.equation, self.vocabulary) else _USUAL
-                odd = _of_number(old, new, self.values, usual)
-                odd = min(odd, _USUAL) if self._at_instant else odd
+                answers = any(isinstance(side, Sym) for side in self._sides)
+                odd_here = is_constraint(self.equation, self.vocabulary) or not (answers or self._has_mass_beside(old))
+                odd = _of_number(old, new, self.values, _ODD if odd_here else _USUAL)
+                odd = min(odd, _USUAL) if self._at_instant and answers else odd
                 return odd + _FORGOTTEN * (odd > 0 and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
                 return self._of_symbols(new)
             case "missing term" | "other term", _, new:
-                undoes = edit.kind == "missing term" and self._undoes(edit.after)
+                undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
                 odd = _BOUND * self._at_instant + _ODD * undoes
                 return odd + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
             case "missing factor", Node() as old, new:
@@ -116,10 +117,17 @@ class Likelihood:
                 return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
 
+    def _has_mass_beside(self, part: Node) -> bool:
+        """Whether a part stands in a term with a mass or an inertia, whose numbers are of many kinds."""
+        whole = next((term for term in terms(self.equation) if any(each is part for each in walk(term))), part)
+        return any(self.vocabulary.dimension(Sym(n.name)) in (MASS, INERTIA) for n in whole.symbols)
+
     def _undoes(self, after: Equation) -> bool:
         """Whether what is new takes away, at every true state, one of several terms as it is written. A power may: that of what turns is the
         change of its energy."""
-        if any(its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))):
+        if any(
+            its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))
+        ):
             return False
         made = [_numbers(term, self.values) for term in terms(after, expand=True) if term not in self._expanded]
         own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
@@ -156,6 +164,11 @@ class Likelihood:
         if isinstance(new, Add):
             return _NEW * sum(3 if known.is_rate(n) else 1 + (n in known.others and n not in known.letters) for n in unsaid)
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
+
+    def _undoes_within(self, after: Equation, term: Node) -> bool:
+        """Whether a term that stands in a bracket takes away another of it at every true state."""
+        inner = (n for n in walk(after) if isinstance(n, Add) and n not in (after.left, after.right))
+        return any(any(part is term for part in n.terms) and self._cancels_within(n) for n in inner)
 
     def _cancels_within(self, whole: Node) -> bool:
         """Whether one part of a sum takes another away at every true state: then that is what has no place."""
@@ -326,8 +339,9 @@ def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) 
     if isinstance(old, Num) and isinstance(new, Num) and before.is_integer() and after not in FIGURES:
         return _ODD
     is_number = isinstance(old, Num | Quotient) and not old.symbols
+    of_body = is_number and np.isclose(before, _OF_BODIES).any() and np.isclose(after, _NATURAL).any()
     ratio = max(after / before, before / after) if before and after else 0.0
-    if np.isclose(ratio, _RATIOS).any() or (is_number and np.isclose(before, _OF_BODIES).any()):
+    if np.isclose(ratio, _RATIOS).any() or of_body:
         return 0.0
     figures = [abs(powers_of(node)[0]) for node in (old, new)]
     return usual if all(np.isclose(figure, _NATURAL).any() for figure in figures) else _ODD

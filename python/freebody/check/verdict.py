@@ -269,7 +269,8 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     seen = evidence(found, case.values())
     if plainly := _from_start(case, equation) or _as_figures(case, equation):
         return plainly
-    if case.sampler.rolls_in_loop and _stays(case, equation):
+    placed = any(n in case.meaning.vocabulary.coordinates for n in symbols_in(equation))
+    if placed and case.sampler.rolls_in_loop and _stays(case, equation):
         what = "the angles of what rolls are measured from a place where both sides are equal"
         return Verdict(
             Kind.TRUE_IF, text, f"true only if {what}: they differ by what they differ by at the start", what, evidence=seen
