@@ -2,28 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from freebody.equations import read
+from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import ZERO, Add, Node, Sym, addends
+from freebody.symbolic.tree import ZERO, Add, Negative, Node, Sym, addends, exchange
 
 from .beside import Letters, Term, difference, ratio, signed
-from .coefficients import multiplied
-from .language.statements import Equation, symbols_in
+from .coefficients import more, multiplied
+from .edits import Edit
+from .families import Samples
+from .language.statements import Equation, rows, symbols_in
 
 if TYPE_CHECKING:
     from .case import Case
+    from .families import Family
 
 _MOST = 5  # terms that are told to be lacking
 
 
 _KINDS = {"kinetic()": ("kinetic",), "potential()": ("potential",), "energy()": ("kinetic", "potential")}
 """Of which kinds an energy of the model is."""
+_EACH = 0.3  # by which a correction is larger for each term of the energy that it brings
 _SAME = 1e-7  # below it a share is 0
+
+
+def energy_edits(case: Case, equation: Equation, family: Family) -> Iterator[Edit]:
+    """All terms that an equation lacks of the energy that a letter stands for, or of the change of the energy since the start of the motions of
+    a family."""
+    sides = (equation.left, equation.right)
+    if len(rows(equation)) > 1:
+        return
+    for one, other in (sides, sides[::-1]):
+        if isinstance(one, Sym):
+            yield from _with(equation, other, lacking_of(case, one, other))
+    if (samples := case.samples(family)).starts and any(n.dots == 1 for n in symbols_in(equation)):
+        began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
+        changes = lambda term: sampled(term, case.values(family)) - sampled(term, began)
+        with suppress(KeyError, StatementError):
+            yield from _with(equation, sides[0], lacking_energies(case, Add((sides[0], Negative(sides[1]))), changes))
+
+
+def _with(equation: Equation, side: Node, lost: tuple[Node, ...]) -> Iterator[Edit]:
+    if lost:
+        yield Edit("missing term", None, Add(lost), exchange(equation, side, more(side, *lost)), _EACH * len(lost))
 
 
 def lacking_energies(case: Case, node: Node, value: Callable[[Node], Array]) -> tuple[Node, ...]:

@@ -140,6 +140,8 @@ class Likelihood:
         alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
         solved = alone or (isinstance(term, Sym) and term in self._sides)
         inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
+        its = dimension(term, self.vocabulary.dimensions)
+        inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
         return _ODD * solved + _ONCE * (not self._is_there(term, but=term)) + _INSIDE * inside
 
     def _of_symbol(self, old: Sym, new: Sym) -> float:
@@ -207,9 +209,9 @@ class Likelihood:
             yield from [term] * (2 if new else 1)
         for symbol in below - self._below:
             yield from [symbol] * 2 * (symbol in known.coordinates and not symbol.dots)
-        angles = {part for n in walk(term) if isinstance(n, Fn) for part in n.args}
+        usual = {*known.products_across, *(part for n in walk(term) if isinstance(n, Fn) for part in n.args)}
         for part in walk(term):
-            yield from [part] * 2 * (isinstance(part, Add) and part not in angles and part not in self._parts)
+            yield from [part] * 2 * (isinstance(part, Add) and part not in usual and part not in self._parts)
         for symbol in term.symbols:
             yield from [symbol] * 2 * (symbol.dots == 2 and self._is_solved_for_another(symbol))
         if self._is_part_of_mass(term) or self._is_of_another(term):

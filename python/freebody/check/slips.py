@@ -85,7 +85,8 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
             return "r × m a of a point that accelerates, or of what moves as well,"
         return "a mass times its acceleration" if its is None or its.mass else "a part of the acceleration"
     if rates and not balance:
-        return _OF_MOTION[len(rates) > 1 or squared] if its is None or its.mass else "a part of the motion"
+        energy = len(rates) > 1 or squared if its is None else its.time == -2
+        return _OF_MOTION[energy] if its is None or its.mass else "a part of the motion"
     if squared:
         return "the centripetal part of the acceleration"
     if len(rates) > 1:
