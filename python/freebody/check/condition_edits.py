@@ -35,12 +35,13 @@ _WHY = "it is so at another value: where a force, a moment or a motion is to van
 def other_conditions(checker: Checker, declared: Declared, condition: str, statement: str) -> Iterator[Correction]:
     """A condition whose value is another number times that given, where something said to be 0, or to be another, is so there."""
     name, equals, value = condition.partition("=")
-    case = checker.case(statement, declared)
-    if not equals or re.search(r"[=,<>]|\band\b", value) or not all(map(_is_special, case.equations)):
+    if not equals or re.search(r"[=,<>]|\band\b", value):
         return
     with suppress(StatementError, ModelProblem):
-        given = parse_expression(value, checker.symbols(declared).names)
-        others = (multiplied(given, times) for times in case.budget.within(_TIMES) if not is_zero(given))
+        case, given = checker.case(statement, declared), parse_expression(value, checker.symbols(declared).names)
+        if is_zero(given) or not all(map(_is_special, case.equations)):
+            return
+        others = (multiplied(given, times) for times in case.budget.within(_TIMES))
         for new in (other for other in others if other is not None):
             there = f"{name.strip()} = {spell(new)}"
             if _holds(case, family(there, checker, declared)):

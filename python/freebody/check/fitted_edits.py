@@ -68,6 +68,7 @@ class FittedEdits:
         """The edits after which parts of an equation are what is needed."""
         quotients = [n for n in walk(equation) if isinstance(n, Quotient)]
         whole = {id(part) for n in (*quotients, equation) for part in children(n) if not isinstance(part, Num)}
+        below_roots = {id(part) for n in walk(equation) if isinstance(n, Fn) and n.name == "sqrt" for part in n.args}
         for required in self.within(needed):
             yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
             node = required.node  # a number, or a fraction of two
@@ -75,7 +76,7 @@ class FittedEdits:
             found = self._constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
             if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
                 yield Edit.at(equation, "factor", required.node, number)
-            if required.addend:
+            if required.addend or id(node) in below_roots:
                 yield from self._forgotten(equation, required)
                 yield from self._factors(equation, required)
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))

@@ -129,9 +129,10 @@ class Likelihood:
             its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))
         ):
             return False
-        made = [_numbers(term, self.values) for term in terms(after, expand=True) if term not in self._expanded]
+        expanded = terms(after, expand=True)
+        made = [_numbers(term, self.values) for term in expanded if term not in self._expanded]
         own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
-        whole = len(terms(self.equation)) > 1
+        whole = len(terms(self.equation)) > 1 and len(expanded) > len(self._expanded)  # not within one of two that are equal
         return whole and any(np.allclose(np.abs(one), np.abs(value), rtol=_SAME, atol=0) for one in made for value in own)
 
     def _of_extra_term(self, term: Node) -> float:
@@ -221,7 +222,7 @@ class Likelihood:
         """Whether it is of parameters alone, and of two or more of which nothing was said: in a balance, of which no side is an answer, a letter
         for all of it is likelier."""
         unsaid = term.symbols - self._said
-        if any(isinstance(side, Sym) for side in self._sides):
+        if any(isinstance(side.base if isinstance(side, Pow) else side, Sym) for side in self._sides):
             return False
         return term.symbols <= {*self.vocabulary.parameters} and len([n for n in unsaid if n.name != "g"]) > 1
 
