@@ -185,9 +185,10 @@ class _Search:
         found = chain(  # the likely ones first: there may be no time for all
             () if readable else with_unit_vectors(self.equation, units),
             edits(self.equation, self.vocabulary),
+            self.differentiated.likely(),
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
-            self.differentiated,
+            self.differentiated.others(),
             momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
             () if readable else forgotten_factors(self.equation, self.vocabulary),
         )

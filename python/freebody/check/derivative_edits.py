@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
 from itertools import chain
@@ -43,15 +43,25 @@ class DerivativeEdits:
         self._text, self._read, self._fits = case.program.text, case.meaning.symbols.read, case.meaning.fits
         self._constants = case.meaning.symbols.constants
 
-    def __iter__(self) -> Iterator[Edit]:
+    def likely(self) -> Iterator[Edit]:
+        """What the rule for products gives, and other numbers before what is differentiated."""
         yield from self._of_products()
+        yield from self._of_differentiated(self._numbers)
+
+    def others(self) -> Iterator[Edit]:
+        """All other edits of what is differentiated."""
+        vocabulary = self.fits.vocabulary
+        plain = lambda _, given: chain(*(of(given, vocabulary) for of in (edits, conventions, forgotten_factors)))
+        for made in (plain, self._missing):
+            yield from self._of_differentiated(made)
+
+    def _of_differentiated(self, made: Callable[[Node, Equation], Iterable[Edit]]) -> Iterator[Edit]:
+        """Edits of what is differentiated; a factor that is taken from it makes it a constant, whose dimension does not fit."""
         for node, inside in self._differentiated:
             given = Equation(inside, _ZERO)
-            plain = chain(*(of(given, self.fits.vocabulary) for of in (edits, conventions, forgotten_factors)))
-            for edit in chain(plain, self._fitted(node, given)):
-                if self._fits(edit.after) or not self._fits(
-                    given
-                ):  # a factor taken from what is differentiated makes it a constant
+            fit = self._fits(given)
+            for edit in made(node, given):
+                if self._fits(edit.after) or not fit:
                     with suppress(StatementError):
                         yield self._outside(node, edit)
 
@@ -101,24 +111,33 @@ class DerivativeEdits:
         extra = edit.extra + _TAKEN * (edit.kind == "extra term")
         return Edit(edit.kind, edit.old, edit.new, after, extra, edit.words, shown)
 
-    def _fitted(self, node: Node, given: Equation) -> Iterator[Edit]:
-        """Another number before a term, and a term that is lacking."""
+    def _lost(self, node: Node) -> Array | None:
+        """What a derivative lacks; None where that is not known."""
         required = next((found for found in required_terms(self.equation, self.values) if found.node is node), None)
-        if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
+        known = required is not None and required.missing.ndim == 1 and np.isfinite(required.missing).all()
+        return required.missing if known else None  # type: ignore[union-attr]
+
+    def _numbers(self, node: Node, given: Equation) -> Iterator[Edit]:
+        """Another number before a term."""
+        if (lost := self._lost(node)) is None:
             return
-        parts = given.left.terms if isinstance(given.left, Add) else (given.left,)
-        for term in parts:
+        for term in _terms(given):
             with np.errstate(all="ignore"):
-                number = 1 + required.missing / self._rates([term])[0]
+                number = 1 + lost / self._rates([term])[0]
             same = np.isfinite(number).all() and np.ptp(number) <= _SAME * np.abs(number).max()
             if same and (new := multiplied(term, float(np.median(number)))) is not None:
                 yield Edit.at(given, "factor", term, new)
+
+    def _missing(self, node: Node, given: Equation) -> Iterator[Edit]:
+        """A term that is lacking."""
+        if (lost := self._lost(node)) is None:
+            return
         nodes, _ = self.fits.dictionary(given, highest=1)
         rows = self._rates(nodes)
-        for place in proportional(rows, required.missing):
-            number = float(np.sum(required.missing * rows[place]) / np.sum(rows[place] ** 2))
+        for place in proportional(rows, lost):
+            number = float(np.sum(lost * rows[place]) / np.sum(rows[place] ** 2))
             if (term := multiplied(nodes[place], number)) is not None:
-                yield Edit("missing term", None, term, Equation(Add((*parts, term)), _ZERO), 0.02 * depth(term))
+                yield Edit("missing term", None, term, Equation(Add((*_terms(given), term)), _ZERO), 0.02 * depth(term))
 
     def _rates(self, nodes: list[Node]) -> Array:
         """The derivatives of terms; NaN where one has none."""
@@ -127,3 +146,7 @@ class DerivativeEdits:
             with suppress(StatementError, KeyError, ValueError):
                 row[:] = sampled(rate(node, self._constants), self.values)
         return rows
+
+
+def _terms(given: Equation) -> tuple[Node, ...]:
+    return given.left.terms if isinstance(given.left, Add) else (given.left,)

@@ -102,7 +102,7 @@ class Likelihood:
                 odd_here = is_constraint(self.equation, self.vocabulary) or not (answers or self._has_mass_beside(old))
                 odd = _of_number(old, new, self.values, _ODD if odd_here else _USUAL)
                 odd = min(odd, _USUAL) if self._at_instant and answers else odd
-                return odd + _FORGOTTEN * (odd > 0 and self._is_force(old))
+                return odd + _FORGOTTEN * (odd > 0 and self._has_load and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
@@ -229,6 +229,11 @@ class Likelihood:
     @cached_property
     def _loads(self) -> list[Sym]:
         return [n for n in self.vocabulary.parameters if self.vocabulary.dimension(n) in (FORCE, ENERGY)]
+
+    @cached_property
+    def _has_load(self) -> bool:
+        """Whether a reaction or a force stands in it: else it is an equation of motion, whose numbers are those of rotation, too."""
+        return any(self.vocabulary.is_load(n) for n in self._said if n in self.vocabulary.others)
 
     @cached_property
     def _parts(self) -> set[Node]:
