@@ -15,6 +15,8 @@ N = TypeVar("N", bound=Node)
 _SAME = 1e-8  # relative: below it a number is the one recognised
 _DENOMINATOR = 24
 _NUMERATOR = 60
+_BESIDE_PI = {1, 2, 4, 8}
+"""Figures beside π² and below the line beside π: other ones are angles of a model, in disguise."""
 
 
 def recognised(value: float) -> Node | None:
@@ -22,6 +24,8 @@ def recognised(value: float) -> Node | None:
     for power in (0, 1, 2, -1, -2):
         part = Fraction(abs(value) / math.pi**power).limit_denominator(_DENOMINATOR)
         if not part or part.numerator > _NUMERATOR or abs(float(part) * math.pi**power / abs(value) - 1) >= _SAME:
+            continue
+        if power not in (0, 1) and not {*part.as_integer_ratio()} <= _BESIDE_PI:
             continue
         above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
         top, bottom = (_with_pi(figure, n) for figure, n in ((above, power), (below, -power)))
