@@ -80,11 +80,11 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     return (words,) if words else ()
 
 
-def leaves_out(words: str, mended: bool) -> bool:
+def leaves_out(words: str, mended: bool, lacks: bool) -> bool:
     """Whether an assumption takes motion, gravity or a part of the model away, so that it excuses nothing: a term was left out. Where
-    one edit has ``mended`` an equation, a limit and the start excuse nothing, either."""
+    one edit has ``mended`` an equation, a limit and the start excuse nothing, either; nor small angles what ``lacks`` a term."""
     taken = words.startswith(("at rest", "without gravity")) or re.fullmatch(r"\S+ = 0( \(no friction\))?", words) is not None
-    return taken or (mended and ("→" in words or words == "at the start"))
+    return taken or (mended and ("→" in words or words == "at the start")) or (lacks and words.startswith("small"))
 
 
 def linearised(case: Case, equation: Equation) -> str:
@@ -92,7 +92,7 @@ def linearised(case: Case, equation: Equation) -> str:
     return _to_first_order(case, equation) if _has_bare_angles(case, equation) else ""
 
 
-def _is_of_higher_order(case: Case, equation: Equation) -> bool:
+def is_of_higher_order(case: Case, equation: Equation) -> bool:
     """Whether it has sines of the angles that move, or a product of two rates: who neglects what is small keeps neither."""
     angles = case.meaning.vocabulary.angular & {*case.meaning.vocabulary.coordinates}
     calls = (n for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
@@ -132,7 +132,7 @@ def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
 def _to_first_order(case: Case, equation: Equation) -> str:
     """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
     words, family = _small(case, equation, SMALL)
-    exact = not _has_bare_angles(case, equation) and _is_of_higher_order(case, equation)
+    exact = not _has_bare_angles(case, equation) and is_of_higher_order(case, equation)
     if exact or not case.budget.lasts(_PART):
         return ""
     with suppress(NoMotion, StatementError, ModelError, MotionError):
