@@ -275,7 +275,14 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
     if any("=" in part for part in parts):  # for a solid disk, k² = ½ R²: less is taken for granted without the words
         known = {*WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM}
         parts = [part for part in parts if part in known or not _WORDS_ALONE.fullmatch(part)]
-    return reduce(lambda given, part: _also(given, part, checker, declared), parts, checker.hypothesis)
+    each = [one for part in parts for one in _each(part)]
+    return reduce(lambda given, part: _also(given, part, checker, declared), each, checker.hypothesis)
+
+
+def _each(part: str) -> list[str]:
+    """The equations of a chain: ``a = b = 0``."""
+    *sides, last = re.split(r"(?<![<>:])=", part)
+    return [f"{side.strip()} = {last.strip()}" for side in sides] or [part]
 
 
 def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Family:
@@ -283,9 +290,9 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if part == SMALL_MOTIONS:
         rest = checker.vibration.rest
         places = rest.q if rest else np.zeros(len(checker.sampler.names))
-        near = tuple(
-            (f"({spell(name)}) - ({q!r})", SMALL) for name, q in zip(checker.sampler.names, places.tolist(), strict=True)
-        )
+        free = checker.sampler.free_rates.any(axis=1)  # what is prescribed cannot be small
+        named = zip(checker.sampler.names, places.tolist(), free, strict=True)
+        near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))
     if part == IN_EQUILIBRIUM:
         still = (f"accel({spell(name)})" for name in checker.sampler.names)

@@ -192,6 +192,8 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
     """In a limit: what is left shrinks with the parameter, or vanishes."""
     given = family(limits, checker, declared)
     case = checker.case(statement, declared, given)
+    if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
+        return checker.check(statement, declared, replace(given, small=()))
     if given.small:
         return _small(case, statement, limits)
     near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled), late=given.late ** (4 / 7))

@@ -198,7 +198,7 @@ class MotionSampler(AskedModel):
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
         given = {} if family.held or family.numbers or self.loops else values
-        return self._judging(self._arranged(self._conditions(rng, family), state, list(rates), given))
+        return self._judging(self._arranged(self._conditions(rng, family), state, rates, family, given))
 
     def _rolled_on(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
         """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
@@ -215,7 +215,7 @@ class MotionSampler(AskedModel):
             return None, start
         rates = self._rates(rng, family)
         state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
-        return self._judging(self._arranged(conditions, state, list(rates))), start
+        return self._judging(self._arranged(conditions, state, rates, family)), start
 
     def _judging(self, state: State) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""
@@ -236,19 +236,28 @@ class MotionSampler(AskedModel):
         sizes = [(text, size * self._size(text, self.first)) for text, size in family.small]
         small = [f"({text}) - ({size * _about(rng)!r})" for text, size in sizes]
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
-        return [*family.vanishing, *small, *slow]
+        return [*small, *slow, *family.vanishing]  # what is exact comes last: what is small need only stay so
 
-    def _arranged(self, conditions: Sequence[str], state: State, free: Sequence[str], values: Mapping[str, float] = {}) -> State:
-        """The nearest state at which ``conditions`` are 0; where it cannot be so, with another of the ``values`` of parameters. Raises
-        ``NoMotion``."""
+    def _arranged(
+        self,
+        conditions: Sequence[str],
+        state: State,
+        rates: Mapping[str, float],
+        family: Family,
+        values: Mapping[str, float] = {},
+    ) -> State:
+        """The nearest state at which ``conditions`` are 0, with rates other than those given unless it is at rest; where it cannot be so,
+        with another of the ``values`` of parameters. Raises ``NoMotion``."""
+        kept: list[str] = []
         for text in conditions:
             if not self._vanishes(text, state):
                 try:
-                    state = self._vanished(text, state, free)
+                    state = self._vanished(text, state, [] if family.at_rest else list(rates), kept)
                 except NoMotion:
                     if (found := self._fitted(text, state, values)) is None:
                         raise
                     state = found
+            kept += [text] if text in family.vanishing else []  # what is small need not stay just so
         return state
 
     def _fitted(self, text: str, state: State, values: Mapping[str, float]) -> State | None:
@@ -284,29 +293,33 @@ class MotionSampler(AskedModel):
         chosen = sorted(order[independent(self.free_rates[order])].tolist())
         return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
-    def _vanished(self, text: str, state: State, free: Sequence[str]) -> State:
-        """The nearest rates, or where they are not in it the nearest place, at which an expression is 0; ``free`` are the rates that
-        can be given. Raises ``NoMotion`` and ``MotionError``."""
-        rates_of = [self.names.index(name) for name in free]
+    def _vanished(self, text: str, state: State, free: Sequence[str], kept: Sequence[str]) -> State:
+        """The nearest rates, or where they are not in it the nearest place, at which an expression is 0, and others stay what they are;
+        ``free`` are the rates that can be given. Raises ``NoMotion`` and ``MotionError``."""
+        rates_of, texts = [self.names.index(name) for name in free], [text, *kept]
 
         def moved(q: Array, rates: Array) -> State:
             return self.moved(state, q, dict(zip(free, rates.tolist(), strict=True)))
 
         def value(q: Array, rates: Array) -> Array:
-            return self.core.evaluate([text], moved(q, rates))
+            return self.core.evaluate(texts, moved(q, rates))
 
         q, u, size = state.q, state.u[rates_of], self._size(text, state)
-        slope = _slopes(lambda rates: value(q, rates), u, self.rate * self.sizes[rates_of])[0]
-        if np.abs(slope * self.sizes[rates_of]).max(initial=0.0) * self.rate > _NOTHING * size:
-            return moved(q, u - slope * value(q, u) / (slope @ slope))
+        of_rates, least = lambda rates: value(q, rates), _NOTHING * size
+        direction = _alone(_slopes(of_rates, u, self.rate * self.sizes[rates_of]))
+        by_rates = np.abs(direction * self.sizes[rates_of]).max(initial=0.0) * self.rate > least
         for _ in range(_NEWTON):
             if abs(left := value(q, u)[0]) <= _DONE * size:
                 break
-            slope = _slopes(lambda places: value(places, u), q, _STEP * self.sizes)[0]
-            if not np.abs(slope * self.sizes).max(initial=0.0) > _NOTHING * size:
-                why = "it depends on nothing that is free in" if free else "no freedom is left in"
+            if by_rates:
+                direction = _alone(_slopes(of_rates, u, self.rate * self.sizes[rates_of]))
+                u = u - direction * left / (direction @ direction)
+                continue
+            direction = _alone(_slopes(lambda places: value(places, u), q, _STEP * self.sizes))
+            if not np.abs(direction * self.sizes).max(initial=0.0) > least:
+                why = "it depends on nothing that is free in" if self.free_rates.size else "no freedom is left in"
                 raise NoMotion(f"`{_stated(text)}` cannot be arranged: {why} this mechanism")
-            q = q - slope * left / (slope @ slope)
+            q = q - direction * left / (direction @ direction)
         return moved(q, u)
 
     def _near_moment(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
@@ -324,7 +337,7 @@ class MotionSampler(AskedModel):
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state = self.moved(own, q, rates, p=self.core.bind(values))
             given = {} if family.held or family.numbers or self.loops else values
-            state = self._arranged(self._conditions(rng, family), state, list(rates), given)
+            state = self._arranged(self._conditions(rng, family), state, rates, family, given)
         if "before" in self.moment:
             return self._sampled(state)
         motion = self.run(state, max(late, 1e-6 / self.rate))
@@ -397,6 +410,12 @@ def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
     """Derivatives of several numbers, a row each, by central differences."""
     columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T if columns else np.zeros((1, 0))
+
+
+def _alone(slopes: Array) -> Array:
+    """The direction in which the first of several numbers changes most while the others stay."""
+    first, others = slopes[0], slopes[1:]
+    return first - others.T @ np.linalg.lstsq(others.T, first, rcond=None)[0] if len(others) else first
 
 
 def _about(rng: np.random.Generator) -> float:

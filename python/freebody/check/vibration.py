@@ -148,8 +148,8 @@ class Vibration:
             found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
         except (MotionError, ModelError, SingularConfiguration, ValueError, np.linalg.LinAlgError):
             return None
-        swinging = [each.state for each in found if np.linalg.det(each.space.a) > 0]
-        return min(swinging, key=lambda rest: abs(rest.q[k] - first.q[k]), default=None)
+        swinging = [each.state for each in found if len(each.space.a) == 2 and np.linalg.det(each.space.a) > 0]
+        return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
 
     def quantities(self, row: Array) -> Mapping[str, float]:
         """What it has with other parameters; NaN where it is none."""
@@ -190,9 +190,16 @@ class Vibration:
                     state = None
                 if state is None:
                     break
-            if state is not None and _swings(a := state_space(core, state).a):
+            if state is not None and _swings(a := state_space(core, state).a) and self._is_reached(values, state):
                 return a
         return None
+
+    def _is_reached(self, values: Mapping[str, float], rest: State) -> bool:
+        """Whether the start with such parameters is of the same assembly: a loop may close there another way."""
+        try:
+            return not self.sampler.loops or self.sampler.joined(self.sampler.started(values), rest)
+        except (MotionError, ModelProblem):
+            return False
 
 
 def _swings(a: Array) -> bool:
