@@ -29,9 +29,10 @@ from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import touching
+from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, beside_event, in_words, labelled
+from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled
 from .wording import as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
@@ -57,8 +58,8 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             return judge(checker, {**declared, **given}, *said)
     label, colon, said = claim.partition(":")
     words = label.strip(_BESIDE_WORDS)
-    if colon and IN_WORDS.fullmatch(words) and (name := checker.becoming(words)):
-        return beside_event(checker, {**declared, **given}, "", "after", name, said)
+    if colon and IN_WORDS.fullmatch(words) and (found := phase(checker, words)) and found.changes and not found.is_moment:
+        return in_phase(checker, {**declared, **given}, found, words, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")
