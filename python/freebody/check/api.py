@@ -205,15 +205,15 @@ class Checker:
             return said
         run, _ = self.moment("end")
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
-        if (said in (f"{change.kind} {part}" for change in run.changes for part in change.of)):
+        if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
+        if (found := phase(self, said)) and len(found.changes) == 1:
+            return found.changes[0]
         words = re.findall(r"\w+", said)
         for known in (events, parts):
             found = [name for name in known if any(name == word or alike(name, word) for word in words)]
             if len(found) == 1:
                 return found[0]
-        if (found := phase(self, said)) and len(found.changes) == 1:
-            return found.changes[0]
         later = [change for change in run.changes if change.t > run.t[0]]
         impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
         if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):

@@ -24,7 +24,7 @@ from .case import Case
 from .families import Family, NoMotion
 from .figures import figures, rounding
 from .language.statements import Equation, symbols_in, terms
-from .residual import HOLDS, OFTEN, residual, unreached
+from .residual import HOLDS, OFTEN, REACH, SLIGHT, residual, unreached
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -89,14 +89,18 @@ def leaves_out(words: str, mended: bool) -> bool:
 
 def linearised(case: Case, equation: Equation) -> str:
     """In words, what is small where an equation in which angles stand outside of sines and cosines is true to first order."""
-    return _to_first_order(case, equation) if _has_bare_angles(case, equation) else ""
+    return _to_first_order(case, equation) if _bare_angles(case, equation) else ""
 
 
 def _is_of_higher_order(case: Case, equation: Equation) -> bool:
-    """Whether it has sines of the angles that move, or a product of two rates: who neglects what is small keeps neither."""
-    angles = case.meaning.vocabulary.angular & {*case.meaning.vocabulary.coordinates}
+    """Whether it has sines of the angles that move, or a product of two rates: who neglects what is small keeps neither. Beside angles
+    outside of sines, as of a torsion spring, sines of the same angles."""
     calls = (n for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
-    return any(angles & {*symbols_in(n)} for n in calls) or any(
+    inside = {n for call in calls for n in symbols_in(call)}
+    if bare := _bare_angles(case, equation):
+        return bool(bare & inside)
+    angles = case.meaning.vocabulary.angular & {*case.meaning.vocabulary.coordinates}
+    return bool(angles & inside) or any(
         isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1 for n in walk(equation)
     )
 
@@ -107,17 +111,17 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
     if given := case.hypothesis.small:
         nearer = replace(case.hypothesis, small=tuple((text, size * _TINY / SMALL) for text, size in given))
         return "", replace(case, hypothesis=nearer, known={})
-    if not _has_bare_angles(case, equation):
+    if not _bare_angles(case, equation):
         return None
     words, family = _small(case, equation, _TINY)
     return words, replace(case, hypothesis=family, known={})
 
 
-def _has_bare_angles(case: Case, equation: Equation) -> bool:
-    """Whether angles stand outside of functions."""
+def _bare_angles(case: Case, equation: Equation) -> set[Sym]:
+    """The angles that stand outside of functions."""
     inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
     known = case.meaning.vocabulary
-    return any(n in known.coordinates and n in known.angular and id(n) not in inside for n in walk(equation))
+    return {n for n in walk(equation) if isinstance(n, Sym) and id(n) not in inside} & {*known.coordinates} & known.angular
 
 
 def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
@@ -132,8 +136,7 @@ def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
 def _to_first_order(case: Case, equation: Equation) -> str:
     """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
     words, family = _small(case, equation, SMALL)
-    exact = not _has_bare_angles(case, equation) and _is_of_higher_order(case, equation)
-    if exact or not case.budget.lasts(_PART):
+    if _is_of_higher_order(case, equation) or not case.budget.lasts(_PART):
         return ""
     with suppress(NoMotion, StatementError, ModelError, MotionError):
         if family.small and not case.hypothesis.small and first_order(case, equation, family):
@@ -185,7 +188,8 @@ def of_family(case: Case, equation: Equation, family: Family, count: int = _STAT
         return False
     as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
-    return bool(near) and not unreached(equation, values, _SOME if family.since else OFTEN)
+    often, reach = (_SOME, SLIGHT) if family.since else (OFTEN, REACH)
+    return bool(near) and not unreached(equation, values, often, reach)
 
 
 def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:

@@ -20,11 +20,11 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
+from .assumptions import FROM_START, family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .constants import constant_corrections
 from .correction import SECOND, corrections
-from .families import ALL, Samples
+from .families import ALL, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -250,6 +250,10 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
             seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
     if worst < _STEADY:
         return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
+    if case.hypothesis == ALL and case.sampler.starts_to_move:  # a momentum that is 0 keeps mass centres where they are
+        from_start = checker.check(f"constant: {expression}", declared, SINCE_START, correcting=False)
+        if from_start.ok:
+            return replace(from_start, assumption=FROM_START)
     mends = constant_corrections(case, node, runs) if case.correcting else ()
     return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", mends=mends, evidence=seen)
 

@@ -14,16 +14,17 @@ from .wording import LASTS
 if TYPE_CHECKING:
     from .api import Checker
 
-_STOPS = r"(?:(?:stop|cease)s?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
+_STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
+_OVER = r"\s+(?:has\s+|is\s+)?(?:stop|cease|end|over)\w*"
 _KINDS = {
-    "stick": rf"{_STOPS}(?:slip|slid|skid)\w*|roll(?:s|ing)?|sticks?|sticking|stuck|grips?",
-    "slip": rf"{_STOPS}(?:roll|stick)\w*|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
+    "stick": rf"{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|roll(?:s|ing)?|sticks?|sticking|stuck|grips?",
+    "slip": rf"{_STOPS}(?:roll|stick)\w*|(?:roll|stick)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
     "taut": "taut|tight|stretched|straight",
     "slack": "slack|loose",
     "touch": "touch(?:es)?|touching|contact|meets?|strikes?|hits?|collides?|lands?",
     "lift-off": r"leaves?|lifts?\s+off|separates?|loses?\s+(?:contact|touch)",
 }
-"""What goes on in words, the first that is said; ``touch`` and ``lift-off`` are of a moment."""
+"""What goes on in words; ``touch`` and ``lift-off`` are of a moment."""
 _CHANGES = {"touch": ("impact", "contact")}
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
@@ -46,7 +47,8 @@ class Phase:
 
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
-    kind = next((kind for kind, said in _KINDS.items() if re.search(rf"\b(?:{said})\b", words)), None)
+    said = [(found.end() - found.start(), kind) for kind, of in _KINDS.items() if (found := re.search(rf"\b(?:{of})\b", words))]
+    kind = max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
     if kind is None or words.startswith("until"):
         return None
     run, _ = checker.moment("end")
@@ -56,10 +58,12 @@ def phase(checker: Checker, words: str) -> Phase | None:
     limits = checker.sampler.core.instant(checker.sampler.own).limits
     meant = _meant(words, {*(part for _, part in firsts.values()), *limits}, limits)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
-    times = {name: t for name, t in times.items() if t == max(times.values())} if _ALL.search(words) else times
+    every = _ALL.search(words) is not None
+    times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
     states = {limits[name].state for name in meant if name in limits} & {*_STATES.values()}
-    at_first = _STATES[kind] in states or (lasts and not states) if kind in _STATES else lasts
+    there = states == {_STATES.get(kind)} if every else _STATES.get(kind) in states
+    at_first = there or (lasts and not states) if kind in _STATES else lasts
     is_moment = not lasts and (kind not in _STATES or _MOMENT.search(words) is not None)
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
 

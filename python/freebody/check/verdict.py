@@ -352,7 +352,7 @@ def _as_figures(case: Case, equation: Equation) -> Verdict | None:
 def _stays(case: Case, equation: Equation) -> bool:
     """Whether the two sides go on to differ by what they differ by at the start of each motion."""
     samples = case.samples()
-    if not samples.starts:
+    if not samples.starts or any(n.dots or case.meaning.solved(n) for n in symbols_in(equation)):
         return False
     began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
     change = equation_sides(equation, case.values()).residual - equation_sides(equation, began).residual

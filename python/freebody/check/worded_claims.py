@@ -85,23 +85,27 @@ def in_phase(
 ) -> Verdict:
     """On a stretch of the model's own motion, or at a moment of it: true where it holds on one that may be meant, wrong where on none, with
     the corrections of that where least is wrong; beside ``verdicts`` about others."""
-    places = [("", "", "")] if when.at_first else []
     sides = [("just ", "after"), ("just ", "before")] if when.is_moment else [("", "after")]
-    places += [(just, side, name) for name in when.changes for just, side in sides]
-    found, said = [*verdicts], ["at first"] * (when.at_first or bool(verdicts)) + [" ".join(place).strip() for place in places if place[1]]
-    for just, side, name in places:
-        with suppress(ModelProblem, StatementError):
-            one = beside_event(checker, declared, just, side, name, statement) if side else checker.check(statement, declared)
-            if one.ok:
-                which = f"is read as {just}{side} {name}." if side else "is read as a label, and not judged."
-                return replace(one, notes=(*one.notes, f"`{words}` {which}"))
-            found.append(one)
+    places = [("", "", "")] * when.at_first + [(just, side, name) for name in when.changes for just, side in sides]
+    names = ["at first"] * bool(verdicts) + [f"{just}{side} {name}" if side else "at first" for just, side, name in places]
+    found: list[Verdict] = [*verdicts]
+    problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
+    for place, name in zip(places, names[-len(places) :], strict=True):
+        try:
+            one = beside_event(checker, declared, *place, statement) if place[1] else checker.check(statement, declared)
+        except (ModelProblem, StatementError) as error:
+            problem = error
+            continue
+        if one.ok:
+            return replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
+        found.append(one)
     if not found:
-        return beside_event(checker, declared, *places[0], statement)  # says what is not read
+        raise problem
     gone = lambda verdict: any(kind == "extra term" for kind, *_ in verdict.mends[0].edits)  # what it is of may not be there
     open_ = next((verdict for verdict in found if verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None)
     nearest = open_ or min(found, key=lambda one: (gone(one), one.mends[0].size) if one.mends else (True, np.inf))
-    return replace(nearest, notes=(*nearest.notes, f"`{words}` is not judged: it does not hold {' or '.join(said)}."))
+    how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
+    return replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
 
 
 def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:

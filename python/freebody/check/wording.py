@@ -56,6 +56,10 @@ _STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
 _BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
+_HAPPENS_WHEN = re.compile(
+    rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,3}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
+)
+"""``the block breaks loose when k x = μ m g``."""
 _PARTS = re.compile(r",|\band\b")
 _WHEN = re.compile(r"\s+(?:when|where|while|with)\s+")
 _ABOUT = re.compile(r"\s*about\s[^=]*=")
@@ -129,6 +133,8 @@ def with_condition_first(text: str) -> str:
         return f"constant: {same}"
     if (found := _NAMED_VALUE.fullmatch(said)) and (name := _quantity(found[1])):
         return f"{name} = {found[2]}"
+    if found := _HAPPENS_WHEN.fullmatch(said):
+        return f"when {found[1]}: {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
         said = f"{found[2]}: {found[1]}"
     return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if "cons" in said else said
@@ -200,7 +206,9 @@ def _condition(part: str) -> str:
     """One part of a condition in the words of a hypothesis."""
     said = part.strip()
     said = re.sub(r"\A(?:(?:when|if)\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))", "", said)
-    if re.fullmatch(rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said):
+    if re.fullmatch(
+        rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
+    ):
         return "small motions"
     if found := re.fullmatch(r"(small|large) (.+)", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
