@@ -25,6 +25,7 @@ from .claims import OMEGA, claimed
 from .families import ALL, Family, NoMotion
 from .inner_forces import without_inner_forces
 from .language.dimensions import misfit
+from .language.glyphs import CONDITION
 from .language.statements import Program, symbols_in
 from .laws import without_laws
 from .motion_sampler import MotionSampler
@@ -110,7 +111,7 @@ class Checker:
         try:
             return (_SMALL.match(text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
-            is_of_omega = re.search("`(?:ω|omega)`", error.what) is not None
+            is_of_omega = re.search("`(?:ω|omega)(?:_n)?`", error.what) is not None
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
                 return found
             raise
@@ -121,6 +122,8 @@ class Checker:
         words, *given = (part.strip() for part in _JOINED.split(condition.replace("$", "")))
         if _SMALL.fullmatch(words):
             claim = f"if {', '.join(given)}: frequencies: {said}" if given else f"frequencies: {said}"
+        elif re.match(rf"(?:{CONDITION})\b", words):
+            claim = f"{condition}: frequencies: {said}"
         else:
             claim = f"frequencies: {text}"
         if "frequencies:" in text or not OMEGA.search(said):

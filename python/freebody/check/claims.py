@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import takewhile
+from itertools import chain, takewhile
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -157,10 +157,11 @@ def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdic
     """An equation that each natural frequency satisfies; that one of them does, where it says what ω is."""
     count = checker.vibration_of(checker.hypothesis).count
     names = [f"ω_{i}" for i in range(1, count + 1)] if count > 1 else ["ω_n"]
-    verdicts = [checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names]  # type: ignore[misc]
+    verdicts = (checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names)  # type: ignore[misc]
     if _SAYS_OMEGA.fullmatch(statement):
         return min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
-    return next((verdict for verdict in verdicts if not verdict.ok), verdicts[0])
+    first = next(verdicts)
+    return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
@@ -381,7 +382,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
+OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(₀-₉])")
 _SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
