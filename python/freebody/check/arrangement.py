@@ -21,6 +21,7 @@ NOTHING = 1e-11  # of what an expression changes by within the model's sizes: wh
 _DONE = 1e-14  # of the same: where Newton's method has nothing left to do
 _MANY_TIMES = 1e3  # a parameter that is to make an expression vanish is at most so much larger than it was drawn
 _NEWTON = 30  # steps of it
+_FELT = 1e-6  # of what an expression changes by within the model's sizes: below it what is to stay does so by itself
 _STEP = 1e-6  # of central differences, relative to the size of a coordinate
 
 
@@ -82,21 +83,25 @@ def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str]
         there = model.moved(state, q, dict(zip(free, rates.tolist(), strict=True)))
         return model.core.evaluate([text, *kept], there)
 
-    q, u, size = state.q, state.u[which], model.size_of(text, state)
-    by_rates = lambda: _alone(_slopes(partial(values, q), u, model.rate * model.sizes[which]))
-    of_rates = np.abs(by_rates() * model.sizes[which]).max(initial=0.0) * model.rate > NOTHING * size
+    def way(of: Callable[[Array], Array], at: Array, units: Array, step: float = 1.0) -> Array:
+        """The direction in which the expression changes most while those that are kept stay, in ``units``."""
+        first, *others = _slopes(of, at, step * units) * units
+        felt = [row for row, size in zip(others, sizes[1:], strict=True) if np.abs(row).max(initial=0.0) > _FELT * size]
+        return first - np.transpose(felt) @ np.linalg.lstsq(np.transpose(felt), first, rcond=None)[0] if felt else first
+
+    q, u, sizes = state.q, state.u[which], [model.size_of(each, state) for each in (text, *kept)]
+    speeds, least = model.rate * model.sizes[which], NOTHING * sizes[0]
+    by_rates = np.abs(way(partial(values, q), u, speeds)).max(initial=0.0) > least
     for _ in range(_NEWTON):
-        if abs(left := values(q, u)[0]) <= _DONE * size:
+        if abs(left := values(q, u)[0]) <= _DONE * sizes[0]:
             break
-        if of_rates:
-            way = by_rates()
-            u = u - way * left / (way @ way)
-            continue
-        way = _alone(_slopes(partial(values, rates=u), q, _STEP * model.sizes))
-        if not np.abs(way * model.sizes).max(initial=0.0) > NOTHING * size:
+        units = speeds if by_rates else model.sizes
+        along = way(partial(values, q), u, speeds) if by_rates else way(partial(values, rates=u), q, units, _STEP)
+        if not np.abs(along).max(initial=0.0) > least:
             why = "it depends on nothing that is free in" if model.free_rates.size else "no freedom is left in"
             raise NoMotion(f"`{stated(text)}` cannot be arranged: {why} this mechanism")
-        q = q - way * left / (way @ way)
+        change = units * along * left / (along @ along)
+        q, u = (q, u - change) if by_rates else (q - change, u)
     return model.moved(state, q, dict(zip(free, u.tolist(), strict=True)))
 
 
@@ -104,12 +109,6 @@ def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
     """Derivatives of several numbers, a row each, by central differences."""
     columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
     return np.array(columns).T if columns else np.zeros((1, 0))
-
-
-def _alone(slopes: Array) -> Array:
-    """The direction in which the first of several numbers changes most while the others stay."""
-    first, others = slopes[0], slopes[1:]
-    return first - others.T @ np.linalg.lstsq(others.T, first, rcond=None)[0] if len(others) else first
 
 
 def stated(text: str) -> str:

@@ -23,7 +23,7 @@ from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated
 from .asked_model import AskedModel
 from .budget import Budget
-from .families import ALL, Family, NoMotion, Samples, at_start
+from .families import ALL, BEFORE, Family, NoMotion, Samples, at_start
 from .sides import changes_side
 from .steady import steady_state
 from .stretches import first_zero, stretches
@@ -137,6 +137,7 @@ class MotionSampler(AskedModel):
         else:
             found = self.started(values) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
+        start = self.started(values) if family.since == BEFORE else start
         lost = [
             text
             for text in family.vanishing
@@ -268,7 +269,8 @@ class MotionSampler(AskedModel):
         start = self._at_moment(
             self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
-        conditions = [at_start(text, self.core, start) for text in family.vanishing]
+        began = self.started(values) if family.since == BEFORE else start
+        conditions = [at_start(text, self.core, began) for text in family.vanishing]
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
         first = conditions
         for motion, goes_on in self._followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):

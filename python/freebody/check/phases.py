@@ -47,7 +47,7 @@ class Phase:
 
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
-    said = [(found.end() - found.start(), kind) for kind, of in _KINDS.items() if (found := re.search(rf"\b(?:{of})\b", words))]
+    said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
     kind = max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
     if kind is None or words.startswith("until"):
         return None

@@ -15,8 +15,9 @@ from freebody.symbolic.errors import StatementError
 
 from . import timed_claims
 from .assumptions import WORDS
-from .families import SINCE_START
+from .families import BEFORE, SINCE_START
 from .phases import Phase, phase
+from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
 from .wording import LASTS
 
@@ -115,6 +116,8 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     just = just or there.sampler.stated  # before what happens at the start there is no motion
     given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
     verdict = there.check(statement, declared, given)
+    if not verdict.ok and any(INITIAL in note for note in verdict.notes):  # v₀ is that of the start before
+        verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
         return verdict
     until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it
