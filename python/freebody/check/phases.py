@@ -21,7 +21,7 @@ _KINDS = {
     "slip": rf"{_STOPS}(?:roll|stick)\w*|(?:roll|stick)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
     "taut": "taut|tight|stretched|straight",
     "slack": "slack|loose",
-    "touch": "touch(?:es)?|touching|contact|meets?|strikes?|hits?|collides?|lands?",
+    "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|into contact|meets?|strikes?|hits?|collides?|lands?",
     "lift-off": r"leaves?|lifts?\s+off|separates?|loses?\s+(?:contact|touch)",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment."""

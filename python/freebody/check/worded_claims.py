@@ -91,7 +91,7 @@ def in_phase(
     names = ["at first"] * bool(verdicts) + [f"{just}{side} {name}" if side else "at first" for just, side, name in places]
     found: list[Verdict] = [*verdicts]
     problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
-    for place, name in zip(places, names[-len(places) :], strict=True):
+    for place, name in zip(places, names[len(names) - len(places) :], strict=True):
         try:
             one = beside_event(checker, declared, *place, statement) if place[1] else checker.check(statement, declared)
         except (ModelProblem, StatementError) as error:

@@ -26,10 +26,7 @@ _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
 )
-_LAWS = (
-    "momentum|energy|impulse|moments?|forces?|work|power|equations?|balance|component|direction|along|across|about|radial(?:ly)?"
-    "|tangential(?:ly)?|normal"
-)
+_LAWS = "momentum|energy|impulse|moments?|forces?|work|power|equations?|balance|component|direction|radial(?:ly)?|tangential(?:ly)?|normal"
 _THINGS = (
     "(?:rod|bar|beam|wheel|disk|disc|cylinder|drum|pulley|roller|gear|ring|hoop|ball|sphere|block|crate|cart|car|mass|weight|bob|arm"
     "|link|crank|slider|piston|plate|pendulum|particle|frame|body|system)(?:e?s)?|bodies|pulleys"
@@ -46,7 +43,7 @@ _SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^=]*:(?!=))")
 _OF_WHAT = re.compile(
-    rf"\s*(?!(?:{CONDITION})\b)(?=(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
+    rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
 )
 """``momentum along x``, ``both rods``: behind a condition a label."""
 _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")
