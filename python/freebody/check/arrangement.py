@@ -85,6 +85,8 @@ def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str]
 
     def way(of: Callable[[Array], Array], at: Array, units: Array, step: float = 1.0) -> Array:
         """The direction in which the expression changes most while those that are kept stay, in ``units``."""
+        if not at.size:
+            return at
         first, *others = _slopes(of, at, step * units) * units
         felt = [row for row, size in zip(others, sizes[1:], strict=True) if np.abs(row).max(initial=0.0) > _FELT * size]
         return first - np.transpose(felt) @ np.linalg.lstsq(np.transpose(felt), first, rcond=None)[0] if felt else first
@@ -107,8 +109,7 @@ def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str]
 
 def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
     """Derivatives of several numbers, a row each, by central differences."""
-    columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
-    return np.array(columns).T if columns else np.zeros((1, 0))
+    return np.array([(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]).T
 
 
 def stated(text: str) -> str:
