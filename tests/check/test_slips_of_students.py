@@ -214,6 +214,71 @@ SLIPS = {
         "just after the catch: (½ m + M) √(2 g h) = (⅓ m + M) L ω",
         "momentum",
     ),
+    "one factor of a product differentiated": (
+        "stamp_mill",
+        "while the pin lifts the stamp: y'' = r θ'' cos θ",
+        "y'' = r θ'' cos θ − r θ'² sin θ",
+        "centripetal",
+    ),
+    "one factor, of half an angle": (
+        "drawbridge",
+        "y'' = −L θ'' cos(θ/2)",
+        "y'' = −L θ'' cos(θ/2) + ½ L θ'² sin(θ/2)",
+        "centripetal",
+    ),
+    "an inertia that changes": (
+        "slab_rocking_on_cylinder",
+        "(I + m a² + m R² θ²) θ'' + m g (R θ cos θ − a sin θ) = 0",
+        "(I + m a² + m R² θ²) θ'' + m R² θ θ'² + m g (R θ cos θ − a sin θ) = 0",
+        "centripetal",
+    ),
+    "rotation of each of two bodies": (
+        "wagons_with_buffer",
+        "E_k = ½ (M_1 + m) x_1'² + ½ (M_2 + m) x_2'²",
+        "E_k = ½ (M_1 + m + J/r²) x_1'² + ½ (M_2 + m + J/r²) x_2'²",
+        "throughout",
+    ),
+    "weights and rotations of two bodies": (
+        "pump_jack",
+        "E_k = ½ M k² θ'²",
+        "E_k = ½ M k² θ'² + ½ M c² θ'² + ½ m y'²",
+        "kinetic energy",
+    ),
+    "a speed relative for absolute": (
+        "puck_on_turntable",
+        "H = m Ω (x² + y²)",
+        "H = m Ω (x² + y²) + m (x y' − y x')",
+        "momentum",
+    ),
+    "moment of a relative acceleration": (
+        "puck_on_turntable",
+        "Q = 2 m Ω (x x' + y y')",
+        "Q = 2 m Ω (x x' + y y') + m (x y'' − y x'')",
+        "left out",
+    ),
+    "a rate that is no part of a speed": (
+        "blade_on_arm",
+        "constant: 1/6 m L² (Ω + β̇)² − ½ m L R Ω² cos β",
+        "1/6 m L² β̇² − ½ m L R Ω² cos β = const",
+        "speed",
+    ),
+    "inertia of what hangs on, not another force": (
+        "cycloid_reducer",
+        "I θ'' = T − F e",
+        "I θ'' = T − (F + m e θ'') e",
+        "r × m a",
+    ),
+    "a sign in a constant of the start": (
+        "puck_held_by_hanging_weight",
+        "(m + M) r'' + m r_0² v_0²/r³ + M g = 0",
+        "(m + M) r'' − m r_0² v_0²/r³ + M g = 0",
+        "sense",
+    ),
+    "an angle of the statement's own": ("peaucellier_cell", "y = κ tan θ", "y = κ tan(θ/2)", "angle"),
+    "what turns in a frequency": ("weight_pulley_spring", "ω_n² = k/m", "ω_n² = k/(m + I/r²)", "inertia"),
+    "a screw in a frequency": ("screw_press", "ω_n² = k/m", "ω_n² = k p²/(4 π² J + m p²)", "inertia"),
+    "a number below a root": ("rolling_on_spring", "ω_n = √(k/m)", "ω_n = √(2 k/(3 m))", "a number"),
+    "the place where something vanishes": ("falling_chimney", "when c = L/2: Q = 0", "when c = L/3: Q = 0", "another value"),
 }
 
 

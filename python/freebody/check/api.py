@@ -94,7 +94,9 @@ class Checker:
         given = hypothesis or self.hypothesis
         known = self.symbols(letters)
         known.vibration = self.vibration_of(given)
+        began = thread_time()
         program = known.read(text, units, tight)
+        self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
         meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)

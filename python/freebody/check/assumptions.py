@@ -80,27 +80,23 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     return (words,) if words else ()
 
 
-def leaves_out(words: str, mended: bool) -> bool:
+def leaves_out(words: str, mended: bool, lacks: bool) -> bool:
     """Whether an assumption takes motion, gravity or a part of the model away, so that it excuses nothing: a term was left out. Where
-    one edit has ``mended`` an equation, a limit and the start excuse nothing, either."""
+    one edit has ``mended`` an equation, a limit and the start excuse nothing, either; nor small angles what ``lacks`` a term."""
     taken = words.startswith(("at rest", "without gravity")) or re.fullmatch(r"\S+ = 0( \(no friction\))?", words) is not None
-    return taken or (mended and ("→" in words or words == "at the start"))
+    return taken or (mended and ("→" in words or words == "at the start")) or (lacks and words.startswith("small"))
 
 
 def linearised(case: Case, equation: Equation) -> str:
     """In words, what is small where an equation in which angles stand outside of sines and cosines is true to first order."""
-    return _to_first_order(case, equation) if _bare_angles(case, equation) else ""
+    return _to_first_order(case, equation) if _has_bare_angles(case, equation) else ""
 
 
-def _is_of_higher_order(case: Case, equation: Equation) -> bool:
-    """Whether it has sines of the angles that move, or a product of two rates: who neglects what is small keeps neither. Beside angles
-    outside of sines, as of a torsion spring, sines of the same angles."""
-    calls = (n for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
-    inside = {n for call in calls for n in symbols_in(call)}
-    if bare := _bare_angles(case, equation):
-        return bool(bare & inside)
+def is_of_higher_order(case: Case, equation: Equation) -> bool:
+    """Whether it has sines of the angles that move, or a product of two rates: who neglects what is small keeps neither."""
     angles = case.meaning.vocabulary.angular & {*case.meaning.vocabulary.coordinates}
-    return bool(angles & inside) or any(
+    calls = (n for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
+    return any(angles & {*symbols_in(n)} for n in calls) or any(
         isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1 for n in walk(equation)
     )
 
@@ -111,17 +107,17 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
     if given := case.hypothesis.small:
         nearer = replace(case.hypothesis, small=tuple((text, size * _TINY / SMALL) for text, size in given))
         return "", replace(case, hypothesis=nearer, known={})
-    if not _bare_angles(case, equation):
+    if not _has_bare_angles(case, equation):
         return None
     words, family = _small(case, equation, _TINY)
     return words, replace(case, hypothesis=family, known={})
 
 
-def _bare_angles(case: Case, equation: Equation) -> set[Sym]:
-    """The angles that stand outside of functions."""
+def _has_bare_angles(case: Case, equation: Equation) -> bool:
+    """Whether angles stand outside of functions."""
     inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
     known = case.meaning.vocabulary
-    return {n for n in walk(equation) if isinstance(n, Sym) and id(n) not in inside} & {*known.coordinates} & known.angular
+    return any(n in known.coordinates and n in known.angular and id(n) not in inside for n in walk(equation))
 
 
 def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
@@ -136,7 +132,8 @@ def _small(case: Case, equation: Equation, size: float) -> tuple[str, Family]:
 def _to_first_order(case: Case, equation: Equation) -> str:
     """The angles of an equation that have to be small for it to be true to first order, in words; nothing where that does not help."""
     words, family = _small(case, equation, SMALL)
-    if _is_of_higher_order(case, equation) or not case.budget.lasts(_PART):
+    exact = not _has_bare_angles(case, equation) and is_of_higher_order(case, equation)
+    if exact or not case.budget.lasts(_PART):
         return ""
     with suppress(NoMotion, StatementError, ModelError, MotionError):
         if family.small and not case.hypothesis.small and first_order(case, equation, family):

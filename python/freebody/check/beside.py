@@ -47,7 +47,7 @@ class Difference:
 def difference(said: Sequence[Term], true: Sequence[Term]) -> Difference:
     """How the terms of a statement differ from those of a balance, which may be written with any factor."""
     ratios = {
-        (i, k): found for i, (_, s) in enumerate(said) for k, (_, t) in enumerate(true) if (found := _ratio(s, t)) is not None
+        (i, k): found for i, (_, s) in enumerate(said) for k, (_, t) in enumerate(true) if (found := ratio(s, t)) is not None
     }
     often = Counter(round(ratio, 6) for ratio in ratios.values())
     factor = max(often, key=lambda ratio: often[ratio], default=1.0)
@@ -85,7 +85,7 @@ def _lacking(said: Sequence[Term], true: Sequence[Term]) -> Difference | None:
     return None if None in missing else Difference(tuple(n for n in missing if n is not None), (), int(kept.sum()))
 
 
-def _ratio(one: Array, other: Array) -> float | None:
+def ratio(one: Array, other: Array) -> float | None:
     """By which number a term is another times it."""
     with np.errstate(all="ignore"):
         found = one / other

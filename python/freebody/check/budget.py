@@ -35,6 +35,10 @@ class Budget:
         """That it was not enough."""
         return f"After {self.seconds:g} s no more was looked for: there may be other corrections."
 
+    def leaves_out_since(self, began: float) -> None:
+        """What has been computed since then does not count: it is no search, and is done once for a model."""
+        self.begins += thread_time() - began
+
     def within(self, found: Iterable[T], part: float = _CORRECTIONS) -> Iterator[T]:
         """What there is, as long as there is a ``part`` of the time left: by default so that assumptions can be tried after corrections."""
         for each in found:

@@ -33,6 +33,7 @@ from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
+_ENERGY = re.compile(r"(?:kinetic|potential|energy)\(")
 _BEYOND = re.compile(
     r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|friction_work|centre_[xy])\("
     rf"|\.({_FORCES}|friction|force|value|power|work)\b"
@@ -159,7 +160,8 @@ class StatementSymbols:
         angles = {n for n in (*parameters, *coordinates, *named) if self._one(n).dimension == ANGLE}
         angles |= {n for n in parameters if plain[0][n] == NUMBER_ONLY and (n in self._turning or self._turns(n))}
         angular = frozenset(angles | {n for n in coordinates if plain[1][n] == NUMBER_ONLY})
-        return Vocabulary(*plain, angular=angular, letters=frozenset(map(Sym, self.symbols.own)))
+        energies = frozenset(n for n in others if any(map(_ENERGY.match, self._one(n).texts)))
+        return Vocabulary(*plain, angular=angular, letters=frozenset(map(Sym, self.symbols.own)), energies=energies)
 
     def _reactions(self, said: set[tuple[str, ...]]) -> list[Sym]:
         """The determined reactions of the model that are not said, in the components of their joints."""

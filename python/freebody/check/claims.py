@@ -22,8 +22,9 @@ from freebody.symbolic.tree import Sym
 from . import timed_claims
 from .assumptions import FROM_START, family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
+from .condition_edits import other_conditions
 from .constants import constant_corrections
-from .correction import SECOND, corrections
+from .correction import MOST, SECOND, corrections
 from .families import ALL, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
@@ -90,6 +91,9 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    if verdict.kind is Kind.WRONG and checker.correcting:
+        mends = (*other_conditions(checker, declared, condition, statement), *verdict.mends)
+        verdict = replace(verdict, mends=mends[:MOST])
     turns = any("rate(" in expression for expression in given.vanishing) and ":" not in statement
     if turns and {n.name for n in symbols_in(checker.case(statement, declared).program)} <= {*checker.mechanism.parameters}:
         reason = f"it is of parameters alone, and motions that come to `{condition}` were not looked for"

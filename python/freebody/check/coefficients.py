@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import TypeVar
 
-from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Quotient, Sym, exchange, is_zero, walk
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, is_zero, walk
 
 from .language.statements import without_ones
 
@@ -15,20 +15,34 @@ N = TypeVar("N", bound=Node)
 _SAME = 1e-8  # relative: below it a number is the one recognised
 _DENOMINATOR = 24
 _NUMERATOR = 60
+_BESIDE_PI = {1, 2, 4, 8}
+"""Figures beside π² and below the line beside π: other ones are angles of a model, in disguise."""
 
 
 def recognised(value: float) -> Node | None:
-    """A number as a person writes it: p/q with q ≤ 12, or such a part of π; None where it is neither."""
-    for unit in (1.0, math.pi):
-        part = Fraction(abs(value) / unit).limit_denominator(_DENOMINATOR)
-        if not part or part.numerator > _NUMERATOR or abs(float(part) * unit / abs(value) - 1) >= _SAME:
+    """A number as a person writes it: p/q with q ≤ 24, or so many π or π², or parts of them, as of a lead p/(2 π); None where it is neither."""
+    for power in (0, 1, 2, -1, -2):
+        part = Fraction(abs(value) / math.pi**power).limit_denominator(_DENOMINATOR)
+        if not part or part.numerator > _NUMERATOR or abs(float(part) * math.pi**power / abs(value) - 1) >= _SAME:
+            continue
+        if power not in (0, 1) and not {*part.as_integer_ratio()} <= _BESIDE_PI:
             continue
         above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
-        pi = Num(math.pi, "pi")
-        top: Node = above if unit == 1.0 else pi if part.numerator == 1 else Mul((above, pi))
-        found = top if part.denominator == 1 else Quotient(top, below)
+        top, bottom = (_with_pi(figure, n) for figure, n in ((above, power), (below, -power)))
+        found = top if bottom == Num(1.0) else Quotient(top, bottom)
         return Negative(found) if value < 0 else found
     return None
+
+
+def _with_pi(figure: Num, power: int) -> Node:
+    """A figure times a power of π that is above 0, or it alone."""
+    pi = Num(math.pi, "pi")
+    factors = [
+        *([figure] if figure != Num(1.0) or power < 1 else []),
+        *([pi] * (power == 1)),
+        *([Pow(pi, Num(2.0, "2"))] * (power == 2)),
+    ]
+    return product(factors)
 
 
 def snapped(value: float, near: float) -> float:

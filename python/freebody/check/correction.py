@@ -16,13 +16,13 @@ import numpy as np
 from freebody.symbolic.dimensions import Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Negative, Node, Num, Sym, exchange, is_zero, unsigned, walk
+from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, unsigned, walk
 
-from .coefficients import more, tidied
+from .coefficients import tidied
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
-from .energy_terms import lacking_energies
-from .families import NoMotion, Samples
+from .energy_terms import energy_edits
+from .families import NoMotion
 from .fitted_edits import FittedEdits
 from .language.dimensions import dimension
 from .language.spelling import spell
@@ -60,10 +60,11 @@ _LIKELIEST = 1.0  # size of a single edit; none is smaller
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
+_OF_START = 1.0  # by which what is so from the start alone is less likely to be meant
+_OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
 _BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
-_OF_ENERGY = 0.3  # by which a correction is larger for each term of the energy that it brings
 _SWAPPED = ("missing factor", "symbol", "other term")
 _REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"), ("derivative", "missing factor"))
 """Pairs that take something away and put another in its place: no correction."""
@@ -126,7 +127,8 @@ def _of_row(
     tried: list[list[_Found]] = [[] for _ in searches]
     some: list[tuple[list[_Found], str]] = []
     for step in steps:
-        if step is _Search.pairs and not some and (late := _from_start(case, row, families, part)):
+        late = _from_start(case, row, families, part) if step is _Search.pairs else []
+        if late and (not some or late[0].size + _OF_START < some[0][0][0].size):
             yield from late
             return
         some = []
@@ -170,7 +172,9 @@ class _Search:
         )
         self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
         self.holds, self._near = (
-            (_LIMIT, _LIMIT) if family.scaled or family.late else (_LINEAR if family.small else HOLDS, _PROMISING)
+            (_LIMIT, _LIMIT)
+            if family.scaled or family.late
+            else (_LINEAR if family.small else _OF_RUN if case.sampler.moment else HOLDS, _PROMISING)
         )
         self.right = self._worst(equation, self.values) < self.holds
 
@@ -181,9 +185,10 @@ class _Search:
         found = chain(  # the likely ones first: there may be no time for all
             () if readable else with_unit_vectors(self.equation, units),
             edits(self.equation, self.vocabulary),
+            self.differentiated.likely(),
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
-            self.differentiated,
+            self.differentiated.others(),
             momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
             () if readable else forgotten_factors(self.equation, self.vocabulary),
         )
@@ -205,20 +210,8 @@ class _Search:
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def energies(self) -> Iterator[_Found]:
-        """All terms that it lacks of the change of the energy since the start of the motions."""
-        samples, equation = self.case.samples(self.family), self.equation
-        if not samples.starts or len(rows(equation)) > 1 or not any(n.dots == 1 for n in symbols_in(equation)):
-            return
-        began, now = (
-            self.case.meaning.values(Samples(samples.core, samples.starts, samples.starts)),
-            self.case.values(self.family),
-        )
-        changes = lambda term: sampled(term, now) - sampled(term, began)
-        with suppress(KeyError, StatementError):
-            if lost := lacking_energies(self.case, Add((equation.left, Negative(equation.right))), changes):
-                after = exchange(equation, equation.left, more(equation.left, *lost))
-                found = [Edit("missing term", None, Add(lost), after, _OF_ENERGY * len(lost))]
-                yield from (_Found((edit,)) for edit in self._promising(found))
+        """All terms that it lacks of an energy."""
+        yield from (_Found((edit,)) for edit in self._promising(energy_edits(self.case, self.equation, self.family)))
 
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
@@ -300,7 +293,7 @@ class _Search:
         gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
         given = two and any((its := self.vocabulary.dimension(n)) is not None and its.time for n in gone)
         return (two and bool(solved) and not solved & own) or (
-            (given or ((two or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
+            (given or (((two and lost) or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
         )
 
     def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
@@ -326,8 +319,18 @@ class _Search:
         length = len(spell(tidied(found.after))) + _WORTH * self._size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
-        solved = any(edit.old in alone and edit.old is not None for edit in found.edits)
+        solved = any(edit.old in alone and edit.old is not None for edit in found.edits) or self._is_no_answer(found.after)
         return solved or any(map(self._is_elsewhere, found.edits)), len(new & {n.name for n in strange}), length
+
+    def _is_no_answer(self, after: Equation) -> bool:
+        """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""
+        sides = [(self.equation.left, after.right, self.equation.right), (self.equation.right, after.left, self.equation.left)]
+        for own, other, before in sides:
+            answer = own.base if isinstance(own, Pow) else unsigned(own)
+            new = other.symbols - before.symbols
+            if isinstance(answer, Sym) and any(n.name == answer.name and n.dots <= answer.dots for n in new):
+                return True
+        return False
 
     def _is_elsewhere(self, edit: Edit) -> bool:
         """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round."""

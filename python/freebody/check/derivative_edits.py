@@ -1,9 +1,9 @@
-"""Slips made before something was differentiated by time: edits inside of d/dt(…)."""
+"""Slips made where something was differentiated by time: edits inside of d/dt(…), and factors that were taken for constants."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
 from itertools import chain
@@ -14,13 +14,14 @@ import numpy as np
 from freebody.symbolic.differentiate import rate
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym, addends, exchange, is_zero, walk
 
-from .coefficients import multiplied
+from .coefficients import more, multiplied
 from .edits import Edit, conventions, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
-from .language.statements import Equation
+from .language.statements import Equation, without_ones
+from .powers import powers_of, written
 from .solve_for_term import required_terms
 from .spans import proportional
 
@@ -29,7 +30,9 @@ if TYPE_CHECKING:
 
 _DERIVATIVE = re.compile(r"\(?(?:d\s*/\s*d\s*t|\\[dt]?frac\s*\{\s*d\s*\}\s*\{\s*d\s*t\s*\})\)?\s*")
 _SAME = 1e-8  # relative spread below which a number is one
-_ZERO = Num(0.0, "0")
+_ZERO, _TWO = Num(0.0, "0"), Num(2.0, "2")
+_TAKEN = 0.2  # by which what is differentiated is less likely to have a term too many: who wrote an energy of all forgot a power
+_OF_PRODUCT = -0.15  # by which what a product's rule has is likelier than other terms that are lacking
 
 
 class DerivativeEdits:
@@ -37,24 +40,53 @@ class DerivativeEdits:
 
     def __init__(self, case: Case, equation: Equation, values: Mapping[str, Array], fits: FittedEdits) -> None:
         self.equation, self.values, self.fits = equation, values, fits
-        self._text, self._read, self._constants = (
-            case.program.text,
-            case.meaning.symbols.read,
-            case.meaning.symbols.constants,
-        )
+        self._text, self._read, self._fits = case.program.text, case.meaning.symbols.read, case.meaning.fits
+        self._constants = case.meaning.symbols.constants
 
-    def __iter__(self) -> Iterator[Edit]:
+    def likely(self) -> Iterator[Edit]:
+        """What the rule for products gives, and other numbers before what is differentiated."""
+        yield from self._of_products()
+        yield from self._of_differentiated(self._numbers)
+
+    def others(self) -> Iterator[Edit]:
+        """All other edits of what is differentiated."""
+        vocabulary = self.fits.vocabulary
+        plain = lambda _, given: chain(*(of(given, vocabulary) for of in (edits, conventions, forgotten_factors)))
+        for made in (plain, self._missing):
+            yield from self._of_differentiated(made)
+
+    def _of_differentiated(self, made: Callable[[Node, Equation], Iterable[Edit]]) -> Iterator[Edit]:
+        """Edits of what is differentiated; a factor that is taken from it makes it a constant, whose dimension does not fit."""
         for node, inside in self._differentiated:
             given = Equation(inside, _ZERO)
-            plain = chain(*(of(given, self.fits.vocabulary) for of in (edits, conventions, forgotten_factors)))
-            for edit in chain(plain, self._fitted(node, given)):
-                with suppress(StatementError):
-                    yield self._outside(node, edit)
+            fit = self._fits(given)
+            for edit in made(node, given):
+                if self._fits(edit.after) or not fit:
+                    with suppress(StatementError):
+                        yield self._outside(node, edit)
+
+    def _of_products(self) -> Iterator[Edit]:
+        """Terms of which a derivative is a factor, as that of a product of which only one factor was differentiated; and half of what is
+        lacking then, as Lagrange's equation of an inertia that changes has it."""
+        for side in (self.equation.left, self.equation.right):
+            parts = side.terms if isinstance(side, Add) else (side,)
+            lost = list(chain(*map(self._of_other_factors, parts)))
+            for term in (*lost, *([Add(tuple(lost))] if len(lost) > 1 else []), *(Quotient(term, _TWO) for term in lost)):
+                yield Edit("missing term", None, term, exchange(self.equation, side, more(side, term)), _OF_PRODUCT)
+
+    def _of_other_factors(self, term: Node) -> Iterator[Node]:
+        """What the derivative of a product has beside a term in which one factor of it is differentiated."""
+        for symbol in {n: None for n in walk(term) if isinstance(n, Sym) and n.dots}:
+            rest = without_ones(exchange(term, symbol, Num(1.0, "1")))
+            with suppress(StatementError):
+                if not is_zero(slope := rate(rest, self._constants)) and symbol not in rest.symbols:
+                    lost = addends(Mul((slope, Sym(symbol.name, symbol.dots - 1))), expand=True)
+                    yield from (written(sign * number, powers) for sign, each in lost for number, powers in [powers_of(each)])
 
     def is_within(self, edit: Edit) -> bool:
         """Whether an edit is of a part that came from differentiating."""
-        begin, end = edit.old.span if edit.old is not None and edit.shown is None else (0, 0)
-        return any(node.span[0] <= begin < end <= node.span[1] for node, _ in self._differentiated)
+        own = edit.old if edit.shown is None else None
+        return any(part is own for node, _ in self._differentiated for part in walk(node))
 
     @cached_property
     def _differentiated(self) -> list[tuple[Node, Node]]:
@@ -76,26 +108,36 @@ class DerivativeEdits:
         inside = edit.after.left
         after = exchange(self.equation, node, rate(inside, self._constants))
         shown = exchange(self.equation, node, Sym(f"d/dt({spell(inside)})"))
-        return Edit(edit.kind, edit.old, edit.new, after, edit.extra, edit.words, shown)
+        extra = edit.extra + _TAKEN * (edit.kind == "extra term")
+        return Edit(edit.kind, edit.old, edit.new, after, extra, edit.words, shown)
 
-    def _fitted(self, node: Node, given: Equation) -> Iterator[Edit]:
-        """Another number before a term, and a term that is lacking."""
+    def _lost(self, node: Node) -> Array | None:
+        """What a derivative lacks; None where that is not known."""
         required = next((found for found in required_terms(self.equation, self.values) if found.node is node), None)
-        if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
+        known = required is not None and required.missing.ndim == 1 and np.isfinite(required.missing).all()
+        return required.missing if known else None  # type: ignore[union-attr]
+
+    def _numbers(self, node: Node, given: Equation) -> Iterator[Edit]:
+        """Another number before a term."""
+        if (lost := self._lost(node)) is None:
             return
-        parts = given.left.terms if isinstance(given.left, Add) else (given.left,)
-        for term in parts:
+        for term in _terms(given):
             with np.errstate(all="ignore"):
-                number = 1 + required.missing / self._rates([term])[0]
+                number = 1 + lost / self._rates([term])[0]
             same = np.isfinite(number).all() and np.ptp(number) <= _SAME * np.abs(number).max()
             if same and (new := multiplied(term, float(np.median(number)))) is not None:
                 yield Edit.at(given, "factor", term, new)
+
+    def _missing(self, node: Node, given: Equation) -> Iterator[Edit]:
+        """A term that is lacking."""
+        if (lost := self._lost(node)) is None:
+            return
         nodes, _ = self.fits.dictionary(given, highest=1)
         rows = self._rates(nodes)
-        for place in proportional(rows, required.missing):
-            number = float(np.sum(required.missing * rows[place]) / np.sum(rows[place] ** 2))
+        for place in proportional(rows, lost):
+            number = float(np.sum(lost * rows[place]) / np.sum(rows[place] ** 2))
             if (term := multiplied(nodes[place], number)) is not None:
-                yield Edit("missing term", None, term, Equation(Add((*parts, term)), _ZERO), 0.02 * depth(term))
+                yield Edit("missing term", None, term, Equation(Add((*_terms(given), term)), _ZERO), 0.02 * depth(term))
 
     def _rates(self, nodes: list[Node]) -> Array:
         """The derivatives of terms; NaN where one has none."""
@@ -104,3 +146,7 @@ class DerivativeEdits:
             with suppress(StatementError, KeyError, ValueError):
                 row[:] = sampled(rate(node, self._constants), self.values)
         return rows
+
+
+def _terms(given: Equation) -> tuple[Node, ...]:
+    return given.left.terms if isinstance(given.left, Add) else (given.left,)

@@ -68,6 +68,7 @@ class FittedEdits:
         """The edits after which parts of an equation are what is needed."""
         quotients = [n for n in walk(equation) if isinstance(n, Quotient)]
         whole = {id(part) for n in (*quotients, equation) for part in children(n) if not isinstance(part, Num)}
+        below_roots = {id(part) for n in walk(equation) if isinstance(n, Fn) and n.name == "sqrt" for part in n.args}
         for required in self.within(needed):
             yield from (Edit.at(equation, "symbol", required.node, new, size) for new, size in self._symbols(required))
             node = required.node  # a number, or a fraction of two
@@ -75,7 +76,7 @@ class FittedEdits:
             found = self._constant(required.needed) if all(isinstance(part, Num) for part in parts) else None
             if found is not None and found != -required.value[0] and (number := recognised(found)) is not None:
                 yield Edit.at(equation, "factor", required.node, number)
-            if required.addend:
+            if required.addend or id(node) in below_roots:
                 yield from self._forgotten(equation, required)
                 yield from self._factors(equation, required)
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
@@ -99,19 +100,15 @@ class FittedEdits:
     def _symbols(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
         """Symbols of another kind for a symbol or a function, also squared, whatever their sign; for a parameter the sum or the
         difference of two, as an arm often is. With how far-fetched they are."""
-        node, span, alike = (
-            required.node,
-            required.node.span,
-            lambda value: np.allclose(value, required.needed, rtol=_SAME, atol=0),
-        )
+        node, span, needed = required.node, required.node.span, required.needed
+        known, rows = self._scalars
+        alike = lambda values: [known[i] for i in np.flatnonzero((np.abs(values - needed) <= _SAME * np.abs(needed)).all(axis=1))]
         match node:
-            case Sym() | Fn() if required.value.ndim == 1:
-                found = (n for n in self._known if n != node and alike(self.values[n.key]))
+            case Sym() | Fn() if required.value.ndim == needed.ndim == 1:
                 turns = dimension(node, self.vocabulary.dimensions) == INERTIA  # one about another point
-                yield from ((Sym(n.name, n.dots, span=span), 0.0 if turns else 0.3) for n in found)
-            case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == 1:
-                found = (n for n in self._known if n != base and alike(self.values[n.key] ** 2))
-                yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in found)
+                yield from ((Sym(n.name, n.dots, span=span), 0.0 if turns else 0.3) for n in alike(rows) if n != node)
+            case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == needed.ndim == 1:
+                yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in alike(rows**2) if n != base)
         yield from self._sums(required)
 
     def _sums(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
@@ -169,6 +166,12 @@ class FittedEdits:
         known = self.vocabulary
         moving = [Sym(q.name, dots) for q in known.coordinates for dots in range(3)]
         return [n for n in (*known.parameters, *moving, *known.others) if n.key in self.values]
+
+    @cached_property
+    def _scalars(self) -> tuple[list[Sym], Array]:
+        """Symbols that are numbers, and their values."""
+        found = [n for n in self._known if self.values[n.key].ndim == 1]
+        return found, np.array([self.values[n.key] for n in found]).reshape(len(found), -1)
 
     def _factors(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A term that lacks a number, or a product of powers of symbols."""

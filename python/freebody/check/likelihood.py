@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
+from itertools import combinations
 
 import numpy as np
 
@@ -59,8 +61,11 @@ _BOUND = 0.2  # for a term that is lacking at one instant, where many are equal
 _UNDECLARED = 0.6  # for a reaction without a letter in the place of a weight
 _NEW_RATE = 0.05  # for a rate of which the equation did not speak, which is easily taken for another
 _NEW = 0.15  # for any other quantity of which it did not speak, more for a force
+_OTHER_LETTER = 0.2  # more, for a force or a moment in the place of one that differs by more than its index
 PARTNER = 0.15
 """By how much a centripetal term is likelier beside its own second derivative."""
+_STEM = re.compile(r"[^_\d.]*")
+"""A letter without its index."""
 _ACCELERATION = LENGTH.times(TIME, -2)
 _SAME = 1e-9
 
@@ -93,27 +98,41 @@ class Likelihood:
             return math.inf
         match edit.kind, edit.old, edit.new:
             case "factor", Node() as old, new:
-                usual = _ODD if is_constraint(self.equation, self.vocabulary) else _USUAL
-                odd = _of_number(old, new, self.values, usual)
-                odd = min(odd, _USUAL) if self._at_instant else odd
-                return odd + _FORGOTTEN * (odd > 0 and self._is_force(old))
+                answers = any(isinstance(side, Sym) for side in self._sides)
+                odd_here = is_constraint(self.equation, self.vocabulary) or not (answers or self._has_mass_beside(old))
+                odd = _of_number(old, new, self.values, _ODD if odd_here else _USUAL)
+                odd = min(odd, _USUAL) if self._at_instant and answers else odd
+                return odd + _FORGOTTEN * (odd > 0 and self._has_load and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
                 return self._of_symbols(new)
             case "missing term" | "other term", _, new:
-                undoes = edit.kind == "missing term" and self._undoes(edit.after)
+                undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
                 odd = _BOUND * self._at_instant + _ODD * undoes
                 return odd + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
+            case "angle", _, new:
+                return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
 
+    def _has_mass_beside(self, part: Node) -> bool:
+        """Whether a part stands in a term with a mass or an inertia, whose numbers are of many kinds."""
+        whole = next((term for term in terms(self.equation) if any(each is part for each in walk(term))), part)
+        return any(self.vocabulary.dimension(Sym(n.name)) in (MASS, INERTIA) for n in whole.symbols)
+
     def _undoes(self, after: Equation) -> bool:
-        """Whether what is new takes away, at every true state, one of several terms as it is written."""
-        made = [_numbers(term, self.values) for term in terms(after, expand=True) if term not in self._expanded]
+        """Whether what is new takes away, at every true state, one of several terms as it is written. A power may: that of what turns is the
+        change of its energy."""
+        if any(
+            its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))
+        ):
+            return False
+        expanded = terms(after, expand=True)
+        made = [_numbers(term, self.values) for term in expanded if term not in self._expanded]
         own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
-        whole = len(terms(self.equation)) > 1
+        whole = len(terms(self.equation)) > 1 and len(expanded) > len(self._expanded)  # not within one of two that are equal
         return whole and any(np.allclose(np.abs(one), np.abs(value), rtol=_SAME, atol=0) for one in made for value in own)
 
     def _of_extra_term(self, term: Node) -> float:
@@ -122,6 +141,8 @@ class Likelihood:
         alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
         solved = alone or (isinstance(term, Sym) and term in self._sides)
         inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
+        its = dimension(term, self.vocabulary.dimensions)
+        inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
         return _ODD * solved + _ONCE * (not self._is_there(term, but=term)) + _INSIDE * inside
 
     def _of_symbol(self, old: Sym, new: Sym) -> float:
@@ -134,16 +155,28 @@ class Likelihood:
         mixed = old in known.parameters and new not in known.parameters and not (turns or moves)
         unsaid = new in known.others and new not in self._said
         solved = any(side is old for side in self._sides)
-        return _ODD * mixed + (_NEW_RATE if known.is_rate(new) else _NEW) * unsaid + _SOLVED * solved
+        other = known.is_load(new) and _STEM.match(old.name)[0] != _STEM.match(new.name)[0]  # type: ignore[index]
+        new_letter = (_NEW_RATE if known.is_rate(new) else _NEW) + _OTHER_LETTER * other
+        return _ODD * mixed + new_letter * unsaid + _SOLVED * solved
 
     def _of_symbols(self, new: Node) -> float:
         """Of a sum or a square for a symbol, or of a force for a weight."""
         known, unsaid = self.vocabulary, new.symbols - self._said
         if isinstance(new, Pow):
-            return _NEW * len(unsaid)
+            return _NEW * len(unsaid) + _ODD * self._cancels_within(new.base)
         if isinstance(new, Add):
             return _NEW * sum(3 if known.is_rate(n) else 1 + (n in known.others and n not in known.letters) for n in unsaid)
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
+
+    def _undoes_within(self, after: Equation, term: Node) -> bool:
+        """Whether a term that stands in a bracket takes away another of it at every true state."""
+        inner = (n for n in walk(after) if isinstance(n, Add) and n not in (after.left, after.right))
+        return any(any(part is term for part in n.terms) and self._cancels_within(n) for n in inner)
+
+    def _cancels_within(self, whole: Node) -> bool:
+        """Whether one part of a sum takes another away at every true state: then that is what has no place."""
+        values = [_numbers(part, self.values) for part in _terms_of(whole)]
+        return any(np.allclose(one, -other, rtol=_SAME, atol=0) for one, other in combinations(values, 2))
 
     def _of_factor(self, old: Node, new: Node) -> float:
         """Of a factor that is no parameter and of which nothing was said, or a place below a line, and of a term for a quite other one."""
@@ -177,9 +210,9 @@ class Likelihood:
             yield from [term] * (2 if new else 1)
         for symbol in below - self._below:
             yield from [symbol] * 2 * (symbol in known.coordinates and not symbol.dots)
-        angles = {part for n in walk(term) if isinstance(n, Fn) for part in n.args}
+        usual = {*known.products_across, *(part for n in walk(term) if isinstance(n, Fn) for part in n.args)}
         for part in walk(term):
-            yield from [part] * 2 * (isinstance(part, Add) and part not in angles and part not in self._parts)
+            yield from [part] * 2 * (isinstance(part, Add) and part not in usual and part not in self._parts)
         for symbol in term.symbols:
             yield from [symbol] * 2 * (symbol.dots == 2 and self._is_solved_for_another(symbol))
         if self._is_part_of_mass(term) or self._is_of_another(term):
@@ -189,13 +222,18 @@ class Likelihood:
         """Whether it is of parameters alone, and of two or more of which nothing was said: in a balance, of which no side is an answer, a letter
         for all of it is likelier."""
         unsaid = term.symbols - self._said
-        if any(isinstance(side, Sym) for side in self._sides):
+        if any(isinstance(side.base if isinstance(side, Pow) else side, Sym) for side in self._sides):
             return False
         return term.symbols <= {*self.vocabulary.parameters} and len([n for n in unsaid if n.name != "g"]) > 1
 
     @cached_property
     def _loads(self) -> list[Sym]:
         return [n for n in self.vocabulary.parameters if self.vocabulary.dimension(n) in (FORCE, ENERGY)]
+
+    @cached_property
+    def _has_load(self) -> bool:
+        """Whether a reaction or a force stands in it: else it is an equation of motion, whose numbers are those of rotation, too."""
+        return any(self.vocabulary.is_load(n) for n in self._said if n in self.vocabulary.others)
 
     @cached_property
     def _parts(self) -> set[Node]:
@@ -224,7 +262,9 @@ class Likelihood:
         """Of an acceleration, or a force that does no work along a coordinate, beside energies or momenta alone."""
         known = self.vocabulary
         loads = [n for n in term.symbols if n not in known.parameters and known.is_load(n)]
-        if not loads or self._is_balance or any(known.is_load(n) for n in self._said if n not in known.parameters):
+        said = [n for n in self._said if n not in known.parameters]
+        driven = any(known.is_load(n) or (n in known.others and known.dimension(n) is None) for n in said)  # the load of a motor
+        if not loads or self._is_balance or driven:
             return 0.0
         if not any(map(known.is_rate, self._said)) or any(n in known.coordinates and not n.dots for n in term.symbols):
             return math.inf if any(n.dots == 2 for n in loads) and any(map(known.is_rate, self._said)) else 0.0
@@ -252,9 +292,11 @@ class Likelihood:
         return moves and not lengths and not any(n in self.vocabulary.angular for base in powers for n in base.symbols)
 
     def _is_force(self, term: Node) -> bool:
-        """Whether it is a force, a weight, or a mass times its acceleration, with no number: another one is forgotten rather than that."""
+        """Whether it is a force, a weight, or a mass times its acceleration, or a component of one, with no number: another one is
+        forgotten rather than that."""
         number, powers = powers_of(term)
         known, factors = self.vocabulary, [n for n in powers if isinstance(n, Sym)]
+        powers = {n: power for n, power in powers.items() if not isinstance(n, Fn)}
         masses = [n for n in factors if known.dimension(n) == MASS]
         moves = [n for n in factors if known.dimension(n) == _ACCELERATION]
         alone = len(factors) == 1 and known.dimension(factors[0]) == FORCE
@@ -305,8 +347,9 @@ def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) 
     if isinstance(old, Num) and isinstance(new, Num) and before.is_integer() and after not in FIGURES:
         return _ODD
     is_number = isinstance(old, Num | Quotient) and not old.symbols
+    of_body = is_number and np.isclose(before, _OF_BODIES).any() and np.isclose(after, _NATURAL).any()
     ratio = max(after / before, before / after) if before and after else 0.0
-    if np.isclose(ratio, _RATIOS).any() or (is_number and np.isclose(before, _OF_BODIES).any()):
+    if np.isclose(ratio, _RATIOS).any() or of_body:
         return 0.0
     figures = [abs(powers_of(node)[0]) for node in (old, new)]
     return usual if all(np.isclose(figure, _NATURAL).any() for figure in figures) else _ODD

@@ -20,7 +20,8 @@ _HIGHEST = 3
 _MOST_POWERS = 6
 _EXCHANGED = (1, 2, -1, -2)
 """Powers of a base that may stand for those of another of which it is a multiple."""
-_DEPENDENT = 1e-9  # of a column: what is left of it beside others, below which it says nothing new
+_DEPENDENT = 1e-6  # of a column: what is left of it beside others, below which it says nothing new, or is lost in round-off
+_ONE = 1e-9  # of a column, by which its values differ at most where it is one
 
 
 class Monomials:
@@ -40,6 +41,7 @@ class Monomials:
             if column.ndim != 1 or not np.isfinite(column).all() or len(columns) > count // 2:
                 continue
             rest = column - basis @ (basis.T @ column)
+            rest -= basis @ (basis.T @ rest)  # once more: the first leaves round-off of what is nearly dependent
             if np.linalg.norm(rest) > _DEPENDENT * np.linalg.norm(column):
                 self.bases.append(node)
                 columns.append(column)
@@ -133,7 +135,7 @@ def _product(powers: Mapping[Node, int], shape: tuple[Node, ...]) -> Node:
 
 def _is_one(column: Array) -> bool:
     """Whether it has one value at all places."""
-    return bool(np.ptp(column) <= _DEPENDENT * np.abs(column).max() + _DEPENDENT)
+    return bool(np.ptp(column) <= _ONE * np.abs(column).max() + _ONE)
 
 
 def _whole(powers: Array) -> list[int] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
 from freebody.symbolic.tree import Mul, Node, Num, Pow, Quotient, Sym, walk
 
 from .edits import Edit
@@ -64,13 +64,20 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
         return -its.time if known else symbol.dots if its is None else 0
 
     found = symbols_in(term)
+    if any(n.dots == 1 and vocabulary.dimension(Sym(n.name)) == INERTIA for n in found):
+        return "the change of the inertia with the motion"
     rates = [n for n in found if order(n) == 1]
     squared = any(isinstance(n, Pow) and n.exponent == Num(2.0, "2") and n.base in rates for n in walk(term))
-    loads = (n for n in symbols_in(equation) if n not in vocabulary.parameters and vocabulary.dimension(n) in (FORCE, ENERGY))
+    others = (n for n in symbols_in(equation) if n not in vocabulary.parameters and n not in vocabulary.energies)
+    loads = (n for n in others if vocabulary.dimension(n) in (FORCE, ENERGY))
     balance = any(loads) or any(order(n) == 2 for n in symbols_in(equation))
     its = dimension(term, vocabulary.dimensions)
     if its == LENGTH:
         return "a part of an arm"
+    if its in (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1)):
+        return "a part of the speed"
+    if its == MASS.times(LENGTH, 1):
+        return "a mass times its arm"
     if its is not None and its.time == 0 and its.length in (0, 2):
         return "a part of the inertia, of what turns as well or m d² of a parallel axis,"
     if any(order(n) == 2 for n in found):
@@ -78,7 +85,8 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
             return "r × m a of a point that accelerates, or of what moves as well,"
         return "a mass times its acceleration" if its is None or its.mass else "a part of the acceleration"
     if rates and not balance:
-        return _OF_MOTION[len(rates) > 1 or squared] if its is None or its.mass else "a part of the motion"
+        energy = len(rates) > 1 or squared if its is None else its.time == -2
+        return _OF_MOTION[energy] if its is None or its.mass else "a part of the motion"
     if squared:
         return "the centripetal part of the acceleration"
     if len(rates) > 1:

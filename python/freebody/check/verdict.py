@@ -19,7 +19,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import is_zero
 from freebody.symbolic.tree import Num, Pow, Sym
 
-from .assumptions import FROM_START, OWN_NUMBERS, assumption, leaves_out, linearised, of_family, tiny
+from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, of_family, tiny
 from .case import Case
 from .correction import MOST, SECOND, corrections
 from .families import ALL, NoMotion, Samples
@@ -269,7 +269,8 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     seen = evidence(found, case.values())
     if plainly := _from_start(case, equation) or _as_figures(case, equation):
         return plainly
-    if case.sampler.rolls_in_loop and _stays(case, equation):
+    placed = any(n in case.meaning.vocabulary.coordinates for n in symbols_in(equation))
+    if placed and case.sampler.rolls_in_loop and _stays(case, equation):
         what = "the angles of what rolls are measured from a place where both sides are equal"
         return Verdict(
             Kind.TRUE_IF, text, f"true only if {what}: they differ by what they differ by at the start", what, evidence=seen
@@ -280,12 +281,14 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         others, last = corrected_figures(equation, case.values())
         return Verdict(Kind.WRONG, text, "off in the last digit" if last else "", mends=others, evidence=seen)
     fixes = tuple(islice(corrections(case, equation), MOST))
-    if small := linearised(case, equation):
-        return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
     single = [each for each in fixes if len(each.edits) == 1]
-    assumed = () if any(each.is_slip for each in single) else assumption(case, equation)
+    slip = any(each.is_slip for each in single)
+    lacks = bool(single) and not slip and is_of_higher_order(case, equation)  # who keeps sines has not taken all for small
+    if not lacks and (small := linearised(case, equation)):
+        return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
+    assumed = () if slip else assumption(case, equation)
     words = "; or: ".join(assumed)
-    if assumed and not leaves_out(assumed[0], bool(single)):
+    if assumed and not leaves_out(assumed[0], bool(single), lacks):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         given, beside = small
@@ -352,7 +355,7 @@ def _as_figures(case: Case, equation: Equation) -> Verdict | None:
 def _stays(case: Case, equation: Equation) -> bool:
     """Whether the two sides go on to differ by what they differ by at the start of each motion."""
     samples = case.samples()
-    if not samples.starts or any(n.dots or case.meaning.solved(n) for n in symbols_in(equation)):
+    if not samples.starts:
         return False
     began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
     change = equation_sides(equation, case.values()).residual - equation_sides(equation, began).residual

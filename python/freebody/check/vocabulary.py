@@ -29,6 +29,8 @@ class Vocabulary:
     angular: frozenset[Sym] = frozenset()
     letters: frozenset[Sym] = frozenset()
     """What was declared for the statements."""
+    energies: frozenset[Sym] = frozenset()
+    """Of the others those that stand for an energy, which a couple could be by its dimension."""
 
     @cached_property
     def angles(self) -> list[Sym]:
@@ -104,7 +106,19 @@ class Vocabulary:
         functions += [(call,) for call in calls]
         dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
-        yield from ((part,) for part in self.turned_components)
+        yield from ((part,) for part in (*self.turned_components, *self.products_across))
+
+    @cached_property
+    def products_across(self) -> list[Node]:
+        """Of pairs of coordinates: moments of velocities and accelerations, x ẏ − y ẋ and x ÿ − y ẍ, and the half rate of a square, x ẋ + y ẏ."""
+        lengths = [n for n, its in self.coordinates.items() if its == LENGTH]
+        dotted = lambda n, dots: Sym(n.name, dots)
+        across = [
+            Add((Mul((x, dotted(y, dots))), Negative(Mul((y, dotted(x, dots))))))
+            for x, y in combinations(lengths, 2)
+            for dots in (1, 2)
+        ]
+        return [*across, *(Add((Mul((x, dotted(x, 1))), Mul((y, dotted(y, 1))))) for x, y in combinations(lengths, 2))]
 
     @cached_property
     def turned_components(self) -> list[Node]:

@@ -3,6 +3,7 @@
 
 use super::momentum::Inertia;
 use super::rows::{closing_rows, joint_rows, joint_tangent, pair};
+use super::sparse_tree::SparseTree;
 use super::{DynamicsError, Row, Source, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
 use crate::mechanism::Joint;
@@ -23,7 +24,7 @@ const DENSE_LIMIT: usize = 600;
 const DENSE_CONSIDERED: usize = 40;
 
 impl Workspace<'_> {
-    /// Whether the sparse solution costs less arithmetic than the dense one.
+    /// Whether a sparse solution costs less arithmetic than the dense one; makes that of the tree where it is the least.
     pub(super) fn prefers_sparse(&mut self) -> bool {
         let n = self.m.freedom() as f64;
         let own_way = self.m.drives.iter().any(|d| d.by.is_some() || d.feedback);
@@ -32,8 +33,9 @@ impl Workspace<'_> {
         }
         let rows = self.m.closures.iter().map(|&j| self.m.joints[j].rows.len()).sum::<usize>() + self.m.drives.len();
         let dense = 4.0 * n * n * rows as f64 + 2.0 * n * n * n;
-        let (factor, _) = self.pattern();
-        factor.flops() < dense
+        let sparse = self.pattern().0.flops();
+        self.sparse_tree = SparseTree::of(self.m).filter(|tree| tree.flops < sparse.min(dense));
+        sparse < dense || self.sparse_tree.is_some()
     }
 
     /// The unknowns of each body, and the groups of rows with the bodies that they touch.
@@ -201,21 +203,15 @@ impl Workspace<'_> {
             }
             row += size;
         }
-        let groups = sparse.groups.clone();
         let sparse = self.sparse.as_mut().expect("made above");
         sparse.factor.refactor(blocks.iter().map(|(i, j, b)| (*i, *j, b.as_slice())));
-        sparse.factor.solve(rhs, x).map_err(|stalled| self.stalled(stalled.node, stalled.residual, bodies, &groups))?;
+        sparse.factor.solve(rhs, x).map_err(|stalled| {
+            let bodies: Vec<usize> = (1..=bodies).collect();
+            DynamicsError::stalled(self.m, &stalled, &bodies, &sparse.groups)
+        })?;
         // The factorisation solves M a + Gᵀ(−λ) = f.
         x[rhs.len() - rows.len()..].iter_mut().for_each(|l| *l = -*l);
         Ok(())
-    }
-
-    fn stalled(&self, node: usize, residual: f64, bodies: usize, groups: &[Source]) -> DynamicsError {
-        let (name, path) = match node < bodies {
-            true => (&*self.m.bodies[node + 1].name, format!("bodies.{}", self.m.bodies[node + 1].name)),
-            false => (groups[node - bodies].name(self.m), groups[node - bodies].path(self.m)),
-        };
-        DynamicsError::Residual(residual, name.to_string(), path)
     }
 
     /// The same equations as a full matrix, for actuators that act along another gauge than the one they drive.

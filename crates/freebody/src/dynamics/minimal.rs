@@ -23,12 +23,12 @@ pub struct Dense {
     quasidefinite: Quasidefinite,
     form: Form,
     /// Units of the coordinates, and what makes the rows of order one.
-    columns: Vec<f64>,
+    pub(super) columns: Vec<f64>,
     scales: Vec<f64>,
     /// The size of what is summed in a row, before it cancels.
     pub(super) sizes: Vec<f64>,
     /// Inertia of each body with all that hangs on it.
-    carried: Vec<Inertia>,
+    pub(super) carried: Vec<Inertia>,
     factored: Factored,
     /// Memory of the rank of the rows, and of the rows in units of the characteristic length.
     pub(super) independence: Orthogonal,
@@ -85,7 +85,7 @@ impl Dense {
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
     pub(super) force: Vec<f64>,
-    asked: Vec<f64>,
+    pub(super) asked: Vec<f64>,
     /// What the solution leaves open of the rows.
     gap: Vec<f64>,
     pub(super) found: Solution,
@@ -128,7 +128,8 @@ impl Workspace<'_> {
 
     fn solve_minimal_with(&mut self, memory: &mut Memory, wanted: Wanted) -> Result<(), DynamicsError> {
         let Memory { force, asked, gap, found, islands } = memory;
-        self.set_up(force, wanted)?;
+        self.set_forces(force);
+        self.factor_for(wanted, Force::ActuatorDirection)?;
         asked.clear();
         asked.extend(self.rows.iter().map(|row| -row.bias));
         self.dense.solve_into(force, asked, found, islands);
@@ -166,8 +167,8 @@ impl Workspace<'_> {
         }
     }
 
-    /// Sets up and factors the equations of the present state; finds the generalized forces.
-    fn set_up(&mut self, force: &mut Vec<f64>, wanted: Wanted) -> Result<(), DynamicsError> {
+    /// Finds the closing rows of the present state, and the generalized forces less what velocities ask for.
+    pub(super) fn set_forces(&mut self, force: &mut Vec<f64>) {
         force.clear();
         force.resize(self.m.freedom(), 0.0);
         self.k.propagate_motion(self.m, force, true, &mut self.solved.bodies);
@@ -179,7 +180,6 @@ impl Workspace<'_> {
         residual_into(at, &self.loads, &self.solved.bodies, &[], &[], wrenches);
         pass_to_ground(at, wrenches);
         self.unbalanced_along_joints(force);
-        self.factor_for(wanted, Force::ActuatorDirection)
     }
 
     /// Factors mass matrix and rows of the present state.
@@ -209,14 +209,19 @@ impl Workspace<'_> {
                 d.factor_scaled(wanted, own)
             }
         };
-        let is_target = |row: &Row| row.source == Source::TARGET;
-        d.factored.is_known =
-            factored.is_ok() && !own && self.placed.bearing.is_none() && !self.rows.iter().any(is_target);
-        d.factored.t = self.placed.t;
-        d.factored.q.clone_from(&self.placed.q);
-        d.factored.rows.clear();
-        d.factored.rows.extend(self.rows.iter().map(|row| row.source));
+        self.note_factored(factored.is_ok() && !own);
         factored.map_err(|error| self.explain(error))
+    }
+
+    /// Notes of what the equations were factored, if they were and all multipliers act along their rows.
+    pub(super) fn note_factored(&mut self, is_known: bool) {
+        let is_target = |row: &Row| row.source == Source::TARGET;
+        let of = &mut self.dense.factored;
+        of.is_known = is_known && self.placed.bearing.is_none() && !self.rows.iter().any(is_target);
+        of.t = self.placed.t;
+        of.q.clone_from(&self.placed.q);
+        of.rows.clear();
+        of.rows.extend(self.rows.iter().map(|row| row.source));
     }
 
     /// Whether the equations factored last are those of the present rows at a state that is no farther than `near`, in the units of

@@ -34,6 +34,7 @@ mod reactions;
 mod rows;
 mod scales;
 mod solved_view;
+mod sparse_tree;
 mod term_scales;
 mod tree_matrices;
 mod tree_motion;
@@ -66,6 +67,7 @@ use crate::kinematics::{gradient, Kinematics, State, StateView};
 use crate::mechanism::{self, Mechanism, Part};
 use crate::mode::{ContactMode, Mode};
 use crate::plane::{Twist, Vec2, Wrench};
+use crate::solve::Stalled;
 use generalized_force::{generalized_force, size_of_power, visit_ancestors};
 use minimal::Wanted;
 
@@ -94,6 +96,18 @@ impl Route {
 const CANCELLED: f64 = 1e-13;
 
 impl DynamicsError {
+    /// Refinement that came to a halt at one of `bodies`, or of the groups of rows behind them.
+    pub(crate) fn stalled(m: &Mechanism, at: &Stalled, bodies: &[usize], groups: &[Source]) -> DynamicsError {
+        let (name, path) = match bodies.get(at.node) {
+            Some(&body) => (m.bodies[body].name.clone(), format!("bodies.{}", m.bodies[body].name)),
+            None => {
+                let group = groups[at.node - bodies.len()];
+                (group.name(m).to_string(), group.path(m))
+            }
+        };
+        DynamicsError::Residual(at.residual, name, path)
+    }
+
     /// A motion of a body that nothing resists.
     pub(crate) fn singular_inertia(m: &Mechanism, body: usize) -> DynamicsError {
         let tree_joint = m.bodies[body].tree_joint.expect("a body of the tree");
@@ -163,6 +177,7 @@ pub struct Workspace<'m> {
     /// There but while it is in use.
     memory: Option<Box<minimal::Memory>>,
     sparse: Option<maximal::Sparse>,
+    sparse_tree: Option<sparse_tree::SparseTree>,
     many_loops: bool,
     preferred: Option<Route>,
     determinacy: Option<rank::Determinacy>,
@@ -205,6 +220,7 @@ impl<'m> Workspace<'m> {
             dense: Default::default(),
             memory: Some(Default::default()),
             sparse: None,
+            sparse_tree: None,
             many_loops: false,
             preferred: None,
             determinacy: None,
@@ -364,6 +380,11 @@ impl<'m> Workspace<'m> {
             }
             Route::Minimal => self.solve_minimal(wanted),
             Route::NewtonEuler => self.solve_newton_euler(),
+            Route::Constraints
+                if wanted == Wanted::Motion && self.preferred.is_none() && self.sparse_tree.is_some() =>
+            {
+                self.solve_sparse_tree().or_else(|_| self.solve_constraints())
+            }
             Route::Constraints => self.solve_constraints(),
         }
     }

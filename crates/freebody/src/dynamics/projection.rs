@@ -2,12 +2,13 @@
 
 use super::minimal::{Force, Memory, Wanted};
 use super::rows::closing_rows_into;
-use super::tree_matrices::{column_scales, gradients, row_scales, rows_in_coordinates};
-use super::{DynamicsError, Row, Source, Workspace};
+use super::tree_matrices::{column_scale, column_scales, gradients, row_scales, rows_in_coordinates};
+use super::{visit_ancestors, DynamicsError, Row, Source, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::JointView;
 use crate::mode::Mode;
 use crate::solve::{Lu, Matrix, Orthogonal, Rank};
+use smallvec::SmallVec;
 
 /// Corrections after which a position is given up.
 const CORRECTIONS: usize = 12;
@@ -21,8 +22,10 @@ pub(crate) const OPEN: f64 = 1e-9;
 const UNMOVED: f64 = 1e-9;
 /// Correction, over the gap that it closes, beyond which the rows all but depend on each other.
 const FAR: f64 = 1e4;
-/// Part of the fastest rate below which what is left of a rate asked for is round-off.
+/// Part of the fastest rate below which what is left of a rate asked for is round-off,
 const UNMET: f64 = 1e-8;
+/// and below which it is not corrected any more.
+const MET: f64 = 1e-13;
 /// Displacement, in the units of the coordinates, within which factored equations close gaps that are no larger themselves,
 const NEAR: f64 = 1e-7;
 /// and part of the velocities that may be wrong in their correction by factors of another state.
@@ -180,6 +183,12 @@ impl Workspace<'_> {
     /// coordinates where a free motion has no mass. Equations factored at a state as `near` as that do.
     fn correction(&mut self, asked: &[f64], present: &[bool], near: f64) -> Result<Vec<f64>, DynamicsError> {
         if self.many_loops && present.iter().all(|&p| p) {
+            let targets = self.rows.iter().any(|row| row.source == Source::TARGET);
+            if self.sparse_tree.is_some() && !targets {
+                if let Ok(least) = self.sparse_tree_correction(asked, near) {
+                    return Ok(least);
+                }
+            }
             return self.sparse_correction(asked, &[]);
         }
         let mut keep = present.iter();
@@ -221,10 +230,12 @@ impl Workspace<'_> {
         self.update_rows();
         let targets: Vec<Row> = contact.iter().map(|(_, gauge, rate)| self.target_row(gauge, 0.0, *rate)).collect();
         self.rows.extend(targets.iter().cloned());
-        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
-        if asked.iter().all(|&rate| rate == 0.0) {
+        let fastest = self.size_of(&self.placed.u);
+        let is_met = |row: &Row| row.rate.is_none_or(|r| (r / self.row_unit(row)).abs() <= MET * fastest);
+        if self.rows.iter().all(is_met) {
             return Ok(());
         }
+        let asked: Vec<f64> = self.rows.iter().map(|row| row.rate.map_or(0.0, |r| -r)).collect();
         let present: Vec<bool> = self.rows.iter().map(|row| row.rate.is_some()).collect();
         super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
         let sparse = self.many_loops && present.iter().all(|&p| p);
@@ -366,21 +377,30 @@ impl Workspace<'_> {
         if self.rows.is_empty() {
             return 1.0;
         }
+        if self.many_loops {
+            let sizes = self.rows.iter().map(|row| self.size_in_units(row));
+            let (least, most) = sizes.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+            return least / most;
+        }
         let (mut scaled, mut sizes) =
             (std::mem::take(&mut self.dense.rows_in_units), std::mem::take(&mut self.dense.sizes));
         self.in_units(&self.rows, &mut scaled, &mut sizes);
-        let independence = self.independence_in_units(&scaled);
+        let independence = self.dense.independence.find_rank(&scaled).kept;
         (self.dense.rows_in_units, self.dense.sizes) = (scaled, sizes);
         independence
     }
 
-    fn independence_in_units(&mut self, scaled: &Matrix) -> f64 {
-        if self.many_loops {
-            let norms = (0..scaled.rows()).map(|i| scaled.row(i).iter().map(|x| x * x).sum::<f64>().sqrt());
-            let (least, most) = norms.fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
-            return least / most;
-        }
-        self.dense.independence.find_rank(scaled).kept
+    /// Size of a row by coordinates, in units of the characteristic length.
+    fn size_in_units(&self, row: &Row) -> f64 {
+        let (at, mut entries) = (self.at(), SmallVec::<[(usize, f64); 16]>::new());
+        visit_ancestors(at, row.motion.iter().copied(), |i, load, column| {
+            let part = load.power(column) * column_scale(at, i, self.length);
+            match entries.iter_mut().find(|(known, _)| *known == i) {
+                Some((_, sum)) => *sum += part,
+                None => entries.push((i, part)),
+            }
+        });
+        entries.iter().map(|(_, x)| x * x).sum::<f64>().sqrt() / self.row_unit(row)
     }
 
     /// Rows in units of the characteristic length, and their rank.

@@ -3,23 +3,30 @@
 use super::momentum::Inertia;
 use super::{size_of_power, visit_ancestors, BodyWrenches, Row, CANCELLED};
 use crate::kinematics::StateView;
+use crate::mechanism::Mechanism;
 use crate::plane::{Vec2, Wrench};
 use crate::solve::Matrix;
 
-/// Unit of each coordinate: a radian for angles, the characteristic length for lengths, and for the parameter of a curve
-/// what shifts or turns a body by as much.
+/// Unit of each coordinate.
 pub(super) fn column_scales(at: StateView<'_>, length: f64) -> impl Iterator<Item = f64> + '_ {
-    let of_curve = move |joint: usize, k: usize| {
+    (0..at.m.coordinates.len()).map(move |i| column_scale(at, i, length))
+}
+
+/// Unit of a coordinate: a radian for angles, the characteristic length for lengths, and for the parameter of a curve
+/// what shifts or turns a body by as much.
+#[inline]
+pub(super) fn column_scale(at: StateView<'_>, coordinate: usize, length: f64) -> f64 {
+    let (joint, k) = at.m.coordinates[coordinate];
+    let of_curve = || {
         let column = at.k.motion_subspace[at.m.joints[joint].child?][k];
         let size = column.v.norm().max(length * column.w.abs());
         (size > 0.0).then(|| length / size)
     };
-    let unit = move |&(joint, k): &(usize, usize)| match at.m.joints[joint].coordinates[k].dimension {
+    match at.m.joints[joint].coordinates[k].dimension {
         "m" => length,
         "rad" => 1.0,
-        _ => of_curve(joint, k).unwrap_or(1.0),
-    };
-    at.m.coordinates.iter().map(unit)
+        _ => of_curve().unwrap_or(1.0),
+    }
 }
 
 /// Makes every row of order one in scaled coordinates.
@@ -74,18 +81,60 @@ fn generalized_force_clean(
         size[i] += size_of_power(load, column, length);
     });
     for (sum, size) in out.iter_mut().zip(size) {
-        if sum.abs() <= CANCELLED * *size {
-            *sum = 0.0;
-        }
+        *sum = cleared(*sum, *size);
     }
 }
 
-/// The mass matrix of the tree by joint coordinates, n × n, from the inertia of each body with all that hangs on it
-/// (composite rigid bodies; Featherstone ch. 6).
+/// A sum, 0 where terms of that size cancel but for round-off.
+#[inline]
+fn cleared(sum: f64, size: f64) -> f64 {
+    if sum.abs() <= CANCELLED * size {
+        0.0
+    } else {
+        sum
+    }
+}
+
+/// The same as entries of a sparse matrix: `places` says of each coordinate on which the loads may act where its entry stands; `out` and
+/// `size` are 0 before and after.
+#[inline]
+pub(super) fn power_entries(
+    at: StateView<'_>,
+    wrenches: &BodyWrenches<f64>,
+    length: f64,
+    places: &[(usize, usize)],
+    [out, size]: [&mut [f64]; 2],
+    values: &mut [f64],
+) {
+    visit_ancestors(at, wrenches.iter().copied(), |i, load, column| {
+        out[i] += load.power(column);
+        size[i] += size_of_power(load, column, length);
+    });
+    for &(i, place) in places {
+        values[place] = cleared(std::mem::take(&mut out[i]), std::mem::take(&mut size[i]));
+    }
+}
+
+/// The mass matrix of the tree by joint coordinates, n × n.
 #[inline]
 pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<Inertia>, out: &mut Matrix) {
-    let bodies = at.m.bodies.len();
     out.reset(at.m.freedom(), at.m.freedom());
+    visit_mass(at, arms, carried, |row, column, inertia| {
+        out[(row, column)] = inertia;
+        out[(column, row)] = inertia;
+    });
+}
+
+/// Calls f(row, column, inertia) for every pair of coordinates of the tree that may share inertia, from that of each body with all that
+/// hangs on it (composite rigid bodies; Featherstone ch. 6).
+#[inline]
+pub(super) fn visit_mass(
+    at: StateView<'_>,
+    arms: &[Vec2],
+    carried: &mut Vec<Inertia>,
+    mut f: impl FnMut(usize, usize, f64),
+) {
+    let bodies = at.m.bodies.len();
     carried.clear();
     carried.resize(bodies, Inertia::default());
     for i in (1..bodies).rev() {
@@ -101,7 +150,7 @@ pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<In
             if particle {
                 load.m = 0.0;
             }
-            couple(at, i, tree_joint.start + k, load, out);
+            couple(at, i, tree_joint.start + k, load, &mut f);
         }
         let r = at.k.arm[i];
         let up = &mut carried[tree_joint.parent];
@@ -117,20 +166,22 @@ pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<In
     }
 }
 
-/// Enters what the load of coordinate `j` does on every coordinate from body `i` down to ground.
+/// Says what the load of coordinate `j` does on every coordinate from body `i` down to ground.
 #[inline]
-fn couple(at: StateView<'_>, i: usize, j: usize, load: Wrench, out: &mut Matrix) {
-    let (mut body, mut load) = (i, load);
-    while let Some(b) = at.m.bodies[body].tree_joint {
-        for k in 0..b.freedom {
-            let value = load.power(at.k.motion_subspace[body][k]);
-            out[(b.start + k, j)] = value;
-            out[(j, b.start + k)] = value;
+fn couple(at: StateView<'_>, i: usize, j: usize, load: Wrench, f: &mut impl FnMut(usize, usize, f64)) {
+    visit_ancestors(at, [(i, load)], |row, load, column| f(row, j, load.power(column)));
+}
+
+/// The pairs of coordinates that [`visit_mass`] visits, in its order.
+pub(super) fn mass_entries(m: &Mechanism, mut f: impl FnMut(usize, usize)) {
+    let tree_joint = |body: usize| m.bodies[body].tree_joint;
+    for i in (1..m.bodies.len()).rev() {
+        for k in 0..tree_joint(i).map_or(0, |joint| joint.freedom) {
+            let mut below = i;
+            while let (Some(joint), Some(own)) = (tree_joint(below), tree_joint(i)) {
+                (joint.start..joint.start + joint.freedom).for_each(|row| f(row, own.start + k));
+                below = joint.parent;
+            }
         }
-        if at.m.bodies[body].particle {
-            load.m = 0.0;
-        }
-        load = load.seen_from(at.k.arm[body]);
-        body = b.parent;
     }
 }

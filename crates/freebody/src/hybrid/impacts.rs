@@ -10,6 +10,9 @@ use crate::plane::Vec2;
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
 /// its height comes near the round-off of the gap.
 const SHORTEST_FLIGHT: f64 = 1e-5;
+/// The same in a pile, of more contacts than this, where each bounce sets off others and none is of consequence.
+const SHORTEST_FLIGHT_IN_PILE: f64 = 1e-3;
+const PILE: usize = 8;
 /// Change of a rate over the speed of parting beyond which bounces are not what it would end.
 const UNRELATED: f64 = 1e4;
 /// Largest ratio of one bounce to the one before of which a series is summed: nearer to 1 its end would be infinitely far.
@@ -200,7 +203,9 @@ impl HybridSystem<'_> {
         let speeds = parting.iter().map(|&i| contacts.rates[i]);
         let flights: Vec<f64> =
             speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
-        let (brief, before) = (SHORTEST_FLIGHT * self.workspace.length / self.speed, self.bounce_interval.take());
+        let is_pile = contacts.constraints.len() > PILE;
+        let shortest = if is_pile { SHORTEST_FLIGHT_IN_PILE } else { SHORTEST_FLIGHT };
+        let (brief, before) = (shortest * self.workspace.length / self.speed, self.bounce_interval.take());
         let over: Vec<usize> = (0..constraints.len()).filter(|&i| flights[i] <= brief).collect();
         let next = (0..constraints.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
         if over.is_empty() {

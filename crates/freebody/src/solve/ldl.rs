@@ -1,5 +1,7 @@
 //! Sparse L D Lᵀ factors of a quasi-definite matrix.
 
+use std::ops::Range;
+
 /// The nonzero structure of L: found once, used by every factorisation.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Symbolic {
@@ -25,25 +27,34 @@ impl Upper {
     pub fn len(&self) -> usize {
         self.starts.len() - 1
     }
-    pub fn column(&self, k: usize) -> std::ops::Range<usize> {
+    pub fn column(&self, k: usize) -> Range<usize> {
         self.starts[k]..self.starts[k + 1]
     }
-    /// y ← K x.
-    pub fn apply(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
-        y.fill(0.0);
-        self.each(|i, k, p| {
-            y[i] += values[p] * x[k];
-            if i != k {
-                y[k] += values[p] * x[i];
-            }
-        });
-    }
-    /// Calls f(row, column, entry) for every entry of the upper triangle.
-    pub fn each(&self, mut f: impl FnMut(usize, usize, usize)) {
+    /// y ← y + factor K x.
+    pub fn add_product(&self, values: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
         for k in 0..self.len() {
-            for p in self.column(k) {
-                f(self.rows[p], k, p);
+            let Range { start, end } = self.column(k);
+            let (xk, mut sum) = (factor * x[k], values[end - 1] * x[k]);
+            for (&row, &v) in self.rows[start..end - 1].iter().zip(&values[start..end - 1]) {
+                y[row] += v * xk;
+                sum += v * x[row];
             }
+            y[k] += factor * sum;
+        }
+    }
+    /// Calls f(row, column, value) for every entry of the upper triangle.
+    #[inline(always)]
+    pub fn each(&self, values: &[f64], mut f: impl FnMut(usize, usize, f64)) {
+        for k in 0..self.len() {
+            let column = self.column(k);
+            self.rows[column.clone()].iter().zip(&values[column]).for_each(|(&row, &v)| f(row, k, v));
+        }
+    }
+    /// K ← diag(s) K diag(s).
+    pub fn scale(&self, s: &[f64], values: &mut [f64]) {
+        for (k, &sk) in s.iter().enumerate() {
+            let column = self.column(k);
+            self.rows[column.clone()].iter().zip(&mut values[column]).for_each(|(&row, v)| *v *= s[row] * sk);
         }
     }
 }

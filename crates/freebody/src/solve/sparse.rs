@@ -9,6 +9,12 @@ use std::fmt;
 /// eliminated first leaves round-off of order 10⁻¹⁶/ε in its rows, which must stay below μ.
 const BODY_SHIFT: f64 = 1e-6;
 const ROW_SHIFT: f64 = 1e-9;
+/// Least pivot of a body's own block, equilibrated, from which its inertia needs no regularisation to speak of,
+const MASSIVE: f64 = 1e-3;
+/// and what it then gets.
+const MASSIVE_SHIFT: f64 = 1e-13;
+/// Steps of plain refinement go on while each leaves no more than this part of the residual.
+const PLAIN_REDUCTION: f64 = 1e-3;
 /// The residual aimed at, two units of round-off, and the largest one accepted.
 const TARGET: f64 = 4e-16;
 const ACCEPTED: f64 = 1e-9;
@@ -126,6 +132,19 @@ impl Pattern {
         self.starts.partition_point(|&s| s <= unknown) - 1
     }
 
+    /// Where the entry of two unknowns, in the caller's order, stands among the values.
+    ///
+    /// Panics if no edge of the pattern joins their nodes.
+    pub fn entry(&self, a: usize, b: usize) -> usize {
+        let place = |unknown: usize| {
+            let node = self.node_of(unknown);
+            self.places[node] + unknown - self.starts[node]
+        };
+        let (row, column) = (place(a).min(place(b)), place(a).max(place(b)));
+        let entries = self.upper.column(column);
+        entries.start + self.upper.rows[entries].binary_search(&row).expect("an edge joins the two")
+    }
+
     /// Calls f(entry, value) for each stored entry of block (i, j).
     fn place_block(&self, i: usize, j: usize, block: &[f64], mut f: impl FnMut(usize, f64)) {
         let (rows, cols) = (self.size(i), self.size(j));
@@ -209,13 +228,52 @@ impl Factor {
     ///
     /// Panics if a block has no edge in the pattern or another size.
     pub fn refactor<'a>(&mut self, blocks: impl IntoIterator<Item = (usize, usize, &'a [f64])>) {
+        self.refactor_entries(|pattern, values| {
+            for (i, j, block) in blocks {
+                pattern.place_block(i, j, block, |entry, v| values[entry] += v);
+            }
+        });
+    }
+
+    /// The same from entries that `enter` writes among values that are all 0, each where [`Pattern::entry`] says.
+    pub fn refactor_entries(&mut self, enter: impl FnOnce(&Pattern, &mut [f64])) {
         self.values.fill(0.0);
-        let values = &mut self.values;
-        for (i, j, block) in blocks {
-            self.pattern.place_block(i, j, block, |entry, v| values[entry] += v);
-        }
+        enter(&self.pattern, &mut self.values);
         self.equilibrate();
+        self.set_body_shifts();
         self.ldl.factor(&self.pattern.symbolic, &self.pattern.upper, &self.values, &self.shift);
+    }
+
+    /// Regularises the bodies whose own inertia does not make their blocks definite.
+    fn set_body_shifts(&mut self) {
+        for body in 0..self.pattern.bodies {
+            let (first, size) = (self.pattern.places[body], self.pattern.size(body));
+            let shift = if self.least_pivot(first, size) > MASSIVE { MASSIVE_SHIFT } else { BODY_SHIFT };
+            self.shift[first..first + size].fill(shift);
+        }
+    }
+
+    /// The least pivot of a diagonal block; 0 of one that is larger than a body's in the plane.
+    fn least_pivot(&self, first: usize, size: usize) -> f64 {
+        if size > 3 {
+            return 0.0;
+        }
+        let (mut a, mut least) = ([[0.0; 3]; 3], f64::INFINITY);
+        for k in 0..size {
+            let end = self.pattern.upper.column(first + k).end;
+            a[k][..=k].copy_from_slice(&self.values[end - k - 1..end]);
+            for i in 0..k {
+                let known: f64 = (0..i).map(|j| a[k][j] * a[i][j] / a[j][j]).sum();
+                a[k][i] -= known;
+            }
+            let known: f64 = (0..k).map(|j| a[k][j] * a[k][j] / a[j][j]).sum();
+            a[k][k] -= known;
+            least = f64::min(least, a[k][k]);
+            if least <= MASSIVE {
+                break;
+            }
+        }
+        least
     }
 
     /// Scales rows and columns by powers of two until every row has its largest entry near 1.
@@ -225,24 +283,32 @@ impl Factor {
         let mut largest = vec![0.0_f64; upper.len()];
         for _ in 0..4 {
             largest.fill(0.0);
-            upper.each(|i, k, p| {
-                largest[i] = largest[i].max(values[p].abs());
-                largest[k] = largest[k].max(values[p].abs());
+            upper.each(values, |i, k, v| {
+                largest[i] = largest[i].max(v.abs());
+                largest[k] = largest[k].max(v.abs());
             });
             largest.iter_mut().for_each(|v| *v = inverse_root(*v));
-            upper.each(|i, k, p| values[p] *= largest[i] * largest[k]);
+            if largest.iter().all(|&s| s == 1.0) {
+                break;
+            }
+            upper.scale(&largest, values);
             self.scale.iter_mut().zip(&largest).for_each(|(s, l)| *s *= l);
         }
     }
 
     /// Solves K x = `rhs` into `out`, both node by node in the caller's order.
     pub fn solve(&self, rhs: &[f64], out: &mut [f64]) -> Result<Accuracy, Stalled> {
+        self.solve_to(TARGET, rhs, out)
+    }
+
+    /// The same to a residual that may be larger than round-off.
+    pub fn solve_to(&self, target: f64, rhs: &[f64], out: &mut [f64]) -> Result<Accuracy, Stalled> {
         let pattern = &self.pattern;
         let n = pattern.unknowns();
         assert_eq!((rhs.len(), out.len()), (n, n), "one number for each unknown");
         let (mut b, mut x, mut r) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         pattern.renumbering().for_each(|(i, p)| b[p] = rhs[i] * self.scale[p]);
-        let mut accuracy = self.refine(&b, &mut x, &mut r);
+        let mut accuracy = self.refine(target, &b, &mut x, &mut r);
         if accuracy.residual > REDUNDANT_NOISE && accuracy.residual <= ACCEPTED {
             accuracy.iterations += self.correct_multipliers(&b, &mut x);
         }
@@ -265,26 +331,44 @@ impl Factor {
         self.pattern.node_of(self.pattern.renumbering().fold((0, 0.0), larger).0)
     }
 
-    /// Refines x until the residual r is round-off or no longer halves.
-    fn refine(&self, b: &[f64], x: &mut [f64], r: &mut [f64]) -> Accuracy {
+    /// Refines x, 0 at first, until the residual r is `aim`, or no longer halves.
+    fn refine(&self, aim: f64, b: &[f64], x: &mut [f64], r: &mut [f64]) -> Accuracy {
         let upper = &self.pattern.upper;
-        let apply = |x: &[f64], y: &mut [f64]| upper.apply(&self.values, x, y);
+        let apply = |x: &[f64], y: &mut [f64]| {
+            y.fill(0.0);
+            upper.add_product(&self.values, 1.0, x, y);
+        };
         let precondition = |v: &mut [f64]| self.ldl.solve(&self.pattern.symbolic, v);
-        let mut accuracy = Accuracy { iterations: 0, residual: self.residual(b, x, r) };
+        r.copy_from_slice(b);
+        let mut accuracy = Accuracy { iterations: 0, residual: if max_abs(b) == 0.0 { 0.0 } else { 1.0 } };
+        let (mut step, mut terms) = (r.to_vec(), None);
+        while accuracy.residual > aim {
+            precondition(&mut step);
+            axpy(1.0, &step, x);
+            let residual = self.residual(b, x, *terms.get_or_insert_with(|| self.terms(b, x)), r);
+            accuracy.iterations += 1;
+            if residual.is_nan() || residual > PLAIN_REDUCTION * accuracy.residual {
+                axpy(-1.0, &step, x);
+                accuracy.residual = self.residual(b, x, self.terms(b, x), r);
+                break;
+            }
+            accuracy.residual = residual;
+            step.copy_from_slice(r);
+        }
         for _ in 0..CYCLES {
-            if accuracy.residual <= TARGET {
+            if accuracy.residual <= aim {
                 break;
             }
             let (before, residual) = (x.to_vec(), accuracy.residual);
-            let target = 0.5 * TARGET / residual * max_abs(r);
+            let target = 0.5 * aim / residual * max_abs(r);
             accuracy.iterations += gmres::cycle(apply, precondition, r, target, x);
-            accuracy.residual = self.residual(b, x, r);
+            accuracy.residual = self.residual(b, x, self.terms(b, x), r);
             if accuracy.residual <= 0.5 * residual {
                 continue;
             }
             if accuracy.residual > residual || accuracy.residual.is_nan() {
                 x.copy_from_slice(&before);
-                accuracy.residual = self.residual(b, x, r);
+                accuracy.residual = self.residual(b, x, self.terms(b, x), r);
             }
             break;
         }
@@ -299,41 +383,42 @@ impl Factor {
         };
         clear_rows(x);
         let (mut rest, mut r) = (vec![0.0; b.len()], vec![0.0; b.len()]);
-        self.residual(b, x, &mut rest);
+        self.residual(b, x, [1.0; 2], &mut rest);
         clear_rows(&mut rest);
         let mut y = vec![0.0; b.len()];
-        let iterations = self.refine(&rest, &mut y, &mut r).iterations;
+        let iterations = self.refine(TARGET, &rest, &mut y, &mut r).iterations;
         axpy(1.0, &y, x);
         iterations
     }
 
-    /// r ← b − K x; returns the residual as defined by [`Accuracy`].
-    fn residual(&self, b: &[f64], x: &[f64], r: &mut [f64]) -> f64 {
-        let mut terms = vec![0.0; b.len()];
+    /// r ← b − K x; returns the residual as defined by [`Accuracy`], for sizes of the terms.
+    fn residual(&self, b: &[f64], x: &[f64], terms: [f64; 2], r: &mut [f64]) -> f64 {
         r.copy_from_slice(b);
-        self.pattern.upper.each(|i, k, p| {
-            let v = self.values[p];
-            r[i] -= v * x[k];
+        self.pattern.upper.add_product(&self.values, -1.0, x, r);
+        let left = self.largest_of_kinds(r);
+        let ratio = |kind: usize| if left[kind] == 0.0 { 0.0 } else { left[kind] / terms[kind] };
+        max_abs(&[ratio(0), ratio(1)])
+    }
+
+    /// max |K| |x| + max |b|, of bodies and of joints.
+    fn terms(&self, b: &[f64], x: &[f64]) -> [f64; 2] {
+        let mut terms = vec![0.0; b.len()];
+        self.pattern.upper.each(&self.values, |i, k, v| {
             terms[i] += (v * x[k]).abs();
             if i != k {
-                r[k] -= v * x[i];
                 terms[k] += (v * x[i]).abs();
             }
         });
         let given = max_abs(b);
-        let of_kind = |v: &[f64], body: bool| {
+        self.largest_of_kinds(&terms).map(|most| most + given)
+    }
+
+    /// The largest entry of bodies, and of joints.
+    fn largest_of_kinds(&self, v: &[f64]) -> [f64; 2] {
+        [true, false].map(|body| {
             let kind = v.iter().zip(&self.shift).filter(|(_, s)| (**s > 0.0) == body);
             largest(kind.map(|(v, _)| *v))
-        };
-        let ratio = |body| {
-            let left = of_kind(r, body);
-            if left == 0.0 {
-                0.0
-            } else {
-                left / (of_kind(&terms, body) + given)
-            }
-        };
-        max_abs(&[ratio(true), ratio(false)])
+        })
     }
 }
 

@@ -17,6 +17,7 @@ mod driven_impacts;
 mod free_bodies;
 mod gauges;
 mod joints;
+mod many_loops;
 mod metamorphic;
 mod model;
 mod piles;

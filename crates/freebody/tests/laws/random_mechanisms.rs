@@ -14,7 +14,7 @@ const REACH: f64 = 0.3;
 pub const HOME: Base = Base::At([0.0; 3]);
 
 /// Agreement asked of the routes, relative to the largest acceleration, or the largest load, of the instant.
-const AGREE: f64 = 1e-10;
+pub const AGREE: f64 = 1e-10;
 
 /// Trees and loops, every other one driven.
 pub fn recipe(seed: u64) -> Recipe {
