@@ -65,6 +65,7 @@ _PART = 0.85  # of the budget, so that there is time for the balance that comes 
 _AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
 _TINY = 5e-6  # rad, at which what is left of a true linear equation is below HOLDS, and round-off, too
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
+_HELD = 1e-9  # of the rates that can be given at will, below which a coordinate has none
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
 
 
@@ -291,7 +292,7 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if part == SMALL_MOTIONS:
         rest = checker.vibration.rest
         places = rest.q if rest else np.zeros(len(checker.sampler.names))
-        free = checker.sampler.free_rates.any(axis=1)  # what is prescribed cannot be small
+        free = np.abs(checker.sampler.free_rates).max(axis=1, initial=0.0) > _HELD  # what is prescribed cannot be small
         named = zip(checker.sampler.names, places.tolist(), free, strict=True)
         near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))
