@@ -166,5 +166,7 @@ def _proportional(one: Equation, other: Equation, places: Mapping[str, Array]) -
     first, second = (residual(equation, places).sides.residual for equation in (one, other))
     if first.shape != second.shape:
         return False
-    factor = np.sum(first * second) / np.sum(second**2)
+    there = np.isfinite(first + second).all(axis=1)  # not every root has a value
+    first, second = first[there], second[there]
+    factor = np.sum(first * second) / np.sum(second**2) if there.any() else np.nan
     return bool(np.allclose(first, factor * second, rtol=1e-7, atol=1e-9 * np.abs(first).max()))

@@ -54,7 +54,9 @@ REMARKS = (
     ", which is positive", " (3a)", " at any time", r"\qquad\blacksquare", " (to the second law)",
 )  # fmt: skip
 BETWEEN = ("; ", ", ", "\n", " and ", r" \\ ", r",\quad ", ", so ", " ⇒ ", r" \Rightarrow ", "; hence ", " (1)\n")
-_CONDITION = re.compile(r"\s*((?:constant|limit|if|at|just|after|before|for|when|as|initially)\b[^:=]*(?:=[^:]*)?:(?!=))\s*")
+_CONDITION = re.compile(
+    r"\s*((?:constant|limit|if|at|just|after|before|for|when|as|initially|small|while|once|until|without|with)\b[^:=]*(?:=[^:]*)?:(?!=))\s*"
+)
 _BEHIND = re.compile(r"\s+as\s+\S+\s*(?:→|->).*$|\s*=\s*(?:\\text\{)?const\}?\s*$")
 
 

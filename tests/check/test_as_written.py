@@ -101,7 +101,7 @@ WRITTEN = [
     ("rod as a pendulum", "if released from rest: θ'^2 = 3 g/l (cos θ - cos 0.5)", W),
     ("pendulum on a cart", "only if F = 0, the start is at rest: (M+m) x' + m l θ' cos θ = 0", T),
     ("block on a sliding wedge", "if the start is at rest: constant: m1 x + m2 (x + s cos α)", T),
-    ("block on a sliding wedge", "constant: m1 x + m2 (x + s cos α)", W),
+    ("block on a sliding wedge", "constant: m1 x + m2 (x + s cos α)", T),  # as the model starts
 ]
 
 

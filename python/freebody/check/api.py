@@ -25,9 +25,11 @@ from .claims import OMEGA, claimed
 from .families import ALL, Family, NoMotion
 from .inner_forces import without_inner_forces
 from .language.dimensions import misfit
+from .language.glyphs import CONDITION
 from .language.statements import Program, symbols_in
 from .laws import without_laws
 from .motion_sampler import MotionSampler
+from .phases import alike, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .symbols import DOUBTFUL, Symbols
@@ -42,14 +44,11 @@ if TYPE_CHECKING:
 _PATIENT = 10.0  # s, within which an event is waited for where the model does not say how long it runs
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
-_BECOMES = {"taut": "taut|tight|stretched|straight", "slack": "slack|loose", "stick": "roll|rolls|rolling|sticks|grips"}
-"""What changes in words."""
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*(?:(?:for|with|at)\s+)?small\b[^:=]*")
 _JOINED = re.compile(r",\s*(?:and\b)?|\b(?:with|and|if|when)\b")
 """What joins the conditions of ``small motions with c = 0 and L = 0``."""
-_STEM = 3  # letters that words of one meaning begin with
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -114,7 +113,7 @@ class Checker:
         try:
             return (_SMALL.match(text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
-            is_of_omega = re.search("`(?:ω|omega)`", error.what) is not None
+            is_of_omega = re.search("`(?:ω|omega)(?:_n)?`", error.what) is not None
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
                 return found
             raise
@@ -125,6 +124,8 @@ class Checker:
         words, *given = (part.strip() for part in _JOINED.split(condition.replace("$", "")))
         if _SMALL.fullmatch(words):
             claim = f"if {', '.join(given)}: frequencies: {said}" if given else f"frequencies: {said}"
+        elif re.match(rf"(?:{CONDITION})\b", words):
+            claim = f"{condition}: frequencies: {said}"
         else:
             claim = f"frequencies: {text}"
         if "frequencies:" in text or not OMEGA.search(said):
@@ -209,9 +210,13 @@ class Checker:
             return said
         run, _ = self.moment("end")
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
+        if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
+            return said
+        if (found := phase(self, said)) and len(found.changes) == 1:
+            return found.changes[0]
         words = re.findall(r"\w+", said)
         for known in (events, parts):
-            found = [name for name in known if any(name == word or _alike(name, word) for word in words)]
+            found = [name for name in known if any(name == word or alike(name, word) for word in words)]
             if len(found) == 1:
                 return found[0]
         later = [change for change in run.changes if change.t > run.t[0]]
@@ -236,22 +241,9 @@ class Checker:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
         there: ``the lowest point``, ``the clutch grips``."""
         said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
-        found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or _alike(e["name"], word) for word in said)]
+        found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or alike(e["name"], word) for word in said)]
         found = found or (self.sampler.spec["events"] if _ENDS.search(words) else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
-
-    def becoming(self, words: str) -> str | None:
-        """The part that on the model's own motion becomes first of all what words say of it: taut, slack, or that it rolls."""
-        for kind, said in _BECOMES.items():
-            if not re.search(rf"\b(?:{said})\b", words):
-                continue
-            run, _ = self.moment("end")
-            firsts = {change.of[0]: change.kind for change in reversed(run.changes) if change.of and change.t > run.t[0]}
-            found = [name for name, first in firsts.items() if first == kind]
-            named = [name for name in found if any(_alike(name, word) for word in re.findall(r"\w+", words))]
-            if len(named or found) == 1:
-                return (named or found)[0]
-        return None
 
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
         """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, with sizes of vectors, and
@@ -308,11 +300,6 @@ def _is_root(node: Node) -> bool:
     """Whether a root stands in it as a factor."""
     factors = node.factors if isinstance(node, Mul) else (node.top,) if isinstance(node, Quotient) else (node,)
     return any(isinstance(factor, Fn) and factor.name == "sqrt" for factor in factors)
-
-
-def _alike(name: str, word: str) -> bool:
-    """Whether two words begin alike: cut and cutting."""
-    return len(word) >= _STEM and name.lower().startswith(word.lower()[:_STEM])
 
 
 def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:

@@ -161,12 +161,13 @@ class AskedModel:
         through a singular position, or a point through its anchor."""
         for _ in range(_HALVES):
             states = [motion.state(t) for t in np.linspace(begins, ends, _MOMENTS).tolist()]
-            if all(self._joined(one, other) for one, other in pairwise(states)):
+            if all(self.joined(one, other) for one, other in pairwise(states)):
                 break
             ends = (begins + ends) / 2
         return ends
 
-    def _joined(self, one: State, other: State) -> bool:
+    def joined(self, one: State, other: State) -> bool:
+        """Whether two places are of one assembly, and distances on one side."""
         if changes_side(self.core, self._squares, one.q, other):
             return False
         if not self.loops or self.rolls_in_loop:

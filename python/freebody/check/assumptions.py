@@ -24,7 +24,7 @@ from .case import Case
 from .families import Family, NoMotion
 from .figures import figures, rounding
 from .language.statements import Equation, symbols_in, terms
-from .residual import HOLDS, OFTEN, residual, unreached
+from .residual import HOLDS, OFTEN, REACH, SLIGHT, residual, unreached
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -65,6 +65,7 @@ _PART = 0.85  # of the budget, so that there is time for the balance that comes 
 _AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
 _TINY = 5e-6  # rad, at which what is left of a true linear equation is below HOLDS, and round-off, too
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
+_HELD = 1e-9  # of the rates that can be given at will, below which a coordinate has none
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
 
 
@@ -185,7 +186,8 @@ def of_family(case: Case, equation: Equation, family: Family, count: int = _STAT
         return False
     as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
-    return bool(near) and not unreached(equation, values, _SOME if family.since else OFTEN)
+    often, reach = (_SOME, SLIGHT) if family.since else (OFTEN, REACH)
+    return bool(near) and not unreached(equation, values, often, reach)
 
 
 def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
@@ -275,7 +277,14 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
     if any("=" in part for part in parts):  # for a solid disk, k² = ½ R²: less is taken for granted without the words
         known = {*WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM}
         parts = [part for part in parts if part in known or not _WORDS_ALONE.fullmatch(part)]
-    return reduce(lambda given, part: _also(given, part, checker, declared), parts, checker.hypothesis)
+    each = [one for part in parts for one in _each(part)]
+    return reduce(lambda given, part: _also(given, part, checker, declared), each, checker.hypothesis)
+
+
+def _each(part: str) -> list[str]:
+    """The equations of a chain: ``a = b = 0``."""
+    *sides, last = re.split(r"(?<![<>:])=", part)
+    return [f"{side.strip()} = {last.strip()}" for side in sides] or [part]
 
 
 def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Family:
@@ -283,9 +292,9 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if part == SMALL_MOTIONS:
         rest = checker.vibration.rest
         places = rest.q if rest else np.zeros(len(checker.sampler.names))
-        near = tuple(
-            (f"({spell(name)}) - ({q!r})", SMALL) for name, q in zip(checker.sampler.names, places.tolist(), strict=True)
-        )
+        free = np.abs(checker.sampler.free_rates).max(axis=1, initial=0.0) > _HELD  # what is prescribed cannot be small
+        named = zip(checker.sampler.names, places.tolist(), free, strict=True)
+        near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))
     if part == IN_EQUILIBRIUM:
         still = (f"accel({spell(name)})" for name in checker.sampler.names)

@@ -35,7 +35,7 @@ _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _ENERGY = re.compile(r"(?:kinetic|potential|energy)\(")
 _BEYOND = re.compile(
-    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|centre_[xy])\("
+    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|friction_work|centre_[xy])\("
     rf"|\.({_FORCES}|friction|force|value|power|work)\b"
 )
 """What reads more than the configuration."""
@@ -311,7 +311,11 @@ class Case:
         """Values that are no true state, where only what is the same by itself is the same; or, if ``bound``, by what the model
         defines its parameters to be, and places at its start."""
         names, given = self.meaning.names(), self.meaning.given() if bound else frozenset()
-        given |= {n.key for n in self.meaning.vocabulary.coordinates} if bound and self.hypothesis.at_start else set()
+        given |= (
+            {n.key for n in self.meaning.vocabulary.coordinates}
+            if bound and self.hypothesis.at_start and not self.sampler.moment
+            else set()
+        )
         sizes = {key: np.where(np.any(value), value, 1.0) for key, value in values.items()}
         rng, draws = np.random.default_rng(5), {}  # always the same places
         for key, value in sizes.items():

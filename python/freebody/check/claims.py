@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import takewhile
+from itertools import chain, takewhile
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,19 +20,20 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import family, first_order, says_zero, tiny, vanishes, wider
+from .assumptions import FROM_START, family, first_order, says_zero, tiny, vanishes, wider
 from .case import Case
 from .condition_edits import other_conditions
 from .constants import constant_corrections
 from .correction import MOST, SECOND, corrections
-from .families import ALL, Samples
+from .families import ALL, SINCE_START, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import touching
+from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, beside_event, in_words, labelled
+from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled
 from .wording import as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
@@ -58,8 +59,8 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             return judge(checker, {**declared, **given}, *said)
     label, colon, said = claim.partition(":")
     words = label.strip(_BESIDE_WORDS)
-    if colon and IN_WORDS.fullmatch(words) and (name := checker.becoming(words)):
-        return beside_event(checker, {**declared, **given}, "", "after", name, said)
+    if colon and IN_WORDS.fullmatch(words) and (found := phase(checker, words)) and found.changes and not found.is_moment:
+        return in_phase(checker, {**declared, **given}, found, words, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")
@@ -160,10 +161,11 @@ def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdic
     """An equation that each natural frequency satisfies; that one of them does, where it says what ω is."""
     count = checker.vibration_of(checker.hypothesis).count
     names = [f"ω_{i}" for i in range(1, count + 1)] if count > 1 else ["ω_n"]
-    verdicts = [checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names]  # type: ignore[misc]
+    verdicts = (checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names)  # type: ignore[misc]
     if _SAYS_OMEGA.fullmatch(statement):
         return min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
-    return next((verdict for verdict in verdicts if not verdict.ok), verdicts[0])
+    first = next(verdicts)
+    return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
@@ -196,6 +198,8 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
     """In a limit: what is left shrinks with the parameter, or vanishes."""
     given = family(limits, checker, declared)
     case = checker.case(statement, declared, given)
+    if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
+        return checker.check(statement, declared, replace(given, small=()))
     if given.small:
         return _small(case, statement, limits)
     near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled), late=given.late ** (4 / 7))
@@ -251,6 +255,10 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
             seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
     if worst < _STEADY:
         return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
+    if case.hypothesis == ALL and case.sampler.starts_to_move:  # a momentum that is 0 keeps mass centres where they are
+        from_start = checker.check(f"constant: {expression}", declared, SINCE_START, correcting=False)
+        if from_start.ok:
+            return replace(from_start, assumption=FROM_START)
     mends = constant_corrections(case, node, runs) if case.correcting else ()
     return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", mends=mends, evidence=seen)
 
@@ -378,7 +386,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(])")
+OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(₀-₉])")
 _SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")

@@ -29,7 +29,7 @@ class Family:
     in the model be something else, ``gravity`` False takes it away, ``scaled`` multiplies parameters; ``vanishing`` are
     expressions of configuration and, linearly, rates that are 0, ``above`` such that are more; ``small`` are expressions of configuration with the size that
     they and their rates have at most. ``since``: motions that begin where the model does, with its rates (``start``) or without
-    (``rest``), and last so many times the time typical of the model if it is to be ``late``; they end where something switches, or go
+    (``rest``), or at its moment, while what is asked of the start is of the model's own (``before``), and last so many times the time typical of the model if it is to be ``late``; they end where something switches, or go
     on ``through`` that. ``steady``: they repeat with what drives them."""
 
     held: tuple[tuple[str, float | str], ...] = ()
@@ -48,6 +48,8 @@ class Family:
     steady: bool = False
 
 
+BEFORE = "before"
+"""Of a family ``since`` a moment, that its start is before that."""
 ALL = Family()
 """Every motion of the model, with every parameter free."""
 AT_START = Family(at_start=True)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import Array, ModelError, MotionError, State, Trajectory
+from freebody.core import ModelError, MotionError, State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.model.start import evaluate
 from freebody.run.moments import Unreached
@@ -21,9 +20,10 @@ from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE
 
 from .admissible import UnderOtherLoads
+from .arrangement import NOTHING, arranged, stated
 from .asked_model import AskedModel
 from .budget import Budget
-from .families import ALL, Family, NoMotion, Samples, at_start
+from .families import ALL, BEFORE, Family, NoMotion, Samples, at_start
 from .sides import changes_side
 from .steady import steady_state
 from .stretches import first_zero, stretches
@@ -42,11 +42,6 @@ _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
-_NOTHING = 1e-11  # of what an expression changes by within the model's sizes: what vanishes by a hypothesis is below it
-_MANY_TIMES = 1e3  # a parameter that is to make an expression vanish is at most so much larger than it was drawn
-_DONE = 1e-14  # of the same: where Newton's method has nothing left to do
-_NEWTON = 30  # steps of it
-_STEP = 1e-6  # of central differences, relative to the size of a coordinate
 _EXACT = 1e-13  # tolerance of runs whose course matters
 _SHARE, _MOST, _FEWER = 0.1, 0.4, 16
 """Of the time for a statement: when fewer samples are enough, and when no more are looked for."""
@@ -90,7 +85,7 @@ class MotionSampler(AskedModel):
                 _ = self.own
             except MotionError as error:
                 raise NoMotion(f"the model does not start: {error.what}") from None
-            there = "".join(f"has `{_stated(text)}` and " for text in family.vanishing)
+            there = "".join(f"has `{stated(text)}` and " for text in family.vanishing)
             there += "no freedom is left in it to arrange that, and it " if family.vanishing and not self.free_rates.size else ""
             why = "is not singular, on a limit or of another mode than its start"
             raise NoMotion(f"no motion of this model was found that {there}{why}")
@@ -142,13 +137,14 @@ class MotionSampler(AskedModel):
         else:
             found = self.started(values) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
+        start = self.started(values) if family.since == BEFORE else start
         lost = [
             text
             for text in family.vanishing
-            if found and not self._vanishes(at_start(text, self.core, start) if start else text, found)
+            if found and not self.vanishes(at_start(text, self.core, start) if start else text, found)
         ]
         if lost and (family.at_start or family.since):
-            raise NoMotion(f"`{_stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
+            raise NoMotion(f"`{stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
         if lost or not found or any(value <= 0 for value in self._read(family.above, found, start)):
             return None
         return found, start
@@ -157,11 +153,11 @@ class MotionSampler(AskedModel):
         """Expressions in a state, with what is asked of the start of its motion."""
         return self.core.evaluate([at_start(text, self.core, start) if start else text for text in texts], state).tolist()
 
-    def _vanishes(self, text: str, state: State) -> bool:
+    def vanishes(self, text: str, state: State) -> bool:
         """Whether an expression is 0 there."""
-        return abs(float(Samples(self.core, [state]).values([text])[text][0])) <= _NOTHING * self._size(text, state)
+        return abs(float(Samples(self.core, [state]).values([text])[text][0])) <= NOTHING * self.size_of(text, state)
 
-    def _size(self, text: str, state: State) -> float:
+    def size_of(self, text: str, state: State) -> float:
         """What an expression changes by while coordinates, rates and parameters do by what is typical of the model."""
         by = np.abs(self.core.derivatives([text], state)[0, 1:])
         return float(by @ np.concatenate([self.sizes, self.rate * self.sizes, np.abs(state.p)]))
@@ -198,14 +194,14 @@ class MotionSampler(AskedModel):
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
         given = {} if family.held or family.numbers or self.loops else values
-        return self._judging(self._arranged(self._conditions(rng, family), state, list(rates), given))
+        return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, given))
 
     def _rolled_on(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
         """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
         start = self._at_moment(self.started(values), self._rates(rng, replace(family, at_rest=False)))
         conditions, n = self._conditions(rng, family), len(self.names)
         places = [text for text in conditions if not self.core.derivatives([text], start)[0, n + 1 : 2 * n + 1].any()]
-        there = start if places and self._vanishes(places[0], start) else None
+        there = start if places and self.vanishes(places[0], start) else None
         for motion, _ in self._followed(start, _STAGES if places else (rng.uniform(_STAGES[0], _FURTHER),)):
             found = self._first(places[0], motion, stretches(motion)) if places else motion.end
             there = found or there
@@ -215,7 +211,7 @@ class MotionSampler(AskedModel):
             return None, start
         rates = self._rates(rng, family)
         state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
-        return self._judging(self._arranged(conditions, state, list(rates))), start
+        return self._judging(arranged(self, conditions, state, rates, family)), start
 
     def _judging(self, state: State) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""
@@ -233,48 +229,10 @@ class MotionSampler(AskedModel):
 
     def _conditions(self, rng: np.random.Generator, family: Family) -> list[str]:
         """What is 0 in a family, and where what is small there is so."""
-        sizes = [(text, size * self._size(text, self.first)) for text, size in family.small]
+        sizes = [(text, size * self.size_of(text, self.first)) for text, size in family.small]
         small = [f"({text}) - ({size * _about(rng)!r})" for text, size in sizes]
         slow = [f"rate({text}) - ({size * self.rate * _about(rng)!r})" for text, size in sizes if not family.at_rest]
-        return [*family.vanishing, *small, *slow]
-
-    def _arranged(self, conditions: Sequence[str], state: State, free: Sequence[str], values: Mapping[str, float] = {}) -> State:
-        """The nearest state at which ``conditions`` are 0; where it cannot be so, with another of the ``values`` of parameters. Raises
-        ``NoMotion``."""
-        for text in conditions:
-            if not self._vanishes(text, state):
-                try:
-                    state = self._vanished(text, state, free)
-                except NoMotion:
-                    if (found := self._fitted(text, state, values)) is None:
-                        raise
-                    state = found
-        return state
-
-    def _fitted(self, text: str, state: State, values: Mapping[str, float]) -> State | None:
-        """The same state with another value of one parameter, of its sign, at which an expression is 0; first that which matters most."""
-        size = self._size(text, state)
-
-        def at(name: str, x: float) -> tuple[State, float]:
-            other = replace(state, p=self.core.bind({**values, name: x}))
-            return other, float(self.core.evaluate([text], other)[0])
-
-        def slope(name: str, x: float) -> float:
-            return (at(name, x * (1 + _STEP))[1] - at(name, x * (1 - _STEP))[1]) / (2 * _STEP * x)
-
-        for name in sorted(
-            (name for name in values if values[name]), key=lambda name: -abs(slope(name, values[name]) * values[name])
-        ):
-            x = values[name]
-            for _ in range(_NEWTON):
-                found, left = at(name, x)
-                if abs(left) <= _DONE * size:
-                    return found
-                rises = slope(name, x)
-                x -= left / rises if abs(rises * x) > _NOTHING * size else x
-                if not 0 < x / values[name] < _MANY_TIMES:
-                    break
-        return None
+        return [*small, *slow, *family.vanishing]  # what is exact comes last: what is small need only stay so
 
     def _rates(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         """Random rates, or none, of as many coordinates as may be given at will."""
@@ -283,31 +241,6 @@ class MotionSampler(AskedModel):
         order = rng.permutation(n)
         chosen = sorted(order[independent(self.free_rates[order])].tolist())
         return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
-
-    def _vanished(self, text: str, state: State, free: Sequence[str]) -> State:
-        """The nearest rates, or where they are not in it the nearest place, at which an expression is 0; ``free`` are the rates that
-        can be given. Raises ``NoMotion`` and ``MotionError``."""
-        rates_of = [self.names.index(name) for name in free]
-
-        def moved(q: Array, rates: Array) -> State:
-            return self.moved(state, q, dict(zip(free, rates.tolist(), strict=True)))
-
-        def value(q: Array, rates: Array) -> Array:
-            return self.core.evaluate([text], moved(q, rates))
-
-        q, u, size = state.q, state.u[rates_of], self._size(text, state)
-        slope = _slopes(lambda rates: value(q, rates), u, self.rate * self.sizes[rates_of])[0]
-        if np.abs(slope * self.sizes[rates_of]).max(initial=0.0) * self.rate > _NOTHING * size:
-            return moved(q, u - slope * value(q, u) / (slope @ slope))
-        for _ in range(_NEWTON):
-            if abs(left := value(q, u)[0]) <= _DONE * size:
-                break
-            slope = _slopes(lambda places: value(places, u), q, _STEP * self.sizes)[0]
-            if not np.abs(slope * self.sizes).max(initial=0.0) > _NOTHING * size:
-                why = "it depends on nothing that is free in" if free else "no freedom is left in"
-                raise NoMotion(f"`{_stated(text)}` cannot be arranged: {why} this mechanism")
-            q = q - slope * left / (slope @ slope)
-        return moved(q, u)
 
     def _near_moment(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
         """A state of the same mode with random numbers, mostly at a random place with random rates, at which what is closed stays so;
@@ -324,7 +257,7 @@ class MotionSampler(AskedModel):
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state = self.moved(own, q, rates, p=self.core.bind(values))
             given = {} if family.held or family.numbers or self.loops else values
-            state = self._arranged(self._conditions(rng, family), state, list(rates), given)
+            state = arranged(self, self._conditions(rng, family), state, rates, family, given)
         if "before" in self.moment:
             return self._sampled(state)
         motion = self.run(state, max(late, 1e-6 / self.rate))
@@ -336,7 +269,8 @@ class MotionSampler(AskedModel):
         start = self._at_moment(
             self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
-        conditions = [at_start(text, self.core, start) for text in family.vanishing]
+        began = self.started(values) if family.since == BEFORE else start
+        conditions = [at_start(text, self.core, began) for text in family.vanishing]
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
         first = conditions
         for motion, goes_on in self._followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):
@@ -345,7 +279,7 @@ class MotionSampler(AskedModel):
             parts = [(one, min(other, ends)) for one, other in parts if one < ends] or parts[:1]
             if begins == start.t:  # what is 0 there and in the middle, too, is asked of no moment
                 middle = motion.state((begins + ends) / 2)
-                first = [text for text in conditions if not (self._vanishes(text, start) and self._vanishes(text, middle))][:1]
+                first = [text for text in conditions if not (self.vanishes(text, start) and self.vanishes(text, middle))][:1]
             if not first:
                 one, other = parts[rng.integers(len(parts))]
                 if family.late and not goes_on:
@@ -355,7 +289,7 @@ class MotionSampler(AskedModel):
                 return self._sampled(found, family.through), start
             if ends < motion.end.t and not family.through:
                 break
-        return (self._sampled(start) if first and self._vanishes(first[0], start) else None), start
+        return (self._sampled(start) if first and self.vanishes(first[0], start) else None), start
 
     def _followed(self, start: State, longs: Sequence[float]) -> Iterator[tuple[Trajectory, bool]]:
         """The motion from a start in stages that are so many times the time typical of the model long, the later ones as long as that
@@ -373,7 +307,7 @@ class MotionSampler(AskedModel):
         """Where an expression is first 0 behind the beginning of a motion."""
         for begins, ends in parts:
             t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], begins, ends)
-            if t is not None and self._vanishes(text, found := motion.state(t)):  # it has not jumped there
+            if t is not None and self.vanishes(text, found := motion.state(t)):  # it has not jumped there
                 return found
         return None
 
@@ -393,18 +327,6 @@ def touching(state: State) -> set[tuple[int, int]]:
     return set(state.history.touching() if state.history else ())
 
 
-def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
-    """Derivatives of several numbers, a row each, by central differences."""
-    columns = [(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]
-    return np.array(columns).T if columns else np.zeros((1, 0))
-
-
 def _about(rng: np.random.Generator) -> float:
     """A number of the size of 1, of either sign."""
     return float(rng.uniform(0.3, 1.0) * rng.choice([-1.0, 1.0]))
-
-
-def _stated(text: str) -> str:
-    """What vanishes, as the equation that it comes from."""
-    found = re.fullmatch(r"\((.+)\) - \((.+)\)", text)
-    return f"{found[1]} = {found[2]}" if found else f"{text} = 0"

@@ -32,6 +32,8 @@ FAILS = 1e-6
 """Above it an equation is wrong; between the two a bad condition is to be suspected."""
 REACH = 1e-3
 """A term below it, relative to all, cannot be judged right or wrong."""
+SLIGHT = 1e-5
+"""The same where motions are short and exact: what holds to round-off holds such a term to a part of it."""
 OFTEN = 8
 """Samples in which a term must reach that far."""
 _ROUND_OFF = 1e-11  # of the terms on the sample where they are largest: on one where all are below it they are round-off
@@ -195,15 +197,15 @@ def _scalar(value: Array) -> Array:
     return value[:, 2] if value.ndim == 2 else value
 
 
-def unreached(equation: Equation, values: Mapping[str, Array], often: int = OFTEN) -> list[Node]:
+def unreached(equation: Equation, values: Mapping[str, Array], often: int = OFTEN, reach: float = REACH) -> list[Node]:
     """The terms that stay so small beside the others that this says nothing about them, but on ``often`` samples."""
     found = terms(equation, expand=True)
     found = found if len(found) <= _MANY else terms(equation)
     size = _length(magnitude(equation.left, values)) + _length(magnitude(equation.right, values))
     with np.errstate(all="ignore"):
-        reach = [np.nan_to_num(_length(np.abs(sampled(term, values))) / size) for term in found]
+        shares = [np.nan_to_num(_length(np.abs(sampled(term, values))) / size) for term in found]
     needed = min(often, len(size) // 2 or 1)
-    return [term for term, share in zip(found, reach, strict=True) if np.sum(share >= REACH) < needed]
+    return [term for term, share in zip(found, shares, strict=True) if np.sum(share >= reach) < needed]
 
 
 def _length(value: Array) -> Array:

@@ -12,7 +12,8 @@ import numpy as np
 
 from freebody.core import Array, ModelError, MotionError, State
 from freebody.model.errors import ModelProblem
-from freebody.stability.equilibria import equilibria, rest_near
+from freebody.solve.perturbed_states import independent
+from freebody.stability.equilibria import equilibria, newton_step, rest_near
 from freebody.stability.state_space import SingularConfiguration, state_space
 from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
@@ -41,6 +42,8 @@ _NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency 
 _WELDS = 1e3  # of the largest natural frequency: rates at which dampers make motions fade, above which they are as good as rigid
 _LASTING = 30.0  # of the rate at which it fades, the rate of what swings for long
 _APART = 0.1  # of what is typical of each coordinate, to a place where linear equations may be others
+_LATE = 0.37, 0.91  # of the typical time: later, when what goes on at one speed does so
+_NEWTON, _FOUND = 20, 1e-10  # steps to a place of rest, and the last of them, of what is typical of each coordinate
 _LENGTHS = 3.0  # of the model, within which a place of rest is looked for
 
 
@@ -107,18 +110,44 @@ class Vibration:
         """Whether events have changed what moves, or where it is follows from its start."""
         return self.sampler.restricted or self.sampler.rolls_in_loop
 
+    @cached_property
+    def _is_turned(self) -> bool:
+        """Whether what is prescribed goes on at one speed, so that it swings on that: a bead on a rail that turns."""
+        rates = [self._steady(self.sampler.first, late).u for late in (0.0, *_LATE)] if self.sampler.spec["motions"] else []
+        return any(u.any() for u in rates) and all(np.abs(u - rates[0]).max() <= _NOTHING * np.abs(u).max() for u in rates)
+
+    def _steady(self, state: State, late: float = 0.0) -> State:
+        """Where a state is, so many of its typical times later, with no rates but those that are prescribed."""
+        sampler = self.sampler
+        still = {sampler.names[i]: 0.0 for i in independent(sampler.free_rates)}
+        return sampler.moved(state, state.q, still, t=state.t + late / sampler.rate)
+
     def _at_rest(self, state: State) -> State | None:
-        """The place of rest next to a state; where nothing holds it, but its linear equations are everywhere the same, that place."""
+        """The place of rest next to a state, beside what goes on at one speed; where nothing holds it, but its linear equations are
+        everywhere the same, that place."""
         core, sampler = self.sampler.core, self.sampler
+        if self._is_turned:
+            return self._at_rest_on_drive(state)
         if (rest := rest_near(core, state)) is not None:
             return rest
         a, other = (state_space(core, each).a for each in (state, sampler.moved(state, state.q + _APART * sampler.sizes, {})))
         return state if a.shape == other.shape and np.abs(a - other).max() <= _NOTHING * np.abs(a).max() else None
 
-    @staticmethod
-    def _placed(state: State) -> State:
+    def _at_rest_on_drive(self, state: State) -> State | None:
+        """The same, by Newton's method, on what is driven at one speed, if it stays one as that goes on."""
+        core, sampler = self.sampler.core, self.sampler
+        for _ in range(_NEWTON):
+            change, *_ = newton_step(core, state)
+            state = self._steady(state.at(state.q + change))
+            if np.abs(change / sampler.sizes).max() < _FOUND:
+                first, *others = (state_space(core, self._steady(state, late)).a for late in (0.0, *_LATE))
+                same = all(np.abs(a - first).max() <= _NOTHING * np.abs(first).max() for a in others)
+                return state if same else None
+        return None
+
+    def _placed(self, state: State) -> State:
         """Where a state is, at rest."""
-        return state.at(state.q)
+        return self._steady(state) if self._is_turned else state.at(state.q)
 
     def _places(self, names: Iterable[str]) -> list[float]:
         """The coordinates of rest by their names."""
@@ -140,7 +169,7 @@ class Vibration:
             free = state_space(core, first).free
             if not free:
                 return None
-            if len(free) > 1 or self._later:
+            if len(free) > 1 or self._later or self._is_turned:
                 rest = self._at_rest(first)
                 return rest if rest and _swings(state_space(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
@@ -148,8 +177,8 @@ class Vibration:
             found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
         except (MotionError, ModelError, SingularConfiguration, ValueError, np.linalg.LinAlgError):
             return None
-        swinging = [each.state for each in found if np.linalg.det(each.space.a) > 0]
-        return min(swinging, key=lambda rest: abs(rest.q[k] - first.q[k]), default=None)
+        swinging = [each.state for each in found if len(each.space.a) == 2 and np.linalg.det(each.space.a) > 0]
+        return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
 
     def quantities(self, row: Array) -> Mapping[str, float]:
         """What it has with other parameters; NaN where it is none."""
@@ -185,14 +214,21 @@ class Vibration:
                 try:
                     there = rest.p + done * (p - rest.p)
                     near, _ = core.assemble(there, rest.t, guess=dict(zip(self.sampler.names, state.q.tolist(), strict=True)))
-                    state = self._at_rest(near.at(near.q))
+                    state = self._at_rest(self._placed(near))
                 except (MotionError, ModelError, SingularConfiguration):
                     state = None
                 if state is None:
                     break
-            if state is not None and _swings(a := state_space(core, state).a):
+            if state is not None and _swings(a := state_space(core, state).a) and self._is_reached(values, state):
                 return a
         return None
+
+    def _is_reached(self, values: Mapping[str, float], rest: State) -> bool:
+        """Whether the start with such parameters is of the same assembly: a loop may close there another way."""
+        try:
+            return not self.sampler.loops or self.sampler.joined(self.sampler.started(values), rest)
+        except (MotionError, ModelProblem):
+            return False
 
 
 def _swings(a: Array) -> bool:
@@ -212,6 +248,9 @@ def _squares(a: Array) -> Array:
     if most > 0 and np.abs(fading).max() > _WELDS * np.sqrt(most):
         swinging = np.linalg.eigvals(a)
         return np.sort(np.abs(swinging[swinging.imag > _LASTING * np.abs(swinging.real)]) ** 2)
+    both = np.linalg.eigvals(a)
+    if most > 0 and np.abs(both.real).max() <= np.sqrt(_NOTHING * most):  # gyroscopic forces alone make nothing fade
+        return np.sort(both.imag[both.imag > np.sqrt(_NOTHING * most)] ** 2)
     # The rates at which dampers make it fade are real; those of gyroscopic forces are imaginary.
     if (
         max(np.abs(fading.imag).max(), -fading.real.min()) ** 2 > _NOTHING * most

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -14,7 +15,9 @@ from freebody.symbolic.errors import StatementError
 
 from . import timed_claims
 from .assumptions import WORDS
-from .families import SINCE_START
+from .families import BEFORE, SINCE_START
+from .phases import Phase, phase
+from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
 from .wording import LASTS
 
@@ -30,8 +33,8 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
         under = f"if {others}: {statement}" if others else statement
         if beside := _BESIDE.fullmatch(part):
             return beside_event(checker, declared, beside[1], beside[2], beside[3], under)
-        if IN_WORDS.fullmatch(part) and (name := checker.becoming(part)):
-            return beside_event(checker, declared, "", "after", name, under)
+        if IN_WORDS.fullmatch(part) and (found := phase(checker, part)):
+            return in_phase(checker, declared, found, part, under)
     known = {*checker.mechanism.parameters, *declared}
     words = [part for part in parts if (IN_WORDS.fullmatch(part) or part in known) and part not in WORDS]
     if not words or len(words) == len(parts):
@@ -46,6 +49,8 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     lasts = LASTS.match(words) is not None
     if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
+    if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
+        return in_phase(checker, declared, found, words, statement)
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
@@ -70,18 +75,38 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     should stay the same, of which nothing says how long."""
     run, _ = checker.moment("end")
     happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
-    verdicts = [at_first]
-    for name in happens:
-        with suppress(ModelProblem, StatementError):
-            verdicts.append(beside_event(checker, declared, "", "after", name, statement))
-            if verdicts[-1].ok:
-                return replace(verdicts[-1], notes=(*verdicts[-1].notes, f"`{words}` is read as after {name}."))
-    if "constant:" in statement or any(verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS) for verdict in verdicts):
+    found = in_phase(checker, declared, Phase(False, tuple(happens), False), words, statement, [at_first])
+    if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
+        raise problem
+    return found
+
+
+def in_phase(
+    checker: Checker, declared: Declared, when: Phase, words: str, statement: str, verdicts: Sequence[Verdict] = ()
+) -> Verdict:
+    """On a stretch of the model's own motion, or at a moment of it: true where it holds on one that may be meant, wrong where on none, with
+    the corrections of that where least is wrong; beside ``verdicts`` about others."""
+    sides = [("just ", "after"), ("just ", "before")] if when.is_moment else [("", "after")]
+    places = [("", "", "")] * when.at_first + [(just, side, name) for name in when.changes for just, side in sides]
+    names = ["at first"] * bool(verdicts) + [f"{just}{side} {name}" if side else "at first" for just, side, name in places]
+    found: list[Verdict] = [*verdicts]
+    problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
+    for place, name in zip(places, names[len(names) - len(places) :], strict=True):
+        try:
+            one = beside_event(checker, declared, *place, statement) if place[1] else checker.check(statement, declared)
+        except (ModelProblem, StatementError) as error:
+            problem = error
+            continue
+        if one.ok:
+            return replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
+        found.append(one)
+    if not found:
         raise problem
     gone = lambda verdict: any(kind == "extra term" for kind, *_ in verdict.mends[0].edits)  # what it is of may not be there
-    nearest = min(verdicts, key=lambda verdict: (gone(verdict), verdict.mends[0].size) if verdict.mends else (True, np.inf))
-    where = " or after ".join(["at first", *happens])
-    return replace(nearest, notes=(*nearest.notes, f"`{words}` is not judged: it does not hold {where}."))
+    open_ = next((verdict for verdict in found if verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None)
+    nearest = open_ or min(found, key=lambda one: (gone(one), one.mends[0].size) if one.mends else (True, np.inf))
+    how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
+    return replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
 
 
 def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
@@ -91,6 +116,8 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     just = just or there.sampler.stated  # before what happens at the start there is no motion
     given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
     verdict = there.check(statement, declared, given)
+    if not verdict.ok and any(INITIAL in note for note in verdict.notes):  # v₀ is that of the start before
+        verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
         return verdict
     until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it

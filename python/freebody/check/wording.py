@@ -10,22 +10,29 @@ from .language.glyphs import CONDITION
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long as|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
-_BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
+_BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
     rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until)\b)[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)"
 )
 _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
 """``at t = 0 (at rest, beam level)``."""
 _FREQUENCIES = re.compile(
-    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)\s*\Z"
+    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*\Z"
 )
 LASTS = re.compile(r"(?:while|until|during|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
 _WORDS = re.compile(r"[A-Za-z\s'-]+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
-    r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b,?\s*"
+    r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
 )
+_LAWS = "momentum|energy|impulse|moments?|forces?|work|power|equations?|balance|component|direction|radial(?:ly)?|tangential(?:ly)?|normal"
+_THINGS = (
+    "(?:rod|bar|beam|wheel|disk|disc|cylinder|drum|pulley|roller|gear|ring|hoop|ball|sphere|block|crate|cart|car|mass|weight|bob|arm"
+    "|link|crank|slider|piston|plate|pendulum|particle|frame|body|system)(?:e?s)?|bodies|pulleys"
+)
+_STATES = "is|are|was|were|has|have|no|not|rest|zero|cut|taut|slack|light|heavy|massless|rigid|smooth|rough|constant|steady|small|large|alone"
+"""Words that tell what a condition is, which is no label."""
 _NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
@@ -33,12 +40,23 @@ _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=
 _SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
 _SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
 """``small θ:``, ``for small φ and s:``; a small block is no angle."""
+_SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
+_SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^=]*:(?!=))")
+_OF_WHAT = re.compile(
+    rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
+)
+"""``momentum along x``, ``both rods``: behind a condition a label."""
+_THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
 _STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
 _BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
+_HAPPENS_WHEN = re.compile(
+    rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,3}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
+)
+"""``the block breaks loose when k x = μ m g``."""
 _PARTS = re.compile(r",|\band\b")
 _WHEN = re.compile(r"\s+(?:when|where|while|with)\s+")
 _ABOUT = re.compile(r"\s*about\s[^=]*=")
@@ -112,6 +130,8 @@ def with_condition_first(text: str) -> str:
         return f"constant: {same}"
     if (found := _NAMED_VALUE.fullmatch(said)) and (name := _quantity(found[1])):
         return f"{name} = {found[2]}"
+    if found := _HAPPENS_WHEN.fullmatch(said):
+        return f"when {found[1]}: {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
         said = f"{found[2]}: {found[1]}"
     return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if "cons" in said else said
@@ -119,7 +139,8 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", _SMALL.sub(_all_small, _LABELLED.sub("", text))))
+    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, _LABELLED.sub("", text)))
+    text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text))
     label, colon, rest = text.partition(":")
     if colon and "=" in rest and (found := _WITHOUT.search(label)):
         others = f"{label[: found.start()]} {label[found.end() :]}".strip()
@@ -137,7 +158,9 @@ def as_claim(text: str) -> str:
     )
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
-    parts = [part for part in _PARTS.split(said) if not (_SUM.match(part) or _ABOUT.match(part))]
+    first, *others = _PARTS.split(said)
+    labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch
+    parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
     parts[0] = "from the start" if word == "from" else parts[0]
     first = f"{word} {parts[0].strip()}"
     if LASTS.match(first) and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
@@ -180,7 +203,9 @@ def _condition(part: str) -> str:
     """One part of a condition in the words of a hypothesis."""
     said = part.strip()
     said = re.sub(r"\A(?:(?:when|if)\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))", "", said)
-    if re.fullmatch(r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)", said):
+    if re.fullmatch(
+        rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
+    ):
         return "small motions"
     if found := re.fullmatch(r"(small|large) (.+)", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
@@ -190,6 +215,8 @@ def _condition(part: str) -> str:
         return "in equilibrium"
     if _STEADY.fullmatch(said):
         return "in the steady state"
+    if found := _THROUGHOUT.fullmatch(said):  # so are its rates
+        return f"{found[1]} = {found[2]}, ({found[1]})' = ({found[2]})'"
     return "at rest" if said == "rest" else said
 
 

@@ -85,11 +85,12 @@ def _end(mechanism: Builder, start: State) -> float:
 
 
 def time_of(run: Run, name: str) -> float:
-    """When an event, or a mode change of a part, of this name comes first, s. Raises ``Unreached`` where it does not come."""
-    happened = [(event.t, event.name) for event in run.events] + [
-        (change.t, part) for change in run.changes for part in change.of
-    ]
-    if times := [t for t, what in happened if what == name]:
+    """When an event, or a mode change of a part, of this name comes first, s; of a name like ``stick wheel`` a change of that kind. Raises
+    ``Unreached`` where it does not come."""
+    happened = [(event.t, event.name) for event in run.events]
+    happened += [(change.t, part) for change in run.changes for part in change.of]
+    kinds = [(change.t, f"{change.kind} {part}") for change in run.changes for part in change.of]
+    if times := [t for t, what in (*happened, *kinds) if what == name]:
         return min(times)
     known = ", ".join(dict.fromkeys(what for _, what in sorted(happened))) or "nothing does"
     raise Unreached(f"{name!r} does not happen until {run.outcome.t:g} s; what happens: {known}")

@@ -103,7 +103,7 @@ _SENSE = rf"(?:[(\[]?\s*\+?\s*{_ARROW}\s*\+?\s*[)\]]?:?)"
 """What is positive, as in ``(↺+)`` and ``+→``."""
 _SUM = r"\s*(?:\\sum|\\Sigma|[Σ∑])"
 _LABEL = re.compile(
-    rf"(?m)(?:^|(?<=;))(?!\s*(?:{CONDITION})\b)(?:[^=:;\n\\]|{_ARROW}|\\(?:perp|parallel)\b)*:(?!=)|(?:^|(?<=;))\s*{_SENSE}?{_SUM}[^:;\n]*:(?!=)"
+    rf"(?m)(?:^|(?<=;))(?!\s*(?:{CONDITION})\b)(?:(?:[^=:;\n\\]|{_ARROW}|\\(?:perp|parallel)\b)*|[^=:;\n\\]*[A-Za-z]{{3}}(?:[^=:;\n\\]|\\[A-Za-z,;> ])*):(?!=)|(?:^|(?<=;))\s*{_SENSE}?{_SUM}[^:;\n]*:(?!=)"
     r"|(?:^|(?<=;))\s*(?:\\(?:d?dot|vec|mathbf|bm)\s*\{?\s*)+\w\}*(?:_\w|_\{\w+\})?\s*:(?!=)"
     rf"|^\s*{_SENSE}{_SUM}[^:;\n]*=\s*(?:0|[^:;\n]*(?:a|α|M_?\{{?k)[^:;\n]*);|^\s*{_SENSE}(?={_SUM})"
     r"|:(?==)|=(?==)|\\(?:tag|label)\*?\s*\{[^}]*\}|(?:(?<=\s\s)|\\q?quad\s*)\(\d+\w?\)\s*$"
@@ -227,6 +227,8 @@ class _Reader:
         word, span = _SAME_WORDS.get(found[0][1:], found[0][1:]), (start, found.end())
         if word in _DOTS:
             inside = self.group()
+            if inside and (inside[0].text, inside[-1].text) in (("(", ")"), ("[", "]")):  # the rate of a bracket
+                return [*inside, *[Glyph(Kind.PRIME, "'", span)] * _DOTS[word]]
             first = next((g for g in inside if g.kind is Kind.WORD), None)  # dots stand on the first letter
             return [replace(g, dots=g.dots + _DOTS[word]) if g is first else g for g in inside]
         if word in ("mathcal", "mathscr"):  # a Lagrangian is no length

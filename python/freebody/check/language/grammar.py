@@ -136,10 +136,12 @@ class Line:
 
     def factor(self) -> Node:
         base = self.primary()
-        while self.now.kind in ("raised", "^"):
+        while self.now.kind in ("raised", "^", "primes"):
+            if self.now.kind == "primes":
+                base = self.rate(base, self.take().dots, base)
+                continue
             exponent = self.exponent()
-            transposed = isinstance(base, Matrix | Column) and exponent in (Sym("T"), Sym("⊤"))
-            if transposed:
+            if isinstance(base, Matrix | Column) and exponent in (Sym("T"), Sym("⊤")):
                 rows = base.rows if isinstance(base, Matrix) else tuple((item,) for item in base.items)
                 base = _matrix(tuple(zip(*rows, strict=True)), base.span)
             else:
@@ -302,12 +304,12 @@ class Line:
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found
 
-    def rate(self, of: Node, count: int, token: Token) -> Node:
+    def rate(self, of: Node, count: int, begins: Token | Node) -> Node:
         """A derivative by time, written out where it can be."""
         lasting = any(isinstance(n, Partial) for n in walk(of))
         for _ in range(count):
             of = Rate(of) if lasting else rate_of(of, self.names.constants)
-        return replace(of, span=self.span(token))
+        return replace(of, span=self.span(begins))
 
     def partial(self) -> Node:
         """∂L/∂θ̇, or the same as a LaTeX fraction."""

@@ -33,9 +33,9 @@ _FRACTION = re.compile(
 
 @dataclass(frozen=True)
 class Token:
-    """A piece of a statement. ``kind``: number, symbol, function, raised, line, end, or the sign itself.
+    """A piece of a statement. ``kind``: number, symbol, function, raised, primes, line, end, or the sign itself.
 
-    ``text``: the name, digits or sign; ``dots``: time derivatives of a symbol; ``attached``: no blank before it.
+    ``text``: the name, digits or sign; ``dots``: time derivatives of a symbol, or of the bracket before ``primes``; ``attached``: no blank before it.
     """
 
     kind: str
@@ -59,8 +59,10 @@ class Names:
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
-        """The declared name of each folded spelling; a name that is spelled just so goes first. ``Mg`` is no M_g where it is M times g."""
-        folding = (n for n in reversed(self.known) if n in self.constants or not self.constants.issuperset(folded(n)))
+        """The declared name of each folded spelling; a name that is spelled just so goes first. ``Mg`` is no M_g where it is M times g,
+        but φ is no p times h times i."""
+        made = lambda n: n.isascii() and n not in self.constants and self.constants.issuperset(folded(n))
+        folding = (n for n in reversed(self.known) if not made(n))
         return {**{folded(n): n for n in folding}, **{n: n for n in self.known}}
 
     @cached_property
@@ -114,6 +116,8 @@ class _Reader:
             if glyph.kind is Kind.SPACE:
                 self.at += 1
                 self.blank = True
+            elif glyph.kind is Kind.PRIME and self.out and self.out[-1].kind in (")", "]"):
+                self.primes()
             elif glyph.kind in (Kind.WORD, Kind.LOW, Kind.PRIME):
                 self.run()
             elif glyph.kind is Kind.RAISED:
@@ -124,6 +128,14 @@ class _Reader:
             else:
                 self.sign(glyph)
         return self.out
+
+    def primes(self) -> None:
+        """Those behind a bracket: of all in it."""
+        start = self.at
+        while self.row[self.at].kind is Kind.PRIME:
+            self.at += 1
+        text = self.spelling(start, self.at)
+        self.put("primes", text, start, len(text))
 
     def put(self, kind: str, text: str, start: int, dots: int = 0) -> None:
         """A token from the glyph ``start`` to where the reading stands."""
