@@ -212,11 +212,9 @@ class Checker:
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
-        if (found := phase(self, said)) and len(found.changes) == 1:
-            return found.changes[0]
-        words = re.findall(r"\w+", said)
-        for known in (events, parts):
-            found = [name for name in known if any(name == word or alike(name, word) for word in words)]
+        words, when = re.findall(r"\w+", said), phase(self, said)
+        named = lambda known: [name for name in known if any(name == word or alike(name, word) for word in words)]
+        for found in (named(events), when.changes if when else (), named(parts)):
             if len(found) == 1:
                 return found[0]
         later = [change for change in run.changes if change.t > run.t[0]]
