@@ -110,7 +110,9 @@ def main() -> None:
         until = [f"{each:.3f}" for each in spent[: len(STEPS)]]
         printed = f"{1e6 * spent[-1] / bodies:.0f}" if solves else ""
         motion = f"{moved(text):.3f}" if name == "ladder" else ""
-        table.add_row(name, str(size), *until, *[""] * (len(STEPS) - len(until)), f"{sum(spent[: len(STEPS)]):.3f}", printed, motion)
+        table.add_row(
+            name, str(size), *until, *[""] * (len(STEPS) - len(until)), f"{sum(spent[: len(STEPS)]):.3f}", printed, motion
+        )
     Console(width=160).print(table)
 
 

@@ -33,6 +33,7 @@ from .motion_sampler import touching
 from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
+from .vibration import OfVibration
 from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled
 from .wording import as_claim, named, with_condition_first
 
@@ -159,13 +160,25 @@ def _is_of_places(case: Case) -> bool:
 
 def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
     """An equation that each natural frequency satisfies; that one of them does, where it says what ω is."""
-    count = checker.vibration_of(checker.hypothesis).count
-    names = [f"ω_{i}" for i in range(1, count + 1)] if count > 1 else ["ω_n"]
-    verdicts = (checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in names)  # type: ignore[misc]
+    verdicts = (
+        checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in _vibrations(checker, declared)
+    )  # type: ignore[misc]
     if _SAYS_OMEGA.fullmatch(statement):
         return min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
     first = next(verdicts)
     return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
+
+
+def _vibrations(checker: Checker, declared: Declared) -> list[str]:
+    """The names of the natural frequencies: ω_n or ω_1, ω_2 …, or in words where that is the angular velocity of a body, say."""
+    count = checker.vibration_of(checker.hypothesis).count
+    numbers = [f"_{i}" for i in range(1, count + 1)] if count > 1 else ["_n"]
+    known = checker.symbols(declared)
+    with suppress(StatementError, ModelProblem):
+        known.read(f"ω{numbers[0]} = 0")
+    if isinstance(known.meanings.get(f"ω{numbers[0]}"), OfVibration | None):
+        return [f"ω{number}" for number in numbers]
+    return [f"natural_frequency{number.removesuffix('_n')}" for number in numbers]
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:

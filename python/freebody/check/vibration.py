@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 _MOST = 6  # natural frequencies that have an index
 _QUANTITIES = {
-    **{f"ω_{i}": f"natural frequency {i}" for i in range(1, _MOST + 1)},
+    **{f"{name}_{i}": f"natural frequency {i}" for i in range(1, _MOST + 1) for name in ("ω", "natural_frequency")},
     **dict.fromkeys(("ω_n", "ω_0", "natural_frequency"), "natural frequency"),
     **dict.fromkeys(("f", "f_n", "frequency"), "frequency"),
     **dict.fromkeys(("τ", "τ_n", "T_n", "period"), "period"),
