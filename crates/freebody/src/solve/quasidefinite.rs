@@ -3,7 +3,7 @@
 use super::{largest, Matrix, Solution};
 
 /// Most unknowns and rows together.
-const MOST: usize = 12;
+const MOST: usize = 16;
 /// Pivot, over the largest inertia or over what the row was before the others were eliminated, below which digits may be lost.
 const CLEAR: f64 = 1e-2;
 
@@ -19,7 +19,7 @@ pub struct Quasidefinite {
 /// Calls a function of the size as a constant.
 macro_rules! of_size {
     ($size:expr, $self:ident.$function:ident $arguments:tt) => {
-        of_size!(@ $size, $self, $function, $arguments, 1 2 3 4 5 6 7 8 9 10 11 12)
+        of_size!(@ $size, $self, $function, $arguments, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16)
     };
     (@ $size:expr, $self:ident, $function:ident, $arguments:tt, $($small:literal)*) => {
         match $size {

@@ -4,7 +4,7 @@ use super::saddle::Equations;
 use super::{largest, with_length, Lu, Matrix, Solution};
 
 /// Most unknowns and rows together: beyond, the zeros and the groups of the equations are worth more.
-const MOST: usize = 12;
+const MOST: usize = 16;
 /// Pivot, entries being of order one, below which rows may depend on each other, a motion may have no inertia, or small masses
 /// behind large ones may lose digits.
 const CLEAR: f64 = 1e-2;
