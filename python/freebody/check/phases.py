@@ -28,6 +28,8 @@ _KINDS = {
 _CHANGES = {"touch": ("impact", "contact")}
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
+_BEFORE = {"stick": "sliding", "slip": "stuck"}
+"""What a joint with friction was in before its first change."""
 _MOMENT = re.compile(
     r"\b(?:moment|instant|(?:begin|start|become|go|get|come|turn)(?:e?s)?\b|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
 )
@@ -56,12 +58,17 @@ def phase(checker: Checker, words: str) -> Phase | None:
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
     firsts = {name: (t, part) for t, part, name in reversed(found) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
-    meant = _meant(words, {*(part for _, part in firsts.values()), *limits}, limits)
+    able = {
+        name for name in limits if kind not in _STATES or limits[name].state in _STATES.values()
+    }  # what has no friction never slides
+    meant = _meant(words, {*(part for _, part in firsts.values()), *able} or {*limits}, limits)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
     states = {limits[name].state for name in meant if name in limits} & {*_STATES.values()}
+    began = {part: change.kind for change in reversed(run.changes) for part in change.of if change.kind in _BEFORE}
+    states |= {_BEFORE[began[name]] for name in meant if name in began and name not in limits}
     there = states == {_STATES.get(kind)} if every else _STATES.get(kind) in states
     at_first = there or (lasts and not states) if kind in _STATES else lasts
     is_moment = not lasts and (kind not in _STATES or _MOMENT.search(words) is not None)
