@@ -181,13 +181,15 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
 def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
     """Whether what stands behind an equation, or a figure that is ``measured``, is words: one of them at least, and none nearly a name that
     is known; or the unit of a formula."""
-    if any(sign.isalpha() and not sign.isascii() for sign in words):
+    if any(sign.isalpha() and not sign.isascii() for sign in words) or "/dt" in words:
         return False
     if _is_unit(words) and words not in known:
         return not measured
     found = re.findall(r"[^\W\d_]{3,}", words) if not re.search(r"[*/^·×_-]|\.\w", words) else []
     return any(word not in CALLS for word in found) and not any(
-        nearest(folded(word), map(folded, known)) or word in CALLS or word.lower().startswith("const") for word in found
+        nearest(folded(word), map(folded, known)) or word in CALLS or word.lower().startswith("const")
+        for word in found
+        if word not in _CONNECTIVES
     )
 
 
