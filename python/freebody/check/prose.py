@@ -88,6 +88,8 @@ _SIDE_OF_ZERO = re.compile(r"(=\s*0)\s*(?:\^?\s*\{?\s*\+\s*\}?|⁺)(?=\s*(?:[:,)
 """``t = 0⁺``, just after."""
 _EXTREME = re.compile(r"_\{?\s*(?:\\(?:mathrm|text|rm|mathsf)\s*)?\{?\s*\\?(max|min)(?![A-Za-z])\s*\}{0,2}")
 """``θ_max``, ``N_{\\max}``, ``v_{\\text{max}}``."""
+_LIMITS = re.compile(r"∫_\(([^()]*)\)\^\(([^()]*)\)")
+"""Limits of an integral in round brackets."""
 _LIMITLESS = re.compile(r"(?:∫|\\int)(?!\s*(?:\\limits\s*)?[_^₀-₉])(?=[^=;\n]*\bd\s*t\b)(\s*)")
 """An integral over time without limits is one from the start."""
 _OF_WHAT = re.compile(r"(?<=[\w)}²³])\s+(?:for|of) the [a-z]+(?: [a-z]+)*\s*\Z")
@@ -156,6 +158,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", text))
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(r"_{\1}", said)
+    said = _LIMITS.sub(r"∫_{\1}^{\2}", said)
     said = _LIMITLESS.sub(lambda found: f"∫_0^t{found[1]}", said)
     said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
     said = _AT_ONCE.sub(r"\1: ", _WAY.sub(lambda found: told(found, "a remark, and not judged"), said))
