@@ -49,6 +49,8 @@ enum Form {
 struct Factored {
     /// Whether it is still known: neither numbers nor mode have changed since, and all multipliers act along their rows.
     is_known: bool,
+    /// Whether it was in the sparse form of the tree.
+    sparse: bool,
     t: f64,
     q: Vec<f64>,
     rows: Vec<Source>,
@@ -209,27 +211,28 @@ impl Workspace<'_> {
                 d.factor_scaled(wanted, own)
             }
         };
-        self.note_factored(factored.is_ok() && !own);
+        self.note_factored(factored.is_ok() && !own, false);
         factored.map_err(|error| self.explain(error))
     }
 
     /// Notes of what the equations were factored, if they were and all multipliers act along their rows.
-    pub(super) fn note_factored(&mut self, is_known: bool) {
+    pub(super) fn note_factored(&mut self, is_known: bool, sparse: bool) {
         let is_target = |row: &Row| row.source == Source::TARGET;
         let of = &mut self.dense.factored;
         of.is_known = is_known && self.placed.bearing.is_none() && !self.rows.iter().any(is_target);
-        of.t = self.placed.t;
+        (of.sparse, of.t) = (sparse, self.placed.t);
         of.q.clone_from(&self.placed.q);
         of.rows.clear();
         of.rows.extend(self.rows.iter().map(|row| row.source));
     }
 
-    /// Whether the equations factored last are those of the present rows at a state that is no farther than `near`, in the units of
+    /// Whether the equations factored last are, in the form of the tree or in another, those of the present rows at a state that is no farther than `near`, in the units of
     /// the coordinates.
-    pub(super) fn is_factored(&self, near: f64) -> bool {
+    pub(super) fn is_factored(&self, near: f64, sparse: bool) -> bool {
         let (of, columns) = (&self.dense.factored, &self.dense.columns);
         let moved = || self.placed.q.iter().zip(&of.q).zip(columns).map(|((a, b), unit)| ((a - b) / unit).abs());
         of.is_known
+            && of.sparse == sparse
             && of.t == self.placed.t
             && of.rows.iter().eq(self.rows.iter().map(|row| &row.source))
             && moved().all(|moved| moved <= near)

@@ -194,7 +194,7 @@ impl Workspace<'_> {
         let mut keep = present.iter();
         self.rows.retain(|_| *keep.next().expect("one for each row"));
         let asked: Vec<f64> = asked.iter().zip(present).filter(|(_, &p)| p).map(|(a, _)| *a).collect();
-        if !self.is_factored(near) {
+        if !self.is_factored(near, false) {
             super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
             if self.factor_for(Wanted::Motion, Force::Gradient).is_err() {
                 return Ok(self.least_motion(&self.rows, &asked));

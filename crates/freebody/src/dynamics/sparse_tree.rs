@@ -117,7 +117,7 @@ impl Workspace<'_> {
     /// The motion that changes the present rows by `asked`, least in the metric of the masses. Equations factored at a state as
     /// `near` as that do.
     pub(super) fn sparse_tree_correction(&mut self, asked: &[f64], near: f64) -> Result<Vec<f64>, DynamicsError> {
-        if !self.is_factored(near) {
+        if !self.is_factored(near, true) {
             loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
             self.factor_sparse_tree();
         }
@@ -147,7 +147,7 @@ impl Workspace<'_> {
         });
         self.dense.columns.clear();
         self.dense.columns.extend(column_scales(at, length));
-        self.note_factored(true);
+        self.note_factored(true, true);
     }
 
     /// Solves the equations factored last for the sides in `memory`.
