@@ -25,7 +25,7 @@ from freebody.check import Checker, Kind
 from freebody.check.file import WORDS, judged_alone
 from freebody.check.language.statements import Equation, symbols_in
 from freebody.check.prose import plainly
-from freebody.check.residual import residual
+from freebody.check.residual import HOLDS, residual
 from freebody.check.verdict import Verdict
 from freebody.check.wording import with_condition_first
 from freebody.mechanism import Mechanism
@@ -101,6 +101,8 @@ class Book:
         if one == other:
             return True
         places = cases[0].elsewhere(values)
+        if all(residual(each, places).worst < HOLDS for each in (one, other)):  # both are what the model defines a letter to be
+            places = cases[0].elsewhere(values, bound=False)
         at = {n: places[n.key] for n in (*symbols_in(one), *symbols_in(other))}
         scalar = all(np.ndim(value) < 2 for value in at.values())
         if scalar:  # not every root has a value

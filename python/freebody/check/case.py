@@ -66,6 +66,11 @@ class StatementSymbols:
         """The expressions of the model language that a symbol stands for."""
         return self._one(symbol).texts if symbol.name in self.symbols.meanings else ()
 
+    def read_from(self, symbol: Sym) -> str:
+        """The expression from which a number is read, with its dots."""
+        (text,) = self._one(symbol).needed(symbol.dots)
+        return text
+
     def values(self, samples: Samples) -> Mapping[str, Array]:
         """The value of every symbol on true states, by ``Sym.key``; what is 0 but for round-off is 0."""
         found = self.symbols.values(self._valued, samples)
@@ -118,7 +123,7 @@ class StatementSymbols:
         said = [text for n in symbols_in(equation) for text in self.texts(Sym(n.name))]
         words = {word for text in said for word in _WORD.findall(text)}
         of_start = (name for name in self.sampler.free_parameters if name in words and name not in self.sampler.gravities)
-        return "t" in said or any(not re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in of_start)
+        return "t" in said or any(not _named(name, self.mechanics) for name in of_start)
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""
@@ -182,7 +187,7 @@ class StatementSymbols:
 
     def _turns(self, parameter: Sym) -> bool:
         """Whether a parameter without a unit stands in a sine or cosine of the model."""
-        return bool(re.search(rf"\b(sin|cos|tan)\((?:[^()]*[^\w.])?{re.escape(parameter.name)}(?![\w.])", self._mechanics))
+        return bool(re.search(rf"\b(sin|cos|tan)\((?:[^()]*[^\w.])?{re.escape(parameter.name)}(?![\w.])", self.mechanics))
 
     @cached_property
     def _turning(self) -> frozenset[Sym]:
@@ -193,7 +198,7 @@ class StatementSymbols:
     @cached_property
     def _parameters(self) -> list[Sym]:
         there = self.symbols.of_kind("parameter", "gravity")  # of them those that are said, or more than numbers of the start
-        used = (name == "g" or re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", self._mechanics) for name in there)
+        used = (name == "g" or _named(name, self.mechanics) for name in there)
         start = self._of_instant or bool(self.sampler.own.moment)  # then its numbers count, too
         derived = {parameter["name"] for parameter in self.sampler.spec["parameters"] if isinstance(parameter["value"], str)}
         named = {n.name for n in self.used} | derived
@@ -211,11 +216,12 @@ class StatementSymbols:
         return [n for n in dict.fromkeys(found) if first[self._one(n).texts] == n]
 
     @cached_property
-    def _mechanics(self) -> str:
+    def mechanics(self) -> str:
+        """What of the model, as text, decides how it moves from a given start."""
         spec = self.sampler.spec
         given = {k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")}
         used = json.dumps(given, ensure_ascii=False)
-        used += json.dumps([point["at"] for point in spec["points"] if f'"{point["name"]}"' in used], ensure_ascii=False)
+        used += json.dumps([point["at"] for point in spec["points"] if _named(point["name"], used)], ensure_ascii=False)
         for parameter in reversed(spec["parameters"]):
             if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
                 used += " " + parameter["value"]
@@ -332,3 +338,8 @@ class Case:
 def _meant(texts: Iterable[str]) -> tuple[str, ...]:
     """Expressions of the model language, one name in one spelling: without brackets, tensions by what they are in."""
     return tuple(_TENSION.sub(r"\1.tension", _BRACKETS.sub(r"\1", text)) for text in texts)
+
+
+def _named(name: str, text: str) -> bool:
+    """Whether a name stands in an expression or a list of them."""
+    return re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", text) is not None

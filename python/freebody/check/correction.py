@@ -30,6 +30,7 @@ from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
 from .momentum_edits import momentum_edits
 from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
+from .senses import one_sense
 from .slips import is_constraint, why
 from .stated import Correction, stated
 
@@ -66,6 +67,8 @@ _BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
+_IN_OTHER_LETTERS = ("missing term", "missing factor", "symbol", "rates")
+"""What may stand in the place of the same part of an equation of motions alone in many letters."""
 _REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"), ("derivative", "missing factor"))
 """Pairs that take something away and put another in its place: no correction."""
 FROM_START = "motions from the start of this model"
@@ -106,6 +109,8 @@ def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator
     for names in (*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())):
         held = replace(given, held=(*given.held, *((name, 0.0) for name in names)))
         families.append((held, ", ".join(f"{name} = 0" for name in names)))
+    if forward := one_sense(case, equation):
+        families.append(forward[::-1])
     parts = rows(equation)
     if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE, part))):
         yield from whole
@@ -307,7 +312,7 @@ class _Search:
     def _place(self, found: _Found) -> tuple[Any, ...]:
         """Which part of an equation of motions alone is another: what stands there is the same in all letters."""
         (first, *others) = found.edits
-        if others or first.kind not in ("missing term", "symbol", "rates") or not self.case.is_kinematic(found.after):
+        if others or first.kind not in _IN_OTHER_LETTERS or not self.case.is_kinematic(found.after):
             return ()
         return (first.kind, id(first.old))
 

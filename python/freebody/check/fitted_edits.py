@@ -11,17 +11,18 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, unsigned, walk
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
+from .inertia_edits import about_another_point, wheels
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
-from .roots import rooted
+from .roots import other_sides, rooted
 from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, required_terms
 from .spans import proportional, spanning
@@ -79,7 +80,10 @@ class FittedEdits:
             if required.addend or id(node) in below_roots:
                 yield from self._forgotten(equation, required)
                 yield from self._factors(equation, required)
+                turned = about_another_point(required, self._monomials(equation))
+                yield from (Edit.at(equation, "factor", node, new) for new in turned)
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
+            yield from (Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary))
             yield from self._squares.edits(equation, required)
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
@@ -341,6 +345,9 @@ class FittedEdits:
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self.dictionary(equation, NUMBER_ONLY)
+            turning, of_turning = wheels(equation, self.vocabulary, self.values)
+            if self._of(equation) == FORCE:
+                nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
             for pair in self.within(spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]

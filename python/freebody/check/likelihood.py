@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from functools import cached_property
@@ -59,6 +60,7 @@ _PRESSES = 0.3  # for a force in the place of a weight, of which the equation di
 _INSIDE = 0.25  # for a part of a bracket that has no place there: what is too much mostly stands by itself
 _BOUND = 0.2  # for a term that is lacking at one instant, where many are equal
 _UNDECLARED = 0.6  # for a reaction without a letter in the place of a weight
+_TAKEN_OUT = 0.2  # for a reaction in an equation of motion of several masses: what turns as well is likelier forgotten
 _NEW_RATE = 0.05  # for a rate of which the equation did not speak, which is easily taken for another
 _NEW = 0.15  # for any other quantity of which it did not speak, more for a force
 _OTHER_LETTER = 0.2  # more, for a force or a moment in the place of one that differs by more than its index
@@ -187,12 +189,14 @@ class Likelihood:
         gained = [base for base, n in after.items() if n and not before.get(base)]
         strange = len(places) + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
         divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
-        return _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
+        bound = _BOUND * (self._at_instant and bool(unsaid))
+        return bound + _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:
         strange = len([*self._strange(term, kind == "missing term")])
         again = kind == "missing term" and self._is_there(term)
         size = _NEW * strange + _ODD * again + self._mixture(term)
+        size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)
 
     def _strange(self, term: Node, missing: bool) -> Iterator[Node]:
@@ -225,6 +229,18 @@ class Likelihood:
         if any(isinstance(side.base if isinstance(side, Pow) else side, Sym) for side in self._sides):
             return False
         return term.symbols <= {*self.vocabulary.parameters} and len([n for n in unsaid if n.name != "g"]) > 1
+
+    def _is_reaction(self, symbol: Sym) -> bool:
+        return symbol in self.vocabulary.others and self.vocabulary.dimension(symbol) in (FORCE, ENERGY)
+
+    @cached_property
+    def _moves_as_one(self) -> bool:
+        """Whether it is an equation of motion of several masses, from which reactions have been taken out."""
+        known, together = self.vocabulary, Counter[Sym]()
+        for term in self._expanded:
+            masses = [n for n in term.symbols if known.dimension(n) == MASS]
+            together.update(n for n in term.symbols if masses and known.dimension(n) == _ACCELERATION and n not in known.parameters)
+        return not self._has_load and max(together.values(), default=0) > 1
 
     @cached_property
     def _loads(self) -> list[Sym]:

@@ -47,7 +47,8 @@ def momentum_edits(equation: Equation, vocabulary: Vocabulary, values: Mapping[s
     ]
     found = [[_momentum(sign, term, vocabulary) for sign, term in side] for side in sides]
     momenta = [each for side in found for each in side if each is not None]
-    if len(momenta) < sum(map(len, sides)) or len(momenta) < 2:
+    heavy = any((its := vocabulary.dimension(n)) is not None and its.mass for n in equation.symbols)
+    if len(momenta) < sum(map(len, sides)) or len(momenta) < 2 or not heavy:
         return
     lengths = [n for n in (*vocabulary.parameters, *vocabulary.coordinates) if vocabulary.dimension(n) == LENGTH]
     leaning: list[tuple[Node, ...]] = [(), *((Fn(name, (angle,)),) for angle in vocabulary.angles for name in ("sin", "cos"))]

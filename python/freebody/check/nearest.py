@@ -6,15 +6,19 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from itertools import islice
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from freebody.equations import Nomenclature as Printed
 from freebody.equations import Tree, equation_text, read, symbols
 from freebody.equations.balances.system import Problem, groups, problem
 from freebody.equations.balances.virtual_motions import named_motions
 from freebody.symbolic.dimensions import FORCE
-from freebody.symbolic.tree import ZERO, Add, Negative, Node, Num, Sym, is_zero
+from freebody.symbolic.evaluate import sampled
+from freebody.symbolic.tree import ZERO, Add, Fn, Negative, Node, Num, Sym, exchange, is_zero, walk
 
 from .beside import Difference, Letters, difference, said_terms
 from .edits import Edit
@@ -22,6 +26,7 @@ from .families import NoMotion
 from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
+from .powers import powers_of, written
 from .residual import HOLDS, residual
 from .slips import why
 from .stated import Correction
@@ -135,7 +140,8 @@ def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correc
     """The statement with all that it lacks of a balance, if that is all."""
     if found is None or found.strange or not found.missing or found.common < _COMMON or len(found.missing) > _MOST_MISSING:
         return None
-    lost = _sum([term.of if isinstance(term, Negative) else Negative(term) for term in found.missing])
+    lost = _gathered([term.of if isinstance(term, Negative) else Negative(term) for term in found.missing])
+    lost = _with_letters(lost, case)
     after = Equation(equation.left, lost if is_zero(equation.right) else _sum([equation.right, lost]))
     if not {n.key for n in symbols_in(after)} <= case.values().keys():
         return None  # it has symbols that nothing confirms
@@ -145,6 +151,27 @@ def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correc
     reasons = (why(Edit("missing term", None, term, after), equation, vocabulary) for term in found.missing)
     size = 1.0 + _EACH * len(found.missing)
     return Correction((("missing term", "", spell(lost)),), spell(after), size, why="; ".join(dict.fromkeys(reasons)))
+
+
+def _with_letters(node: Node, case: Case) -> Node:
+    """What is written with roots, with a letter for each that has one."""
+    values, letters = case.values(), case.meaning.vocabulary.letters
+    known = {n: values[n.key] for n in letters if n.key in values}
+    for root in [n for n in walk(node) if isinstance(n, Fn) and n.name == "sqrt" and {k.key for k in n.symbols} <= values.keys()]:
+        size = sampled(root, values)
+        letter = next((n for n, value in known.items() if value.shape == size.shape and np.allclose(value, size)), None)
+        node = exchange(node, root, letter) if letter else node
+    return node
+
+
+def _gathered(parts: Sequence[Node]) -> Node:
+    """The sum of terms, what all have in common before it."""
+    found = [powers_of(part) for part in parts]
+    common = dict(reduce(lambda one, other: one & other, (set(powers.items()) for _, powers in found)))
+    if len(parts) < 2 or not common:
+        return _sum(parts)
+    rest = [written(number, {base: n for base, n in powers.items() if base not in common}) for number, powers in found]
+    return written(1.0, {**common, _sum(rest): 1})
 
 
 def _sum(parts: Sequence[Node]) -> Node:

@@ -33,6 +33,8 @@ def powers_of(node: Node, own: Mapping[Sym, Node] = NOTHING) -> tuple[float, dic
             if n.denominator == 1:
                 number, powers = powers_of(base, own)
                 return number ** int(n), {each: int(n) * m for each, m in powers.items()}
+            if n.denominator == 2:
+                return 1.0, {Fn("sqrt", (_sum(base, own),)): n.numerator}
         case Fn(name=name, args=args):
             return 1.0, {Fn(name, tuple(_sum(arg, own) for arg in args)): 1}
         case Add():

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from freebody.symbolic.tree import Add, Fn, Mul, Node, Num, Pow, Quotient
+from freebody.symbolic.dimensions import LENGTH
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym
 
 from .solve_for_term import RequiredTerm
+from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative: below it two values are one
 
@@ -24,3 +27,16 @@ def rooted(required: RequiredTerm) -> Iterator[Node]:
         yield Fn("sqrt", (node,), span=node.span)
     elif isinstance(node, Add | Mul | Quotient) and np.allclose(needed, value**2, rtol=_SAME, atol=0):
         yield Pow(node, Num(2.0, "2"), span=node.span)
+
+
+def other_sides(required: RequiredTerm, values: Mapping[str, Array], vocabulary: Vocabulary) -> Iterator[Node]:
+    """Another side of the right triangle of which a length is one and a second length another."""
+    own, needed, known = required.node, required.needed, vocabulary
+    if not isinstance(own, Sym) or known.parameters.get(own) != LENGTH or needed.ndim != 1 or not np.all(needed > 0):
+        return
+    square = lambda n: Pow(n, Num(2.0, "2"))
+    for other in (n for n, its in known.parameters.items() if its == LENGTH and n != own):
+        a, b, one, two = square(own), square(other), required.value**2, values[other.key] ** 2
+        for sides, value in (((a, Negative(b)), one - two), ((a, b), one + two), ((b, Negative(a)), two - one)):
+            if np.allclose(value, needed**2, rtol=_SAME, atol=0):
+                yield Fn("sqrt", (Add(sides),), span=own.span)

@@ -29,6 +29,7 @@ from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import SAMPLES
 from .nearest import nearest
 from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, sizes, unreached
+from .senses import one_sense
 from .stated import Correction
 
 if TYPE_CHECKING:
@@ -267,7 +268,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     """Under an assumption that a person would make; else wrong, with its corrections, also where what was left out would be 0 at
     rest or without a part of the model."""
     seen = evidence(found, case.values())
-    if plainly := _from_start(case, equation) or _as_figures(case, equation):
+    if plainly := _of_one_sense(case, equation) or _from_start(case, equation) or _as_figures(case, equation):
         return plainly
     placed = any(n in case.meaning.vocabulary.coordinates for n in symbols_in(equation))
     if placed and case.sampler.rolls_in_loop and _stays(case, equation):
@@ -302,6 +303,14 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     what = reason or ("" if case.budget.spent else "no single or double edit corrects it")
     true, differs = (near.text, near.differs) if near else ("", "")
     return Verdict(Kind.WRONG, text, what, first, evidence=seen, true=true, differs=differs)
+
+
+def _of_one_sense(case: Case, equation: Equation) -> Verdict | None:
+    """That it is true where rates have one sense, if what acts depends on it; else None."""
+    words, family = one_sense(case, equation) or ("", None)
+    if family is None or not of_family(case, equation, family, _GLANCE) or not of_family(case, equation, family):
+        return None
+    return Verdict(Kind.TRUE_IF, case.program.text, f"true only if: {words}", words)
 
 
 def _from_start(case: Case, equation: Equation) -> Verdict | None:
