@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array, State
+from freebody.core import Array, MotionError, State
 
 from .families import Family, NoMotion
 
@@ -40,7 +40,7 @@ def arranged(
         if not model.vanishes(text, state):
             try:
                 state = _vanished(model, text, state, [] if family.at_rest else list(rates), kept)
-            except NoMotion:
+            except (NoMotion, MotionError):
                 if (found := _fitted(model, text, state, values)) is None:
                     raise
                 state = found

@@ -56,6 +56,7 @@ OWN_NUMBERS = "these numbers of the model"
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
 IN_EQUILIBRIUM = "in equilibrium"
+AT_CONSTANT_SPEED = "at constant speed"
 _INFINITE = ("inf", "infinity", "∞", "oo")
 _FAR = (1e3, 1e6)
 """Factors at which a limit is tried."""
@@ -275,7 +276,7 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
     if not parts:
         raise ModelProblem("the hypothesis is empty", f"write one, like `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(WORDS)}")
     if any("=" in part for part in parts):  # for a solid disk, k² = ½ R²: less is taken for granted without the words
-        known = {*WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM}
+        known = {*WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM, AT_CONSTANT_SPEED}
         parts = [part for part in parts if part in known or not _WORDS_ALONE.fullmatch(part)]
     each = [one for part in parts for one in _each(part)]
     return reduce(lambda given, part: _also(given, part, checker, declared), each, checker.hypothesis)
@@ -296,9 +297,9 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         named = zip(checker.sampler.names, places.tolist(), free, strict=True)
         near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))
-    if part == IN_EQUILIBRIUM:
+    if part in (IN_EQUILIBRIUM, AT_CONSTANT_SPEED):
         still = (f"accel({spell(name)})" for name in checker.sampler.names)
-        return replace(given, at_rest=True, vanishing=(*given.vanishing, *still))
+        return replace(given, at_rest=given.at_rest or part == IN_EQUILIBRIUM, vanishing=(*given.vanishing, *still))
     if part in WORDS:
         return replace(given, **WORDS[part])
     if lost := {"without damping": checker.sampler.dampings, "without friction": checker.sampler.frictions}.get(part):

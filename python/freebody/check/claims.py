@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import State, Trajectory
+from freebody.core import MotionError, State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
 from freebody.solve.perturbed_states import independent
@@ -250,13 +250,17 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     """The same at all times of each motion, until it goes on in another mode; of motions from the start, until something switches."""
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
-    worst, seen, lost, runs = 0.0, None, "", []
+    worst, seen, lost, runs, broken = 0.0, None, "", [], None
     # What a hypothesis makes 0 has no size of its own there, only round-off.
     usual = float(np.median(magnitude(node, case.values(ALL)))) if case.hypothesis.vanishing else 0.0
     for sample in case.samples(count=_RUNS).states:
         if len(runs) >= _ENOUGH and worst > _CLEARLY and not case.correcting:
             break
-        along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
+        try:
+            along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
+        except MotionError as error:  # with these numbers what switches on it cannot be carried through
+            broken = error
+            continue
         values = case.meaning.values(along)
         runs.append(values)
         value, size = sampled(node, values), magnitude(node, values)
@@ -266,6 +270,8 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
         if spread >= worst:
             worst, lost = spread, change
             seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
+    if broken and not runs:
+        raise broken
     if worst < _STEADY:
         return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
     if case.hypothesis == ALL and case.sampler.starts_to_move:  # a momentum that is 0 keeps mass centres where they are

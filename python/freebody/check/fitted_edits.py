@@ -83,7 +83,9 @@ class FittedEdits:
                 turned = about_another_point(required, self._monomials(equation))
                 yield from (Edit.at(equation, "factor", node, new) for new in turned)
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
-            yield from (Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary))
+            yield from (
+                Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
+            )
             yield from self._squares.edits(equation, required)
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):

@@ -239,7 +239,9 @@ class Likelihood:
         known, together = self.vocabulary, Counter[Sym]()
         for term in self._expanded:
             masses = [n for n in term.symbols if known.dimension(n) == MASS]
-            together.update(n for n in term.symbols if masses and known.dimension(n) == _ACCELERATION and n not in known.parameters)
+            together.update(
+                n for n in term.symbols if masses and known.dimension(n) == _ACCELERATION and n not in known.parameters
+            )
         return not self._has_load and max(together.values(), default=0) > 1
 
     @cached_property

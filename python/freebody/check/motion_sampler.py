@@ -211,7 +211,7 @@ class MotionSampler(AskedModel):
             return None, start
         rates = self._rates(rng, family)
         state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
-        return self._judging(arranged(self, conditions, state, rates, family)), start
+        return self._judging(arranged(self, conditions, state, rates, family, values)), start
 
     def _judging(self, state: State) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""

@@ -37,6 +37,9 @@ _NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
+_UNIFORM = re.compile(
+    r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speed|velocity|motion)|(?:moving\s+)?uniformly"
+)
 _SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
 _SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
 """``small θ:``, ``for small φ and s:``; a small block is no angle."""
@@ -103,6 +106,10 @@ _NAMED_VALUE = re.compile(r"([a-z ]+?)\s*(?::|\bis\b)\s*([^=:;\n]+)")
 _FROM_TO = re.compile(
     r"(∫|\\int)(?![_^])([^=;\n]*?\bd\s*\\?\w+)\s+from\s+(?:\w+\s*=\s*)?(\S+)\s+to\s+(?:\w+\s*=\s*(?=\S+\s*=))?(\S+)"
 )
+_INSIDE = r"((?:[^()\[\]=:;\n]|[(\[][^()\[\]=:;\n]*[)\]])*)"
+_DERIVATIVE = re.compile(rf"(?<![\w\\])d(²?)\s*[(\[]{_INSIDE}[)\]]\s*/\s*dt\1(?![\w²])")
+_FRACTION = re.compile(rf"\\[dt]?frac\s*\{{\s*d\s*[(\[]{_INSIDE}[)\]]\s*\}}\s*\{{\s*dt\s*\}}")
+"""``d(m v)/dt``, the derivative of what stands in brackets."""
 
 
 def with_condition_first(text: str) -> str:
@@ -110,7 +117,7 @@ def with_condition_first(text: str) -> str:
     said = _FROM_TO.sub(
         r"\1_{\3}^{\4}\2", _COMPONENT.sub(lambda found: _component(*found.groups()), _DISPLAYED.sub("", text).strip())
     )
-    said = _NOTHING.sub(r"\1:", said)
+    said = _NOTHING.sub(r"\1:", _FRACTION.sub(r"d/dt(\1)", _DERIVATIVE.sub(r"d\1/dt\1(\2)", said)))
     if said.startswith("limit:"):
         return said
     if found := _PLUS_CONSTANT.fullmatch(said):
@@ -215,6 +222,8 @@ def _condition(part: str) -> str:
         return "in equilibrium"
     if _STEADY.fullmatch(said):
         return "in the steady state"
+    if _UNIFORM.fullmatch(said):
+        return "at constant speed"
     if found := _THROUGHOUT.fullmatch(said):  # so are its rates
         return f"{found[1]} = {found[2]}, ({found[1]})' = ({found[2]})'"
     return "at rest" if said == "rest" else said
