@@ -28,7 +28,7 @@ def powers_of(node: Node, own: Mapping[Sym, Node] = NOTHING) -> tuple[float, dic
         case Quotient(top=top, bottom=bottom):
             number, powers = powers_of(bottom, own)
             return _times([powers_of(top, own), (1 / number, {base: -n for base, n in powers.items()})])
-        case Pow(base=base, exponent=exponent):
+        case Pow(base=base, exponent=Num() | Fraction() as exponent):
             n = Fraction(exponent.value if isinstance(exponent, Num) else exponent)
             if n.denominator == 1:
                 number, powers = powers_of(base, own)
