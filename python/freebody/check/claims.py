@@ -176,6 +176,8 @@ def _vibrations(checker: Checker, declared: Declared) -> list[str]:
     known = checker.symbols(declared)
     with suppress(StatementError, ModelProblem):
         known.read(f"ω{numbers[0]} = 0")
+    if not count:
+        raise ModelProblem("no place of rest was found about which this model swings with small vibrations")
     if isinstance(known.meanings.get(f"ω{numbers[0]}"), OfVibration | None):
         return [f"ω{number}" for number in numbers]
     return [f"natural_frequency{number.removesuffix('_n')}" for number in numbers]
