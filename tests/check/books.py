@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -103,6 +103,7 @@ class Book:
         places = cases[0].elsewhere(values)
         if all(residual(each, places).worst < HOLDS for each in (one, other)):  # both are what the model defines a letter to be
             places = cases[0].elsewhere(values, bound=False)
+        places = _tied(places, values, {n.key for each in (one, other) for n in symbols_in(each)} - cases[0].meaning.given())
         at = {n: places[n.key] for n in (*symbols_in(one), *symbols_in(other))}
         scalar = all(np.ndim(value) < 2 for value in at.values())
         if scalar:  # not every root has a value
@@ -159,6 +160,16 @@ class Book:
         self.checker.correcting = correcting
         for statement in self.data["statements"]:
             yield Said(self.name, statement, judged_alone(self.checker, statement["says"]))
+
+
+def _tied(places: Mapping[str, Array], values: Mapping[str, Array], moving: Iterable[str]) -> dict[str, Array]:
+    """The same places with one value for letters that are one on all motions: the rate of an angle, and the angular velocity of its body."""
+    out: dict[str, Array] = dict(places)
+    said = [key for key in sorted(moving) if key in values and key in places]
+    for i, key in enumerate(said):
+        first = next((k for k in said[:i] if values[k].shape == values[key].shape and np.allclose(values[k], values[key])), None)
+        out[key] = out[first] if first else out[key]
+    return out
 
 
 def _proportional(one: Equation, other: Equation, places: Mapping[str, Array]) -> bool:

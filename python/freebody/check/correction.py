@@ -19,6 +19,7 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, unsigned, walk
 
 from .coefficients import tidied
+from .component_edits import component_edits
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
 from .energy_terms import energy_edits
@@ -131,19 +132,21 @@ def _of_row(
         return
     tried: list[list[_Found]] = [[] for _ in searches]
     some: list[tuple[list[_Found], str]] = []
+    least = np.inf
     for step in steps:
         late = _from_start(case, row, families, part) if step is _Search.pairs else []
-        if late and (not some or late[0].size + _OF_START < some[0][0][0].size):
+        if late and late[0].size + _OF_START < least:
             yield from late
             return
-        some = []
+        some, least = [], np.inf
         for (search, given), seen in zip(searches, tried, strict=True):
             seen += step(search)
             if found := search.best(seen):
                 some.append((found, given))
+                least = min(least, search.likely_size(found[0]))
                 if found[0].size <= _LIKELIEST:  # no smaller one is in a narrower family
                     break
-        if some and (some[0][0][0].size < _LIKELY or step is steps[-1]):
+        if some and (least < _LIKELY or step is steps[-1]):
             found, given = min(some, key=lambda pair: pair[0][0].size)
             yield from (each.correction(given, searches[0][0].why(each)) for each in found)
             return
@@ -215,12 +218,14 @@ class _Search:
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def energies(self) -> Iterator[_Found]:
-        """All terms that it lacks of an energy."""
-        yield from (_Found((edit,)) for edit in self._promising(energy_edits(self.case, self.equation, self.family)))
+        """All terms that it lacks of an energy, and all inertias that turn as one."""
+        found = chain(energy_edits(self.case, self.equation, self.family), self.fits.as_one(self.equation))
+        yield from (_Found((edit,)) for edit in self._promising(found))
 
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
-        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
+        both = chain(self.fits.two_missing(self.equation), component_edits(self.equation, self.few, self.vocabulary))
+        yield from (_Found((edit,)) for edit in self._promising(both))
         every = list(self.within(chain(*(of(self.equation, self.vocabulary) for of in (edits, forgotten_factors)))))
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
@@ -284,7 +289,7 @@ class _Search:
             while waiting and waiting[0][0] < each.size - PARTNER:
                 size, _, _, first = heappop(waiting)
                 yield size, first
-            heappush(waiting, (self._size(each), depth(each.after), i, each))
+            heappush(waiting, (self.likely_size(each), depth(each.after), i, each))
         yield from ((size, each) for size, _, _, each in sorted(waiting))
 
     def _changes_the_subject(self, found: _Found) -> bool:
@@ -293,7 +298,9 @@ class _Search:
         own = {n.key for n in symbols_in(found.after)}
         solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
         lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
-        mechanics = any(its is not None and (its.mass or its.time == -2) for its in lost)
+        of_mechanics = lambda its: its is not None and bool(its.mass or its.time == -2)
+        kept = any(of_mechanics(self.vocabulary.dimension(n)) for n in symbols_in(found.after))
+        mechanics = any(map(of_mechanics, lost)) and not kept
         two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
         gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
         given = two and any((its := self.vocabulary.dimension(n)) is not None and its.time for n in gone)
@@ -321,7 +328,7 @@ class _Search:
         nothing was said, long, and large."""
         sides = [unsigned(side) for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
-        length = len(spell(tidied(found.after))) + _WORTH * self._size(found)
+        length = len(spell(tidied(found.after))) + _WORTH * self.likely_size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
         solved = any(edit.old in alone and edit.old is not None for edit in found.edits) or self._is_no_answer(found.after)
@@ -353,7 +360,7 @@ class _Search:
         """What was wrong, a sentence for each edit."""
         return "; ".join(dict.fromkeys(filter(None, (why(edit, self.equation, self.vocabulary) for edit in found.edits))))
 
-    def _size(self, found: _Found) -> float:
+    def likely_size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
         new = symbols_in(found.after)
         if self._is_of_other_dimension(found.after) or any(n.key not in self.said and not np.any(self.few[n.key]) for n in new):

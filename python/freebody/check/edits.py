@@ -44,6 +44,7 @@ _LARGER = {
     "extra term": 0.1,
     "missing term": 0.2,
     "convention": 0.1,
+    "components": 0.3,
     "other term": 1.3,
 }
 """By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
@@ -178,6 +179,10 @@ def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
 
 def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[str, Node]]:
     """The square of a sum for the sum of squares, and one fraction for those of each: what is not linear, taken term by term."""
+    calls = {n: Fn(_OTHER[n.name], n.args) for n in walk(Add(terms)) if isinstance(n, Fn) and n.name in _OTHER}
+    if len(calls) > 1 and len({n.name for n in calls}) == 1:  # how far it moves along the other direction
+        turned = _exchanged(Add(terms, span=span), calls)
+        yield from (("function", new) for new in (turned, Negative(turned, span=span)))
     two = Num(2.0, "2")
     if all(isinstance(term, Pow) and term.exponent == two for term in terms):
         yield "power", Pow(Add(tuple(term.base for term in terms if isinstance(term, Pow))), two, span=span)

@@ -17,7 +17,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
-from .inertia_edits import about_another_point, wheels
+from .inertia_edits import about_another_point, of_whole, wheels
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
@@ -37,6 +37,7 @@ _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sig
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
+_AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
@@ -136,7 +137,9 @@ class FittedEdits:
         for place in np.flatnonzero(np.abs(off).max(axis=1, initial=0.0) <= _SAME * np.abs(needed).max()).tolist():
             a, b = pairs[place]
             its, fixed = self.vocabulary.dimension(own), [n in self.vocabulary.parameters for n in (a, unsigned(b))]
-            if own in (a, unsigned(b)) and (its == LENGTH or all(fixed) or not any(fixed)):  # no g + ÿ
+            if (own in (a, unsigned(b)) or (its == LENGTH and all(fixed))) and (
+                its == LENGTH or all(fixed) or not any(fixed)
+            ):  # no g + ÿ
                 found = Add((a, b), span=node.span)
                 size = 0.2 if own in self.vocabulary.parameters else 0.0 if isinstance(node, Mul) else 0.1
                 yield Pow(found, node.exponent) if isinstance(node, Pow) else found, size
@@ -309,10 +312,9 @@ class FittedEdits:
             sizes = known.sizes
             sums = [n for n in walk(equation) if isinstance(n, Add) and {unsigned(term) for term in n.terms} <= {*sizes}]
             lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
-            pairs = combinations(lengths[:_MOST_LENGTHS], 2)
+            alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
-            pairs = [Add((a, c)) for a, b in pairs for c in (Negative(b), b)]
-            pairs += [Add(pair) for pair in combinations(masses[:_MOST_LENGTHS], 2)]
+            alike += [Add((a, c)) for a, b in combinations(lengths[:_MOST_LENGTHS], 2) for c in (Negative(b), b)]
             own = [n for n in bases if n in said]
             moving = [n for n in said if n in known.others]
             if not any(isinstance(unsigned(side), Sym) for side in (equation.left, equation.right)):  # no answer
@@ -322,7 +324,7 @@ class FittedEdits:
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
             shapes = (shape for shape in every if not any(map(self._is_number, shape)))
             self._terms[equation] = Monomials(
-                self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *pairs, *bases)), shapes, self.blur
+                self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *alike, *bases)), shapes, self.blur
             )
         return self._terms[equation]
 
@@ -339,6 +341,16 @@ class FittedEdits:
         first = unsigned(term.top if isinstance(term, Quotient) else term)
         its = self._of(equation)
         return (its is None or its.mass != 0) and bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
+
+    def as_one(self, equation: Equation) -> Iterator[Edit]:
+        """A side that lacks several inertias that turn as one."""
+        with np.errstate(all="ignore"):
+            sides = [each for each in required_terms(equation, self.values) if each.node in (equation.left, equation.right)]
+            required = next((each for each in sides if not isinstance(each.node, Sym)), None)
+            if required is not None and required.missing.ndim == 1:
+                for term in self.within(of_whole(equation, required.missing, self.vocabulary, self.values)):
+                    after = exchange(equation, required.node, more(required.node, term))
+                    yield Edit("missing term", None, term, after, _AS_ONE)
 
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import combinations, product
 
 import numpy as np
 
-from freebody.symbolic.dimensions import INERTIA, LENGTH, TIME
+from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, Num, Pow, Quotient
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym
 
-from .coefficients import multiplied, product
+from .coefficients import multiplied
+from .coefficients import product as product_of
 from .language.statements import Equation, symbols_in
 from .monomials import Monomials
 from .powers import powers_of
@@ -20,7 +22,9 @@ from .vocabulary import Vocabulary
 _ABOUT_CENTRE = {1 / 3: 1 / 4, 4 / 3: 1 / 4, 3 / 2: 1 / 3, 5 / 4: 1 / 5, 7 / 5: 2 / 7}
 """By the number of an inertia about an end or the rim, its share that is about the mass centre: of bars, disks, rods of length 2 l, and balls."""
 _MOST_WHEELS = 4
-_ACCELERATION = LENGTH.times(TIME, -2)
+_MOST_INERTIAS = 40
+_SAME = 1e-8  # relative: below it two values are one
+_ACCELERATION, _SPIN = LENGTH.times(TIME, -2), NUMBER_ONLY.times(TIME, -1)
 
 
 def about_another_point(required: RequiredTerm, terms: Monomials) -> Iterator[Node]:
@@ -46,9 +50,40 @@ def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Arra
     known = vocabulary
     moves = [n for n in symbols_in(equation) if known.dimension(n) == _ACCELERATION and n not in known.parameters]
     inertias, lengths = ([n for n in known.parameters if known.dimension(n) == its] for its in (INERTIA, LENGTH))
-    square = lambda n: Pow(n, Num(2.0, "2"))
     found: list[Node] = [
-        Quotient(product([J, a]), square(r)) for a in moves for J in inertias[:_MOST_WHEELS] for r in lengths[:_MOST_WHEELS]
+        Quotient(product_of([J, a]), _square(r)) for a in moves for J in inertias[:_MOST_WHEELS] for r in lengths[:_MOST_WHEELS]
     ]
     count = len(next(iter(values.values())))
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
+
+
+def of_whole(equation: Equation, missing: Array, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
+    """What an energy lacks of several inertias that turn as one, ½ (I + J + μ ρ²) ω², or a moment, (I + J + μ ρ²) α."""
+    known = vocabulary
+    rates = [n for n in (*(Sym(q.name, 1) for q in known.coordinates), *known.others) if known.dimension(n) == _SPIN]
+    moves: list[Node] = [Quotient(_square(n), Num(2.0, "2")) for n in rates]
+    moves += [n for n in symbols_in(equation) if n not in known.parameters and known.dimension(n) == _SPIN.times(TIME, -1)]
+    masses, lengths, inertias = ([n for n in known.sizes if known.dimension(n) == its] for its in (MASS, LENGTH, INERTIA))
+    found: list[Node] = [*inertias, *(Mul((mass, _square(length))) for mass in masses for length in lengths)][:_MOST_INERTIAS]
+    rows = np.array([sampled(node, values) for node in found])
+    for move, sign in product(moves, (1.0, -1.0)):
+        needed = sign * missing / sampled(move, values)
+        if np.isfinite(needed).all() and np.all(needed > 0):
+            for some in _adding_up(rows, needed):
+                term = Mul((Add(tuple(found[i] for i in some)), move))
+                yield term if sign > 0 else Negative(term)
+
+
+def _adding_up(rows: Array, needed: Array) -> Iterator[tuple[int, ...]]:
+    """Two or three rows of which something is the sum."""
+    nothing = _SAME * np.abs(needed).max()
+    for i, j in combinations(range(len(rows)), 2):
+        rest = needed - rows[i] - rows[j]
+        if np.abs(rest).max() <= nothing:
+            yield i, j
+        elif np.all(rest > 0):
+            yield from ((i, j, k) for k in np.flatnonzero(np.abs(rows - rest).max(axis=1) <= nothing).tolist() if k > j)
+
+
+def _square(node: Node) -> Node:
+    return Pow(node, Num(2.0, "2"))

@@ -221,6 +221,9 @@ class Likelihood:
             yield from [symbol] * 2 * (symbol.dots == 2 and self._is_solved_for_another(symbol))
         if self._is_part_of_mass(term) or self._is_of_another(term):
             yield term
+        rates = [n for n in term.symbols if known.is_rate(n)]
+        if missing and len(rates) > 1 and new and not all(Sym(n.name) in known.coordinates for n in rates):
+            yield from [term] * 4  # energies have products of the rates of coordinates alone
 
     def _is_of_another(self, term: Node) -> bool:
         """Whether it is of parameters alone, and of two or more of which nothing was said: in a balance, of which no side is an answer, a letter

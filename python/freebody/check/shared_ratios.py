@@ -28,7 +28,7 @@ _MOST = 6  # terms of an equation of which two are thought of together
 def shared_ratios(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabulary, blur: float = 1.0) -> Iterator[Edit]:
     """Two terms, wherever they stand, that lack the same ratio, as what turns behind a gear does and what acts on it."""
     required = next(required_terms(equation, values), None)
-    addends = _addends(equation)
+    addends = addends_of(equation)
     if required is None or required.missing.ndim != 1 or not 3 < len(addends) <= _MOST:
         return
     parts = [sign * sampled(term, values) for term, sign in addends]
@@ -47,7 +47,7 @@ def shared_ratios(equation: Equation, values: Mapping[str, Array], vocabulary: V
             yield Edit("convention", None, factor, after, words=words)
 
 
-def _addends(equation: Equation) -> list[tuple[Node, int]]:
+def addends_of(equation: Equation) -> list[tuple[Node, int]]:
     """The terms of both sides, with the sign that each has where all stand on the left."""
     found = []
     for side, sign in ((equation.left, 1), (equation.right, -1)):

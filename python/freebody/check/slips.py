@@ -25,10 +25,10 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
         return "the constraint between these motions is another: count what moves along, and differentiate it term by term"
     if edit.kind == "factor" and _is_of_inertia(edit.old, equation, vocabulary):
         return "the moment of inertia is about another point: I about P is I_G + m d²"
-    return _WHY.get(edit.kind, "")
+    return WHY.get(edit.kind, "")
 
 
-_WHY = {
+WHY = {
     "convention": "two things stand for each other throughout",
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",
@@ -46,6 +46,7 @@ _WHY = {
     "inverses": "the inverse of a sum is not the sum of the inverses: springs, masses or inertias count otherwise together",
     "brackets": "what stands behind a fraction is not below it",
     "unit vector": "a vector and a number cannot be equal: a direction is missing",
+    "components": "the components along the direction of the balance are meant: project each force on it",
     "momentum": "an impact takes energy: it is momentum that it keeps, or that about a point through which all its impulses go",
     "other term": "this part is no balance of what acts and moves",
 }

@@ -31,7 +31,7 @@ class Correction:
     def __str__(self) -> str:
         def said(kind: str, before: str, after: str) -> str:
             both = f"{kind}: `{before}` should be `{after}`" if before and after else f"{kind} `{before or after}`"
-            return after if kind in ("convention", "momentum") else both
+            return after if kind in ("convention", "components", "momentum") else both
 
         stated = " and ".join(said(*edit) for edit in self.edits)
         return f"{stated}: {self.equation}" + (f" (with {self.given})" if self.given else "")

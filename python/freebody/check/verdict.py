@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
 
 _FAR = 2.0  # size of a correction from which on one is looked for among the balances
+_FAR_FETCHED = 1.5  # size of a correction from which on what a balance says may be nearer
 _BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
 _SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
@@ -294,9 +295,10 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if not fixes and (small := tiny(case, equation)):
         given, beside = small
         fixes = tuple(replace(each, given=given) for each in islice(corrections(beside, equation, SECOND), MOST))
-    if not fixes or fixes[0].size > _FAR:
+    if not fixes or fixes[0].size > _FAR_FETCHED:
         near = nearest(case, equation)
-        fixes = (near.correction,) if near and near.correction else fixes
+        nearer = near and near.correction and (not fixes or near.correction.size < fixes[0].size)
+        fixes = (near.correction,) if nearer else fixes
     reason, first = (f"it would hold only if: {words}", assumed[0]) if assumed else ("", "")
     if fixes:
         return Verdict(Kind.WRONG, text, reason, first, fixes, seen)
