@@ -219,8 +219,8 @@ class _Search:
 
     def energies(self) -> Iterator[_Found]:
         """All terms that it lacks of an energy, and all inertias that turn as one."""
-        found = chain(energy_edits(self.case, self.equation, self.family), self.fits.as_one(self.equation))
-        yield from (_Found((edit,)) for edit in self._promising(found))
+        found = list(self._promising(energy_edits(self.case, self.equation, self.family)))
+        yield from (_Found((edit,)) for edit in found or self._promising(self.fits.as_one(self.equation)))
 
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""

@@ -295,7 +295,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if not fixes and (small := tiny(case, equation)):
         given, beside = small
         fixes = tuple(replace(each, given=given) for each in islice(corrections(beside, equation, SECOND), MOST))
-    if not fixes or fixes[0].size > _FAR_FETCHED:
+    if not fixes or fixes[0].size > (_FAR_FETCHED if len(fixes[0].edits) == 1 else _FAR):
         near = nearest(case, equation)
         nearer = near and near.correction and (not fixes or near.correction.size < fixes[0].size)
         fixes = (near.correction,) if nearer else fixes
