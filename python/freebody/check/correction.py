@@ -117,7 +117,7 @@ def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator
         yield from whole
         return
     for row in parts:
-        yield from _of_row(case, row, families, (*_SINGLE, _Search.energies, _Search.pairs), part)
+        yield from _of_row(case, row, families, (*_SINGLE, _Search.together, _Search.pairs), part)
 
 
 def _of_row(
@@ -134,10 +134,13 @@ def _of_row(
     some: list[tuple[list[_Found], str]] = []
     least = np.inf
     for step in steps:
-        late = _from_start(case, row, families, part) if step is _Search.pairs else []
-        if late and late[0].size + _OF_START < least:
-            yield from late
-            return
+        if step is _Search.pairs:
+            late = _from_start(case, row, families, part)
+            if late and late[0].size + _OF_START < least:
+                yield from late
+                return
+            if some and min(found[0].size for found, _ in some) < _LIKELY:  # a single one, far-fetched as it may be
+                break
         some, least = [], np.inf
         for (search, given), seen in zip(searches, tried, strict=True):
             seen += step(search)
@@ -146,10 +149,11 @@ def _of_row(
                 least = min(least, search.likely_size(found[0]))
                 if found[0].size <= _LIKELIEST:  # no smaller one is in a narrower family
                     break
-        if some and (least < _LIKELY or step is steps[-1]):
-            found, given = min(some, key=lambda pair: pair[0][0].size)
-            yield from (each.correction(given, searches[0][0].why(each)) for each in found)
-            return
+        if some and least < _LIKELY:
+            break
+    if some:
+        found, given = min(some, key=lambda pair: pair[0][0].size)
+        yield from (each.correction(given, searches[0][0].why(each)) for each in found)
 
 
 def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], part: float) -> list[Correction]:
@@ -158,7 +162,7 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
     if given.since or given.at_rest or given.at_start or given.small or given.scaled:
         return []
     since = replace(given, since="start")
-    return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.energies), part))
+    return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.together), part))
 
 
 class _Search:
@@ -217,15 +221,16 @@ class _Search:
         if self._residual(self.equation, self.few):
             yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
-    def energies(self) -> Iterator[_Found]:
-        """All terms that it lacks of an energy, and all inertias that turn as one."""
+    def together(self) -> Iterator[_Found]:
+        """All terms that it lacks of an energy, or all inertias that turn as one; the components of two forces."""
         found = list(self._promising(energy_edits(self.case, self.equation, self.family)))
-        yield from (_Found((edit,)) for edit in found or self._promising(self.fits.as_one(self.equation)))
+        components = component_edits(self.equation, self.few, self.vocabulary)
+        others = self._promising(chain(() if found else self.fits.as_one(self.equation), components))
+        yield from (_Found((edit,)) for edit in chain(found, others))
 
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
-        both = chain(self.fits.two_missing(self.equation), component_edits(self.equation, self.few, self.vocabulary))
-        yield from (_Found((edit,)) for edit in self._promising(both))
+        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
         every = list(self.within(chain(*(of(self.equation, self.vocabulary) for of in (edits, forgotten_factors)))))
         near = self._nearest(every, _BEST)
         plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
@@ -299,7 +304,7 @@ class _Search:
         solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
         lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
         of_mechanics = lambda its: its is not None and bool(its.mass or its.time == -2)
-        kept = any(of_mechanics(self.vocabulary.dimension(n)) for n in symbols_in(found.after))
+        kept = any(of_mechanics(self.vocabulary.dimension(n)) for n in symbols_in(found.after) if n.key not in solved)
         mechanics = any(map(of_mechanics, lost)) and not kept
         two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
         gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
