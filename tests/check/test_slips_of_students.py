@@ -279,6 +279,57 @@ SLIPS = {
     "a screw in a frequency": ("screw_press", "ω_n² = k/m", "ω_n² = k p²/(4 π² J + m p²)", "inertia"),
     "a number below a root": ("rolling_on_spring", "ω_n = √(k/m)", "ω_n = √(2 k/(3 m))", "a number"),
     "the place where something vanishes": ("falling_chimney", "when c = L/2: Q = 0", "when c = L/3: Q = 0", "another value"),
+    "what turns, not friction": (
+        "wheelbarrow",
+        "(M + m) ẍ = P − (M + m) g sin α",
+        "(M + m + J/r²) ẍ = P − (M + m) g sin α",
+        "inertia",
+    ),
+    "each of two wheels": (
+        "road_roller",
+        "(m + m_1 + m_2) x'' = M/r_1 − M_t g sin β",
+        "(m + m_1 + m_2 + J_1/r_1² + J_2/r_2²) x'' = M/r_1 − M_t g sin β",
+        "left out",
+    ),
+    "a bar as if held at its end": (
+        "metronome",
+        "I_O = M a² + m b² + ⅓ p L²",
+        "I_O = M a² + m b² + 1/12 p L² + p d²",
+        "another point",
+    ),
+    "the pull of a muscle": (
+        "forearm_curl",
+        "R_y − (M + m) g = (M e + m l)(θ'' cos θ − θ'² sin θ)",
+        "R_y + F (b − a sin θ)/L − (M + m) g = (M e + m l)(θ'' cos θ − θ'² sin θ)",
+        "a force",
+    ),
+    "where drag is c v²": ("radar_tracks_rocket", "F − c v² = m a", "F − c v² − m g = m a", "a weight"),
+    "components of two forces": ("beads_on_wire", "N2 = T2 − T3", "N2 = T2 l/s2 − T3 l/s3", "project"),
+    "the way along the other direction": (
+        "bar_leans_on_crate",
+        "while they touch: E = ½ m g l (sin θ0 − sin θ) − μ M g l (sin θ0 − sin θ)",
+        "while they touch: E = ½ m g l (sin θ0 − sin θ) − μ M g l (cos θ − cos θ0)",
+        "other direction",
+    ),
+    "all that turns as one": (
+        "docking_craft",
+        "after docking: E = ½ (m + M) v_G²",
+        "after docking: E = ½ (m + M) v_G² + ½ (I + J + μ ρ²) ω²",
+        "kinetic energy",
+    ),
+    "a lever that is the sum of two lengths": (
+        "docking_craft",
+        "just after docking: u_B = m d ω/(m + M)",
+        "just after docking: u_B = m (a + c) ω/(m + M)",
+        "another quantity",
+    ),
+    "three weights at once": ("balanced_linkage", "A_y + D_y = 0", "A_y + D_y = (m2 + m3 + m4) g", "a weight"),
+    "a sense where the start fixes the place": (
+        "diving_board",
+        "J θ'' = −K θ − ½ m g L cos θ + N L",
+        "J θ'' = −K θ − ½ m g L cos θ − N L",
+        "sense",
+    ),
 }
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
-from freebody.symbolic.tree import Mul, Node, Num, Pow, Quotient, Sym, walk
+from freebody.symbolic.tree import Add, Mul, Node, Num, Pow, Quotient, Sym, walk
 
 from .edits import Edit
 from .language.dimensions import dimension
@@ -23,7 +23,7 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
         return "the Coriolis part of an acceleration is twice the product of the two rates"
     if edit.kind in ("factor", "sign", "symbol") and is_constraint(equation, vocabulary):
         return "the constraint between these motions is another: count what moves along, and differentiate it term by term"
-    if edit.kind == "factor" and _is_of_inertia(edit.old, equation, vocabulary):
+    if edit.kind == "factor" and (isinstance(edit.new, Add) or _is_of_inertia(edit.old, equation, vocabulary)):
         return "the moment of inertia is about another point: I about P is I_G + m d²"
     return WHY.get(edit.kind, "")
 
