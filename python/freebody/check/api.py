@@ -36,7 +36,7 @@ from .symbols import DOUBTFUL, Symbols
 from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
-from .wording import with_condition_first
+from .wording import as_claim, with_condition_first
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -47,8 +47,6 @@ _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?)
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*(?:(?:for|with|at)\s+)?small\b[^:=]*")
-_JOINED = re.compile(r",\s*(?:and\b)?|\b(?:with|and|if|when)\b")
-"""What joins the conditions of ``small motions with c = 0 and L = 0``."""
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -120,16 +118,11 @@ class Checker:
 
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
-        condition, _, said = text.rpartition(":")
-        words, *given = (part.strip() for part in _JOINED.split(condition.replace("$", "")))
-        if _SMALL.fullmatch(words):
-            claim = f"if {', '.join(given)}: frequencies: {said}" if given else f"frequencies: {said}"
-        elif re.match(rf"(?:{CONDITION})\b", words):
-            claim = f"{condition}: frequencies: {said}"
-        else:
-            claim = f"frequencies: {text}"
+        condition, _, said = with_condition_first(plainly(text)[0]).rpartition(":")
         if "frequencies:" in text or not OMEGA.search(said):
             return None
+        claim = as_claim(f"{condition}: frequencies: {said}")
+        claim = claim if re.match(rf"(?:{CONDITION}|frequencies)\b", claim) else f"frequencies: {text}"
         with suppress(StatementError, ModelProblem):  # what letters lack is told of the statement itself
             known = self.symbols(letters)
             if "ω" not in known.meanings and all(

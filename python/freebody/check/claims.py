@@ -159,20 +159,27 @@ def _is_of_places(case: Case) -> bool:
 
 
 def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
-    """An equation that each natural frequency satisfies; that one of them does, where it says what ω is."""
-    verdicts = (
-        checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in _vibrations(checker, declared)
-    )  # type: ignore[misc]
-    if _SAYS_OMEGA.fullmatch(statement):
-        return min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
-    first = next(verdicts)
-    return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
+    """An equation that each natural frequency satisfies; that one of them does, where it says what ω is: with other numbers it may be
+    another one by size."""
+    said = [OMEGA.sub(lambda _, name=name: name, statement) for name in _vibrations(checker, declared)]  # type: ignore[misc]
+    verdicts = (checker.check(text, declared) for text in said)
+    if not _SAYS_OMEGA.fullmatch(statement):
+        first = next(verdicts)
+        return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
+    best = min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
+    if best.ok or best.kind is not Kind.WRONG:
+        return best
+    cases = [checker.case(text, declared) for text in said]
+    left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
+    if np.all(np.nanmin(left[:, ~np.isnan(left).all(axis=0)], axis=0) < HOLDS):
+        return replace(best, kind=Kind.TRUE, reason="one of the natural frequencies, with any parameters", mends=(), evidence=None)
+    return best
 
 
 def _vibrations(checker: Checker, declared: Declared) -> list[str]:
     """The names of the natural frequencies: ω_n or ω_1, ω_2 …, or in words where that is the angular velocity of a body, say."""
-    count = checker.vibration_of(checker.hypothesis).count
-    numbers = [f"_{i}" for i in range(1, count + 1)] if count > 1 else ["_n"]
+    vibration = checker.vibration_of(checker.hypothesis)
+    numbers = [f"_{i}" for i in vibration.modes(checker.hypothesis.vanishing)] if (count := vibration.count) > 1 else ["_n"]
     known = checker.symbols(declared)
     with suppress(StatementError, ModelProblem):
         known.read(f"ω{numbers[0]} = 0")

@@ -12,12 +12,14 @@ _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long 
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until)\b)[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))"
+    rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
+"""``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
 _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
 """``at t = 0 (at rest, beam level)``."""
 _FREQUENCIES = re.compile(
-    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*\Z"
+    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)"
 )
 LASTS = re.compile(r"(?:while|until|during|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
@@ -41,8 +43,12 @@ _UNIFORM = re.compile(
     r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speed|velocity|motion)|(?:moving\s+)?uniformly"
 )
 _SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
-_SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
-"""``small θ:``, ``for small φ and s:``; a small block is no angle."""
+_SMALL = re.compile(
+    rf"(?:\A\s*|(?<=,)\s*)(?:(?:for|with|at)\s+)?small\s+({_SYMBOL}(?:(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*|(?:\s*=\s*[-+−]?\s*{_SYMBOL})+))\s*(?=:(?!=)|,\s*(?:{CONDITION})\b)"
+)
+"""``small θ:``, ``for small φ and s, if φ = 0:``, ``small y_1 = y_2:``; a small block is no angle."""
+_GIVEN_IN_WORDS = re.compile(rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))")
+"""``engine off, no damping (Q = 0, c = 0):``."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^=]*:(?!=))")
 _OF_WHAT = re.compile(
@@ -146,14 +152,14 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, _LABELLED.sub("", text)))
+    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))))
     text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text))
     label, colon, rest = text.partition(":")
     if colon and "=" in rest and (found := _WITHOUT.search(label)):
         others = f"{label[: found.start()]} {label[found.end() :]}".strip()
         return f"if without {'friction' if any(found.groups()) else 'damping'}: {f'{others}:' if others else ''}{rest}"
     if colon and "=" in rest and (found := _FREQUENCIES.search(label)):
-        before = label[: found.start()].strip()
+        before = f"{label[: found.start()]}{label[found.end() :]}".strip()
         return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
     if not found:
@@ -181,7 +187,12 @@ def as_claim(text: str) -> str:
     if side in ("after", "before") and not is_start:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
     said = "at the start" if is_start else said
-    parts = [_condition(part) for part in _PARTS.split(said)]
+    parts = _PARTS.split(said)
+    if statement.startswith("frequencies:"):  # they are of small motions
+        parts = [part for part in parts if not re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", part)]
+        if not parts:
+            return statement
+    parts = [_condition(part) for part in parts]
     small = {part.removesuffix(" -> 0") for part in parts if part.endswith(" -> 0")}
     parts = [part for part in parts if part.rstrip("'") == part or part.rstrip("'") not in small]  # so are its rates
     if any("->" in part or part == "small motions" for part in parts):
@@ -196,9 +207,10 @@ def as_claim(text: str) -> str:
 
 
 def _all_small(found: re.Match[str]) -> str:
-    """``for small φ, small s:``."""
-    names = filter(None, (part.strip() for part in _PARTS.split(found[1])))
-    return f"for {', '.join(f'small {name}' for name in names)}:"
+    """``for small φ, small s``, and what is said of them beside, ``φ = s``."""
+    parts = [part.strip() for part in _PARTS.split(found[1]) if part.strip()]
+    names = dict.fromkeys(name.strip(" -+−") for part in parts for name in part.split("="))
+    return f"for {', '.join([*(f'small {name}' for name in names), *(part for part in parts if '=' in part)])}"
 
 
 def _plainly(condition: str) -> str:
@@ -214,7 +226,7 @@ def _condition(part: str) -> str:
         rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
     ):
         return "small motions"
-    if found := re.fullmatch(r"(small|large) (.+)", said):
+    if found := re.fullmatch(r"(small|large)\s+(.+?)(?:\s+about\s[^=]*)?", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
     if _START.fullmatch(said):
         return "at the start"
