@@ -176,7 +176,7 @@ def as_claim(text: str) -> str:
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
     parts[0] = "from the start" if word == "from" else parts[0]
     first = f"{word} {parts[0].strip()}"
-    if LASTS.match(first) and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
+    if (LASTS.match(first) or word == "on") and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
         parts[0] = first
     said = ",".join(parts)
     if len(parts) > 1 and (beside := next((p for p in (f"{word} {parts[0]}", *parts[1:]) if _BESIDE.fullmatch(p.strip())), None)):
