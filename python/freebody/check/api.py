@@ -16,7 +16,7 @@ from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Node, Quotient, Sym, walk
+from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
 from .assumptions import free_parameter
 from .budget import Budget
@@ -32,6 +32,7 @@ from .motion_sampler import MotionSampler
 from .phases import alike, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
+from .senses import is_root
 from .symbols import DOUBTFUL, Symbols
 from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
@@ -254,7 +255,7 @@ class Checker:
     def _rooted(self, program: Program, known: Symbols) -> dict[str, str]:
         """The sizes of letters that are said to be a root: v = √(2 g h)."""
         pairs = [pair for line in program.equations for pair in ((line.left, line.right), (line.right, line.left))]
-        found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and _is_root(other)]
+        found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and is_root(other)]
         meanings = {name: known.meanings[name] for name in found if name in known.meanings}
         return {
             name: f"abs({m.texts[0]})" for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")
@@ -285,12 +286,6 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
-
-
-def _is_root(node: Node) -> bool:
-    """Whether a root stands in it as a factor."""
-    factors = node.factors if isinstance(node, Mul) else (node.top,) if isinstance(node, Quotient) else (node,)
-    return any(isinstance(factor, Fn) and factor.name == "sqrt" for factor in factors)
 
 
 def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:

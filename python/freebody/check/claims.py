@@ -92,6 +92,10 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    if event := next((event for words in _PLACES.findall(condition) if (event := checker.event_called(words))), None):
+        there = timed_claims.at(checker, declared, event, statement)  # at the top (v = 0): of the motion that comes there
+        if there.ok:
+            return there
     if verdict.kind is Kind.WRONG and checker.correcting:
         mends = (*other_conditions(checker, declared, condition, statement), *verdict.mends)
         verdict = replace(verdict, mends=mends[:MOST])
@@ -270,6 +274,8 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
         except MotionError as error:  # with these numbers what switches on it cannot be carried through
             broken = error
             continue
+        if not along.states:
+            continue
         values = case.meaning.values(along)
         runs.append(values)
         value, size = sampled(node, values), magnitude(node, values)
@@ -312,14 +318,16 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
     states = [motion.state(t) for t in times.tolist()]
-    same = takewhile(lambda each: stated or touching(each) == touching(states[0]), states)  # until a cord is unwound
+    first = touching(state if state.history else states[0])
+    same = takewhile(lambda each: stated or touching(each) == first, states)  # until a cord is unwound; none where at once it touches
     return Samples(sampler.core, [*same]), stated
 
 
 def _happens(checker: Checker, parts: Sequence[str], motion: Trajectory, begins: float) -> bool:
-    """Whether rates jump on a motion, by something of parts that changes on the model's own run, too."""
+    """Whether rates jump on a motion, by something of parts by which they do so on the model's own run, too, behind the moment asked for."""
     jumps = any(each.before is not None for each in motion.changes if each.t > begins)
-    return jumps and any({*each.of} & {*parts} for each in checker.moment("end")[0].changes if each.t > 0)
+    own = (each for each in checker.moment("end")[0].changes if each.t > checker.sampler.own.t and each.before is not None)
+    return jumps and any({*each.of} & {*parts} for each in own)
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
@@ -416,6 +424,7 @@ _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(
 """Of what happens, where only one thing does."""
 OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(₀-₉])")
 _SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
+_PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"

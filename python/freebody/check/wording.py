@@ -12,7 +12,7 @@ _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long 
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS}|while|during|until)\b[^:;\n]*:(?!=))"
     rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
 """``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
@@ -35,7 +35,7 @@ _THINGS = (
 )
 _STATES = "is|are|was|were|has|have|no|not|rest|zero|cut|taut|slack|light|heavy|massless|rigid|smooth|rough|constant|steady|small|large|alone"
 """Words that tell what a condition is, which is no label."""
-_NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
+_NAMED_PLACE = re.compile(r"([A-Za-z][A-Za-z\s-]*?)\s*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
@@ -164,25 +164,28 @@ def as_claim(text: str) -> str:
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
     if not found:
         return text
-    word, said, statement = (
-        " ".join(found[1].split()),
-        _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1", _plainly(found[2])))),
-        found[3],
-    )
+    word, statement = " ".join(found[1].split()), found[3]
+    side, place = word.split()[-1], _NAMED_PLACE.search(words := _plainly(found[2]))
+    named = place is not None and (side in ("after", "before") or place[1].startswith(("the ", "a ")))  # it may be an event
+    said = _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1, \2" if named else r"\2", words)))
     if word == "at" and said == "start":
         return text  # of the model's own run, as ``at end``
     first, *others = _PARTS.split(said)
     labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
+    if (kept := [part for part in parts if part.strip() not in ("constant", "conserved")]) and len(kept) < len(parts):
+        parts, statement = kept, f"constant: {statement}"
     parts[0] = "from the start" if word == "from" else parts[0]
     first = f"{word} {parts[0].strip()}"
     if (LASTS.match(first) or word == "on") and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
         parts[0] = first
     said = ",".join(parts)
-    if len(parts) > 1 and (beside := next((p for p in (f"{word} {parts[0]}", *parts[1:]) if _BESIDE.fullmatch(p.strip())), None)):
-        others = [_condition(p) for p in (f"{word} {parts[0]}", *parts[1:]) if p is not beside]
-        return as_claim(f"if {', '.join(others)}: {beside.strip()}: {statement}")
-    side = word.split()[-1]
+    each = [f"{word} {parts[0]}", *parts[1:]]
+    if len(parts) > 1 and (beside := next((part for part in each if _BESIDE.fullmatch(part.strip())), None)):
+        others = ", ".join(_condition(part) for part in each if part is not beside)
+        if "->" in others or "small motions" in others:
+            return as_claim(f"{beside.strip()}: as {others}: {statement}")
+        return as_claim(f"if {others}: {beside.strip()}: {statement}")
     is_start = word == "initially" or (" " in word and side == "after" and (not said or _START.fullmatch(said)))
     if side in ("after", "before") and not is_start:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
