@@ -17,29 +17,29 @@ if TYPE_CHECKING:
 _DEPENDS = re.compile(r"\b(?:abs|sign)\(")
 
 
-def one_sense(case: Case, equation: Equation) -> tuple[str, Family | None]:
-    """The motions in which the rates that an equation has in a higher power keep the sense that they have at the start, in words; none
-    where it has no such rate, or nothing depends on it."""
+def one_sense(case: Case, equation: Equation) -> tuple[str, Family] | None:
+    """The motions in which the rates that an equation has in a higher power keep the sense that they have at the start, in words; None
+    where it has none, or nothing depends on it."""
     known = case.meaning
     if not _DEPENDS.search(known.mechanics):
-        return "", None
+        return None
     powers = (n for n in walk(equation) if isinstance(n, Pow) and isinstance(n.base, Sym) and isinstance(n.exponent, Num))
     rates = dict.fromkeys(n.base for n in powers if n.exponent.value > 1 and known.vocabulary.is_rate(n.base))
     said = {n: known.read_from(n) for n in rates}
     return _as_at_start(case, {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said)
 
 
-def of_root(case: Case, equation: Equation) -> tuple[str, Family | None]:
+def of_root(case: Case, equation: Equation) -> tuple[str, Family] | None:
     """The same of a rate that is said to be a root, θ' = √(…)."""
     pairs = ((equation.left, equation.right), (equation.right, equation.left))
     rates = [one for one, other in pairs if isinstance(one, Sym) and case.meaning.vocabulary.is_rate(one) and is_root(other)]
     return _as_at_start(case, {n: case.meaning.read_from(n) for n in rates})
 
 
-def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[str, Family | None]:
+def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[str, Family] | None:
     """The motions in which rates have the sense that they have at the start, in words."""
     if not texts:
-        return "", None
+        return None
     began = dict(zip(texts, case.sampler.core.evaluate([*texts.values()], case.sampler.own), strict=True))
     words = ", ".join(f"{n.key} {'<' if began[n] < 0 else '>'} 0" for n in texts)
     above = tuple(f"-({text})" if began[n] < 0 else text for n, text in texts.items())

@@ -308,7 +308,8 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
 def _of_one_sense(case: Case, equation: Equation) -> Verdict | None:
     """That it is true where rates have one sense, if what acts depends on it, or where a rate that is said to be a root has the sense of
     the start; else None."""
-    for kind, (words, family) in ((Kind.TRUE_IF, one_sense(case, equation)), (Kind.TRUE, of_root(case, equation))):
+    for kind, found in ((Kind.TRUE_IF, one_sense(case, equation)), (Kind.TRUE, of_root(case, equation))):
+        words, family = found or ("", None)
         if family and of_family(case, equation, family, _GLANCE) and of_family(case, equation, family):
             reason = f"true only if: {words}" if kind is Kind.TRUE_IF else f"holds where {words}, as at the start"
             return Verdict(kind, case.program.text, reason, words)
