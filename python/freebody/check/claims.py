@@ -92,8 +92,9 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
-    if event := next((event for words in _PLACES.findall(condition) if (event := checker.event_called(words))), None):
-        there = timed_claims.at(checker, declared, event, statement)  # at the top (v = 0): of the motion that comes there
+    places = _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
+    if event := next((event for words in places if (event := checker.event_called(words))), None):
+        there = timed_claims.at(checker, declared, event, statement)
         if there.ok:
             return there
     if verdict.kind is Kind.WRONG and checker.correcting:
@@ -110,7 +111,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     ):
         return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     others = []
-    if given.vanishing and verdict.kind is Kind.UNDECIDABLE:  # it may be so only where something switches, or has done so
+    if given.vanishing and (places or verdict.kind is Kind.UNDECIDABLE):  # it may be so only where something switches, or has done so
         others = [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since:
         return verdict

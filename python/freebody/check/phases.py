@@ -30,10 +30,10 @@ _KINDS = {
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
-_CHANGES = {"touch": ("impact", "contact")}
+_CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("impact",))}  # what rebounds has left, too
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
-_OF_STRINGS = ("taut", "slack")
+_OF_STRINGS = ("taut", "slack", "off")
 _ON = re.compile(r"on the (\w+)")
 """``on the floor:``."""
 _BEFORE = {"stick": "sliding", "slip": "stuck"}
@@ -66,7 +66,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
     run, _ = checker.moment("end")
-    kinds = _CHANGES.get(kind, (kind,))
+    happened = {change.kind for change in run.changes if change.t > run.t[0]}
+    kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
     firsts = {name: (t, part) for t, part, name in reversed(found) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits

@@ -32,7 +32,7 @@ def one_sense(case: Case, equation: Equation) -> tuple[str, Family] | None:
 def of_root(case: Case, equation: Equation) -> tuple[str, Family] | None:
     """The same of a rate that is said to be a root, θ' = √(…)."""
     pairs = ((equation.left, equation.right), (equation.right, equation.left))
-    rates = [one for one, other in pairs if isinstance(one, Sym) and case.meaning.vocabulary.is_rate(one) and is_root(other)]
+    rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
     return _as_at_start(case, {n: case.meaning.read_from(n) for n in rates})
 
 

@@ -36,11 +36,9 @@ if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
 
 _FAR = 2.0  # size of a correction from which on one is looked for among the balances
-_BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
 _SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
 """What has no sign."""
-_FEW = 0.1  # share of such states
 _GLANCE = 3  # states, on which most of what is wrong shows
 _ROUND_OFF = 1e-9  # of the largest component of an equation: one that stays below is 0
 _DEPENDENT = 1e-8  # singular value, of rows whose largest entry is 1, below which equations depend on each other
@@ -184,9 +182,8 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(broken, case.values()))
     worst = found.worst
     if HOLDS <= worst <= FAILS:  # on fresh states, badly conditioned ones aside if they are few
-        again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
-        few = np.mean(again >= HOLDS) <= _FEW and again.max() < _BLURRED
-        worst = float(np.median(again) if few else again.max())
+        again = case.residual(equation, fresh=7)
+        worst = float(np.median(np.abs(again.ratio).max(axis=1))) if again.holds_but_for_few else again.worst
     in_digits = HOLDS <= worst <= FAILS or (case.hypothesis.numbers and worst >= HOLDS)
     if worst < HOLDS or (in_digits and np.all(np.abs(found.sides.residual) <= rounding(equation, case.values()))):
         return _true(case, equation, text, found)

@@ -23,7 +23,7 @@ _FREQUENCIES = re.compile(
 )
 LASTS = re.compile(r"(?:while|until|during|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
-_WORDS = re.compile(r"[A-Za-z\s'-]+")
+_WORDS = re.compile(r"[\w\s'-]+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
@@ -67,7 +67,7 @@ _HAPPENS_WHEN = re.compile(
 )
 """``the block breaks loose when k x = μ m g``."""
 _PARTS = re.compile(r",|\band\b")
-_WHEN = re.compile(r"\s+(?:when|where|while|with)\s+")
+_WHEN = re.compile(r"\s+(?:when|where|while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
 _ABOUT = re.compile(r"\s*about\s[^=]*=")
 """Of a vibration: ``about x = m g/k``."""
 _SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
