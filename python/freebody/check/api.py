@@ -47,7 +47,7 @@ _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?)
 """Words that say of something that it happens."""
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
-_SMALL = re.compile(r"\s*(?:(?:for|with|at)\s+)?small\b[^:=]*")
+_SMALL = re.compile(r"\s*small\b")
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -110,7 +110,7 @@ class Checker:
         """
         how = (text, letters, hypothesis, correcting)
         try:
-            return (_SMALL.match(text) and self._of_frequencies(*how)) or self._checked(*how)
+            return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
             is_of_omega = re.search("`(?:ω|omega)(?:_n)?`", error.what) is not None
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
@@ -122,7 +122,7 @@ class Checker:
         condition, _, said = with_condition_first(plainly(text)[0]).rpartition(":")
         if "frequencies:" in text or not OMEGA.search(said):
             return None
-        claim = as_claim(f"{condition}: frequencies: {said}")
+        claim = as_claim(f"{'for ' * bool(_SMALL.match(condition))}{condition}: frequencies: {said}")
         claim = claim if re.match(rf"(?:{CONDITION}|frequencies)\b", claim) else f"frequencies: {text}"
         with suppress(StatementError, ModelProblem):  # what letters lack is told of the statement itself
             known = self.symbols(letters)
@@ -178,7 +178,7 @@ class Checker:
     def beside(self, side: str, event: str, held: Mapping[str, float]) -> Checker:
         """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
         part that changes; with parameters that are ``held``. Raises ``ModelProblem``."""
-        name = self._happening(event)
+        name = self.happening(event)
         key = (side, name, *held.items())
         if key not in self._beside:
             asked = {word: given for word, given in {**self._asked, **held}.items() if word not in ("at", "before", "after")}
@@ -196,7 +196,7 @@ class Checker:
             self._vibrations[held] = Vibration(MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)}))
         return self._vibrations[held]
 
-    def _happening(self, event: str) -> str:
+    def happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""
         events = {e["name"]: None for e in self.sampler.spec["events"]}
         said = re.sub(r"\A(?:the|an?)\s+", "", event)
