@@ -261,7 +261,8 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
-    """The same at all times of each motion, until it goes on in another mode; of motions from the start, until something switches."""
+    """The same at all times of each motion, until it goes on in another mode; of motions from the start, or after something that happens, until
+    something switches."""
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
     worst, seen, lost, runs, broken = 0.0, None, "", [], None
@@ -271,7 +272,7 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
         if len(runs) >= _ENOUGH and worst > _CLEARLY and not case.correcting:
             break
         try:
-            along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
+            along, change = _along(checker, sample, until_change=bool(case.hypothesis.since or checker.sampler.moment))
         except MotionError as error:  # with these numbers what switches on it cannot be carried through
             broken = error
             continue
@@ -325,10 +326,9 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
 
 
 def _happens(checker: Checker, parts: Sequence[str], motion: Trajectory, begins: float) -> bool:
-    """Whether rates jump on a motion, by something of parts by which they do so on the model's own run, too, behind the moment asked for."""
+    """Whether rates jump on a motion, by something of parts that changes on the model's own run, too."""
     jumps = any(each.before is not None for each in motion.changes if each.t > begins)
-    own = (each for each in checker.moment("end")[0].changes if each.t > checker.sampler.own.t and each.before is not None)
-    return jumps and any({*each.of} & {*parts} for each in own)
+    return jumps and any({*each.of} & {*parts} for each in checker.moment("end")[0].changes if each.t > 0)
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:

@@ -69,7 +69,10 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         raise problem
     if stretch and not verdict.ok:
         return _later(checker, declared, words, statement, verdict, problem)
-    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
+    run, _ = checker.moment("end")
+    at_first = lasts and any(change.t > run.t[0] for change in run.changes)  # there are other stretches
+    how = "at first" if at_first else "a label, and not judged"
+    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
 
 
 def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:
