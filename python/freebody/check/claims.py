@@ -111,7 +111,9 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     ):
         return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     others = []
-    if given.vanishing and (places or verdict.kind is Kind.UNDECIDABLE):  # it may be so only where something switches, or has done so
+    if given.vanishing and (
+        places or verdict.kind is Kind.UNDECIDABLE
+    ):  # it may be so only where something switches, or has done so
         others = [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since:
         return verdict
@@ -177,7 +179,9 @@ def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdic
     cases = [checker.case(text, declared) for text in said]
     left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
     if np.all(np.nanmin(left[:, ~np.isnan(left).all(axis=0)], axis=0) < HOLDS):
-        return replace(best, kind=Kind.TRUE, reason="one of the natural frequencies, with any parameters", mends=(), evidence=None)
+        return replace(
+            best, kind=Kind.TRUE, reason="one of the natural frequencies, with any parameters", mends=(), evidence=None
+        )
     return best
 
 
@@ -321,7 +325,9 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
     states = [motion.state(t) for t in times.tolist()]
     first = touching(state if state.history else states[0])
-    same = takewhile(lambda each: stated or touching(each) == first, states)  # until a cord is unwound; none where at once it touches
+    same = takewhile(
+        lambda each: stated or touching(each) == first, states
+    )  # until a cord is unwound; none where at once it touches
     return Samples(sampler.core, [*same]), stated
 
 

@@ -72,7 +72,9 @@ def phase(checker: Checker, words: str) -> Phase | None:
     firsts = {name: (t, part) for t, part, name in reversed(found) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
     able = {  # what has no friction never slides, and strings touch nothing
-        name for name in limits if (limits[name].state in _STATES.values() if kind in _STATES else limits[name].state not in _OF_STRINGS)
+        name
+        for name in limits
+        if (limits[name].state in _STATES.values() if kind in _STATES else limits[name].state not in _OF_STRINGS)
     }
     meant = _meant(words, {*(part for _, part in firsts.values()), *able} or {*limits}, limits)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}

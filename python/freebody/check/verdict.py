@@ -323,7 +323,12 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     since = replace(given, since="start")
     glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)
     known = figure or case.meaning.speaks_of_start(equation)
-    if not (known or _never_changes(case, equation) or (_has_sizes(case, equation) and of_family(case, equation, since, _GLANCE)) or glance()):
+    if not (
+        known
+        or _never_changes(case, equation)
+        or (_has_sizes(case, equation) and of_family(case, equation, since, _GLANCE))
+        or glance()
+    ):
         return None
     for family in (since, replace(since, through=True)):
         if of_family(case, equation, family, SAMPLES):

@@ -47,7 +47,9 @@ _SMALL = re.compile(
     rf"(?:\A\s*|(?<=,)\s*)(?:(?:for|with|at)\s+)?small\s+({_SYMBOL}(?:(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*|(?:\s*=\s*[-+−]?\s*{_SYMBOL})+))\s*(?=:(?!=)|,\s*(?:{CONDITION})\b)"
 )
 """``small θ:``, ``for small φ and s, if φ = 0:``, ``small y_1 = y_2:``; a small block is no angle."""
-_GIVEN_IN_WORDS = re.compile(rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))")
+_GIVEN_IN_WORDS = re.compile(
+    rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))"
+)
 """``engine off, no damping (Q = 0, c = 0):``."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^=]*:(?!=))")
