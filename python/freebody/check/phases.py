@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -61,8 +61,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
     said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
     kind = max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
-    lasts = LASTS.match(words) is not None or _ON.match(words) is not None
-    on_body = (place := _ON.match(words)) is not None and place[1] in {b["name"] for b in checker.sampler.metadata["bodies"]}
+    place = _ON.match(words)
+    lasts, on_body = LASTS.match(words) is not None or place is not None, place and place[1] in checker.symbols().bodies
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
     run, _ = checker.moment("end")
@@ -71,24 +71,28 @@ def phase(checker: Checker, words: str) -> Phase | None:
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
     firsts = {name: (t, part) for t, part, name in reversed(found) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
-    able = {  # what has no friction never slides, and strings touch nothing
-        name
-        for name in limits
-        if (limits[name].state in _STATES.values() if kind in _STATES else limits[name].state not in _OF_STRINGS)
-    }
+    rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
+    able = {name for name in limits if (rubs(name) if kind in _STATES else limits[name].state not in _OF_STRINGS)}
     meant = _meant(words, {*(part for _, part in firsts.values()), *able} or {*limits}, limits)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
-    states = {limits[name].state for name in meant if name in limits} & {*_STATES.values()}
-    began = {part: change.kind for change in reversed(run.changes) for part in change.of if change.kind in _BEFORE}
-    states |= {_BEFORE[began[name]] for name in meant if name in began and name not in limits}
-    there = states == {_STATES.get(kind)} if every else _STATES.get(kind) in states
-    apart = {limits[name].state == "open" for name in meant if name in limits}
-    at_first = there or (lasts and not states) if kind in _STATES else lasts and (kind == "lift-off") in (apart or {False})
+    at_first = _goes_on_at_first(kind, lasts, every, {name: limits[name].state for name in meant if name in limits}, run, meant)
     is_moment = not lasts and not _LASTED.search(words) and (kind not in _STATES or _MOMENT.search(words) is not None)
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
+
+
+def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, str], run: Any, meant: Collection[str]) -> bool:
+    """Whether something of a kind goes on where a run starts, of parts that are meant, those that have ``states``, there."""
+    if kind not in _STATES:
+        apart = {state == "open" for state in states.values()} or {False}
+        return lasts and (kind == "lift-off") in apart
+    began = {part: change.kind for change in reversed(run.changes) for part in change.of if change.kind in _BEFORE}
+    found = {*states.values()} & {*_STATES.values()}
+    found |= {_BEFORE[began[name]] for name in meant if name in began and name not in states}
+    there = found == {_STATES[kind]} if every else _STATES[kind] in found
+    return there or (lasts and not found)
 
 
 def _meant(words: str, parts: Collection[str], limits: Any) -> set[str]:

@@ -164,14 +164,16 @@ def as_claim(text: str) -> str:
         before = f"{label[: found.start()]}{label[found.end() :]}".strip()
         return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
-    if not found:
-        return text
-    word, statement = " ".join(found[1].split()), found[3]
-    side, place = word.split()[-1], _NAMED_PLACE.search(words := _plainly(found[2]))
+    return _conditional(" ".join(found[1].split()), _plainly(found[2]), found[3]) if found else text
+
+
+def _conditional(word: str, words: str, statement: str) -> str:
+    """A claim whose condition is ``words`` behind the ``word`` with which it begins."""
+    side, place = word.split()[-1], _NAMED_PLACE.search(words)
     named = place is not None and (side in ("after", "before") or place[1].startswith(("the ", "a ")))  # it may be an event
     said = _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1, \2" if named else r"\2", words)))
     if word == "at" and said == "start":
-        return text  # of the model's own run, as ``at end``
+        return f"at start: {statement}"  # of the model's own run, as ``at end``
     first, *others = _PARTS.split(said)
     labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
