@@ -45,7 +45,7 @@ _MOMENTS = 6
 _RUNS = 12
 _ENOUGH, _CLEARLY = 5, 1e-3  # runs after which what changes by so much is no constant
 _NEWTON = 20  # steps by which premises are made true
-_FEWEST = 8  # places at which they have to be
+_FEWEST = 8  # places at which they have to be, and at which something has to swing
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
@@ -165,10 +165,12 @@ def _is_of_places(case: Case) -> bool:
     return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
 
 
-def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
-    """An equation that each natural frequency satisfies; that one of them does, where it says what ω is: with other numbers it may be
-    another one by size."""
-    said = [OMEGA.sub(lambda _, name=name: name, statement) for name in _vibrations(checker, declared)]  # type: ignore[misc]
+def _frequencies(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:
+    """An equation that each natural frequency, or that of a ``number``, satisfies; that one of them does, where it says what ω is: with
+    other numbers it may be another one by size."""
+    names = _vibrations(checker, declared)
+    names = names[int(number) - 1 :][:1] if number and len(names) > 1 else names
+    said = [OMEGA.sub(lambda _, name=name: name, statement) for name in names]  # type: ignore[misc]
     verdicts = (checker.check(text, declared) for text in said)
     if not _SAYS_OMEGA.fullmatch(statement):
         first = next(verdicts)
@@ -178,10 +180,10 @@ def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdic
         return best
     cases = [checker.case(text, declared) for text in said]
     left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
-    if np.all(np.nanmin(left[:, ~np.isnan(left).all(axis=0)], axis=0) < HOLDS):
-        return replace(
-            best, kind=Kind.TRUE, reason="one of the natural frequencies, with any parameters", mends=(), evidence=None
-        )
+    left = left[:, ~np.isnan(left).all(axis=0)]  # where it swings
+    if left.shape[1] >= _FEWEST and np.nanmin(left, axis=0).max() < HOLDS:
+        reason = "one of the natural frequencies, with any parameters"
+        return replace(best, kind=Kind.TRUE, reason=reason, mends=(), evidence=None)
     return best
 
 
@@ -450,7 +452,7 @@ _WHOLE = {
 _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
-    (re.compile(r"frequencies:(.+)", re.S), _frequencies),
+    (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), _frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),

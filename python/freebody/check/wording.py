@@ -12,7 +12,7 @@ _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long 
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS}|while|during|until)\b[^:;\n]*:(?!=))"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|while|during|until)\b[^:;\n]*:(?!=))"
     rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
 """``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
@@ -47,6 +47,13 @@ _SMALL = re.compile(
     rf"(?:\A\s*|(?<=,)\s*)(?:(?:for|with|at)\s+)?small\s+({_SYMBOL}(?:(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*|(?:\s*=\s*[-+−]?\s*{_SYMBOL})+))\s*(?=:(?!=)|,\s*(?:{CONDITION})\b)"
 )
 """``small θ:``, ``for small φ and s, if φ = 0:``, ``small y_1 = y_2:``; a small block is no angle."""
+_SMALL_BEHIND = re.compile(
+    rf"\b(for|with)\s+({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s+small\b|\b(small) values of\b"
+)
+"""``for x, y small:``, ``for small values of x:``."""
+_WHICH_MODE = re.compile(
+    r"\s*(?:the\s+)?(?:(first|lower|lowest|fundamental)|(second|upper|higher))\s+(?:(?:natural|normal|circular)\s+)*(?:mode|frequency)(?:\s+of\s+vibration)?\s*"
+)
 _GIVEN_IN_WORDS = re.compile(
     rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))"
 )
@@ -92,7 +99,7 @@ _CONSTANT = re.compile(
 """``E = T + V = const``, ``p is conserved``."""
 _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
 """``Energy: T + V = const``."""
-_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|\\[\[\]]")
+_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
 _GIVEN_FIRST = re.compile(
@@ -154,9 +161,13 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))))
+    text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))
+    text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
+    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, text))
     text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text))
     label, colon, rest = text.partition(":")
+    if colon and (found := _WHICH_MODE.fullmatch(label)):
+        return f"frequencies {1 if found[1] else 2}: {rest}"
     if colon and "=" in rest and (found := _WITHOUT.search(label)):
         others = f"{label[: found.start()]} {label[found.end() :]}".strip()
         return f"if without {'friction' if any(found.groups()) else 'damping'}: {f'{others}:' if others else ''}{rest}"
