@@ -16,7 +16,7 @@ from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Node, Quotient, Sym, walk
+from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
 from .assumptions import free_parameter
 from .budget import Budget
@@ -32,11 +32,12 @@ from .motion_sampler import MotionSampler
 from .phases import alike, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
+from .senses import is_root
 from .symbols import DOUBTFUL, Symbols
 from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
-from .wording import with_condition_first
+from .wording import as_claim, with_condition_first
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -46,9 +47,7 @@ _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?)
 """Words that say of something that it happens."""
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
-_SMALL = re.compile(r"\s*(?:(?:for|with|at)\s+)?small\b[^:=]*")
-_JOINED = re.compile(r",\s*(?:and\b)?|\b(?:with|and|if|when)\b")
-"""What joins the conditions of ``small motions with c = 0 and L = 0``."""
+_SMALL = re.compile(r"\s*small\b")
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -111,7 +110,7 @@ class Checker:
         """
         how = (text, letters, hypothesis, correcting)
         try:
-            return (_SMALL.match(text) and self._of_frequencies(*how)) or self._checked(*how)
+            return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
             is_of_omega = re.search("`(?:ω|omega)(?:_n)?`", error.what) is not None
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
@@ -120,16 +119,11 @@ class Checker:
 
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
-        condition, _, said = text.rpartition(":")
-        words, *given = (part.strip() for part in _JOINED.split(condition.replace("$", "")))
-        if _SMALL.fullmatch(words):
-            claim = f"if {', '.join(given)}: frequencies: {said}" if given else f"frequencies: {said}"
-        elif re.match(rf"(?:{CONDITION})\b", words):
-            claim = f"{condition}: frequencies: {said}"
-        else:
-            claim = f"frequencies: {text}"
+        condition, _, said = with_condition_first(plainly(text)[0]).rpartition(":")
         if "frequencies:" in text or not OMEGA.search(said):
             return None
+        claim = as_claim(f"{'for ' * bool(_SMALL.match(condition))}{condition}: frequencies: {said}")
+        claim = claim if re.match(rf"(?:{CONDITION}|frequencies)\b", claim) else f"frequencies: {text}"
         with suppress(StatementError, ModelProblem):  # what letters lack is told of the statement itself
             known = self.symbols(letters)
             if "ω" not in known.meanings and all(
@@ -184,7 +178,7 @@ class Checker:
     def beside(self, side: str, event: str, held: Mapping[str, float]) -> Checker:
         """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
         part that changes; with parameters that are ``held``. Raises ``ModelProblem``."""
-        name = self._happening(event)
+        name = self.happening(event)
         key = (side, name, *held.items())
         if key not in self._beside:
             asked = {word: given for word, given in {**self._asked, **held}.items() if word not in ("at", "before", "after")}
@@ -202,7 +196,7 @@ class Checker:
             self._vibrations[held] = Vibration(MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)}))
         return self._vibrations[held]
 
-    def _happening(self, event: str) -> str:
+    def happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""
         events = {e["name"]: None for e in self.sampler.spec["events"]}
         said = re.sub(r"\A(?:the|an?)\s+", "", event)
@@ -261,7 +255,7 @@ class Checker:
     def _rooted(self, program: Program, known: Symbols) -> dict[str, str]:
         """The sizes of letters that are said to be a root: v = √(2 g h)."""
         pairs = [pair for line in program.equations for pair in ((line.left, line.right), (line.right, line.left))]
-        found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and _is_root(other)]
+        found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and is_root(other)]
         meanings = {name: known.meanings[name] for name in found if name in known.meanings}
         return {
             name: f"abs({m.texts[0]})" for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")
@@ -292,12 +286,6 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
-
-
-def _is_root(node: Node) -> bool:
-    """Whether a root stands in it as a factor."""
-    factors = node.factors if isinstance(node, Mul) else (node.top,) if isinstance(node, Quotient) else (node,)
-    return any(isinstance(factor, Fn) and factor.name == "sqrt" for factor in factors)
 
 
 def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:

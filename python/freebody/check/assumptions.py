@@ -186,7 +186,7 @@ def of_family(case: Case, equation: Equation, family: Family, count: int = _STAT
     except (NoMotion, StatementError, ModelError, MotionError):
         return False
     as_printed = family.numbers and bool(figures(equation))
-    near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.worst < HOLDS
+    near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.holds_but_for_few
     often, reach = (_SOME, SLIGHT) if family.since else (OFTEN, REACH)
     return bool(near) and not unreached(equation, values, often, reach)
 

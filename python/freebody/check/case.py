@@ -249,7 +249,9 @@ class StatementSymbols:
     def _moves(self, symbol: Sym) -> bool:
         """Whether it is a coordinate, or declared by configuration alone, so that it has rates and accelerations."""
         one = self._one(symbol)
-        if any(_BEYOND.search(text) for text in one.texts) or one.is_vector or self._is_fixed(symbol):
+        states = self.sampler.metadata["states"]  # of which the first rate is known alone
+        beyond = any(_BEYOND.search(text) or any(_named(name, text) for name in states) for text in one.texts)
+        if beyond or one.is_vector or self._is_fixed(symbol):
             return False
         if one.kind not in ("coordinate", "declared", "gauge"):
             return False

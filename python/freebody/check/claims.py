@@ -45,7 +45,7 @@ _MOMENTS = 6
 _RUNS = 12
 _ENOUGH, _CLEARLY = 5, 1e-3  # runs after which what changes by so much is no constant
 _NEWTON = 20  # steps by which premises are made true
-_FEWEST = 8  # places at which they have to be
+_FEWEST = 8  # places at which they have to be, and at which something has to swing
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
@@ -92,6 +92,11 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    places = _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
+    if event := next((event for words in places if (event := checker.event_called(words))), None):
+        there = timed_claims.at(checker, declared, event, statement)
+        if there.ok:
+            return there
     if verdict.kind is Kind.WRONG and checker.correcting:
         mends = (*other_conditions(checker, declared, condition, statement), *verdict.mends)
         verdict = replace(verdict, mends=mends[:MOST])
@@ -106,7 +111,9 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     ):
         return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     others = []
-    if given.vanishing and verdict.kind is Kind.UNDECIDABLE:  # it may be so only where something switches, or has done so
+    if given.vanishing and (
+        places or verdict.kind is Kind.UNDECIDABLE
+    ):  # it may be so only where something switches, or has done so
         others = [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since:
         return verdict
@@ -158,21 +165,32 @@ def _is_of_places(case: Case) -> bool:
     return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
 
 
-def _frequencies(checker: Checker, declared: Declared, statement: str) -> Verdict:
-    """An equation that each natural frequency satisfies; that one of them does, where it says what ω is."""
-    verdicts = (
-        checker.check(OMEGA.sub(lambda _, name=name: name, statement), declared) for name in _vibrations(checker, declared)
-    )  # type: ignore[misc]
-    if _SAYS_OMEGA.fullmatch(statement):
-        return min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
-    first = next(verdicts)
-    return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
+def _frequencies(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:
+    """An equation that each natural frequency, or that of a ``number``, satisfies; that one of them does, where it says what ω is: with
+    other numbers it may be another one by size."""
+    names = _vibrations(checker, declared)
+    names = names[int(number) - 1 :][:1] if number and len(names) > 1 else names
+    said = [OMEGA.sub(lambda _, name=name: name, statement) for name in names]  # type: ignore[misc]
+    verdicts = (checker.check(text, declared) for text in said)
+    if not _SAYS_OMEGA.fullmatch(statement):
+        first = next(verdicts)
+        return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
+    best = min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
+    if best.ok or best.kind is not Kind.WRONG:
+        return best
+    cases = [checker.case(text, declared) for text in said]
+    left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
+    left = left[:, ~np.isnan(left).all(axis=0)]  # where it swings
+    if left.shape[1] >= _FEWEST and np.nanmin(left, axis=0).max() < HOLDS:
+        reason = "one of the natural frequencies, with any parameters"
+        return replace(best, kind=Kind.TRUE, reason=reason, mends=(), evidence=None)
+    return best
 
 
 def _vibrations(checker: Checker, declared: Declared) -> list[str]:
     """The names of the natural frequencies: ω_n or ω_1, ω_2 …, or in words where that is the angular velocity of a body, say."""
-    count = checker.vibration_of(checker.hypothesis).count
-    numbers = [f"_{i}" for i in range(1, count + 1)] if count > 1 else ["_n"]
+    vibration = checker.vibration_of(checker.hypothesis)
+    numbers = [f"_{i}" for i in vibration.modes(checker.hypothesis.vanishing)] if (count := vibration.count) > 1 else ["_n"]
     known = checker.symbols(declared)
     with suppress(StatementError, ModelProblem):
         known.read(f"ω{numbers[0]} = 0")
@@ -249,7 +267,8 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
-    """The same at all times of each motion, until it goes on in another mode; of motions from the start, until something switches."""
+    """The same at all times of each motion, until it goes on in another mode; of motions from the start, or after something that happens, until
+    something switches."""
     case = _reading(checker, declared, expression)
     node = case.equations[0].left
     worst, seen, lost, runs, broken = 0.0, None, "", [], None
@@ -259,9 +278,11 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
         if len(runs) >= _ENOUGH and worst > _CLEARLY and not case.correcting:
             break
         try:
-            along, change = _along(checker, sample, until_change=bool(case.hypothesis.since))
+            along, change = _along(checker, sample, until_change=bool(case.hypothesis.since or checker.sampler.moment))
         except MotionError as error:  # with these numbers what switches on it cannot be carried through
             broken = error
+            continue
+        if not along.states:
             continue
         values = case.meaning.values(along)
         runs.append(values)
@@ -305,7 +326,10 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
     times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
     stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
     states = [motion.state(t) for t in times.tolist()]
-    same = takewhile(lambda each: stated or touching(each) == touching(states[0]), states)  # until a cord is unwound
+    first = touching(state if state.history else states[0])
+    same = takewhile(
+        lambda each: stated or touching(each) == first, states
+    )  # until a cord is unwound; none where at once it touches
     return Samples(sampler.core, [*same]), stated
 
 
@@ -409,6 +433,7 @@ _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(
 """Of what happens, where only one thing does."""
 OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(₀-₉])")
 _SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
+_PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"
@@ -427,7 +452,7 @@ _WHOLE = {
 _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
-    (re.compile(r"frequencies:(.+)", re.S), _frequencies),
+    (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), _frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),

@@ -167,7 +167,10 @@ class Likelihood:
         if isinstance(new, Pow):
             return _NEW * len(unsaid) + _ODD * self._cancels_within(new.base)
         if isinstance(new, Add):
-            return _NEW * sum(3 if known.is_rate(n) else 1 + (n in known.others and n not in known.letters) for n in unsaid)
+            return _NEW * sum(
+                3 if known.is_rate(n) and n not in known.parameters else 1 + (n in known.others and n not in known.letters)
+                for n in unsaid
+            )
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
 
     def _undoes_within(self, after: Equation, term: Node) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,24 +15,35 @@ if TYPE_CHECKING:
     from .api import Checker
 
 _STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
-_OVER = r"\s+(?:has\s+|is\s+)?(?:stop|cease|end|over)\w*"
+_OVER = r"\s+(?:has\s+|is\s+|have\s+)?(?:stop|cease|end|over)\w*"
 _KINDS = {
-    "stick": rf"{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|roll(?:s|ing)?|sticks?|sticking|stuck|grips?",
-    "slip": rf"{_STOPS}(?:roll|stick)\w*|(?:roll|stick)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
+    "stick": rf"{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
+    r"|(?:moves?|goes|turns?)\s+with|(?:is|are)\s+carried",
+    "slip": rf"{_STOPS}(?:roll|stick|rid)\w*|(?:roll|stick|rid)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?"
+    r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
     "taut": "taut|tight|stretched|straight",
     "slack": "slack|loose",
-    "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|into contact|meets?|strikes?|hits?|collides?|lands?",
-    "lift-off": r"leaves?|lifts?\s+off|separates?|loses?\s+(?:contact|touch)",
+    "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|land(?:s|ed)"
+    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|(?<![\w ])on the \w+"
+    r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
+    "lift-off": r"leaves?|(?:lifts?|comes?)\s+off|(?:has|have)\s+(?:left|parted|(?:lifted|come)\s+off)|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
+    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air",
+    "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
-"""What goes on in words; ``touch`` and ``lift-off`` are of a moment."""
-_CHANGES = {"touch": ("impact", "contact")}
+"""What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
+_CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("impact",))}  # what rebounds has left, too
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
+_OF_STRINGS = ("taut", "slack", "off")
+_ON = re.compile(r"on the (\w+)")
+"""``on the floor:``."""
 _BEFORE = {"stick": "sliding", "slip": "stuck"}
 """What a joint with friction was in before its first change."""
 _MOMENT = re.compile(
-    r"\b(?:moment|instant|(?:begin|start|become|go|get|come|turn)(?:e?s)?\b|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
+    r"\b(?:moment|instant|(?:begin|start|become|go|get|come|turn|end|stop|cease)(?:e?s)?\b|is over|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
 )
+_LASTED = re.compile(r"\b(?:has|have|had)\b")
+"""``once it has left``: from then on."""
 _ALL = re.compile(r"\b(?:both|all|they)\b")
 _STEM = 3  # letters that words of one meaning begin with
 
@@ -51,28 +62,38 @@ def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
     said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
     kind = max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
-    if kind is None or words.startswith("until"):
+    place = _ON.match(words)
+    lasts, on_body = LASTS.match(words) is not None or place is not None, place and place[1] in checker.symbols().bodies
+    if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
     run, _ = checker.moment("end")
-    kinds, lasts = _CHANGES.get(kind, (kind,)), LASTS.match(words) is not None
+    happened = {change.kind for change in run.changes if change.t > run.t[0]}
+    kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
     firsts = {name: (t, part) for t, part, name in reversed(found) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
-    able = {
-        name for name in limits if kind not in _STATES or limits[name].state in _STATES.values()
-    }  # what has no friction never slides
+    rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
+    able = {name for name in limits if (rubs(name) if kind in _STATES else limits[name].state not in _OF_STRINGS)}
     meant = _meant(words, {*(part for _, part in firsts.values()), *able} or {*limits}, limits)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
-    states = {limits[name].state for name in meant if name in limits} & {*_STATES.values()}
-    began = {part: change.kind for change in reversed(run.changes) for part in change.of if change.kind in _BEFORE}
-    states |= {_BEFORE[began[name]] for name in meant if name in began and name not in limits}
-    there = states == {_STATES.get(kind)} if every else _STATES.get(kind) in states
-    at_first = there or (lasts and not states) if kind in _STATES else lasts
-    is_moment = not lasts and (kind not in _STATES or _MOMENT.search(words) is not None)
+    at_first = _goes_on_at_first(kind, lasts, every, {name: limits[name].state for name in meant if name in limits}, run, meant)
+    is_moment = not lasts and not _LASTED.search(words) and (kind not in _STATES or _MOMENT.search(words) is not None)
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
+
+
+def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, str], run: Any, meant: Collection[str]) -> bool:
+    """Whether something of a kind goes on where a run starts, of parts that are meant, those that have ``states``, there."""
+    if kind not in _STATES:
+        apart = {state == "open" for state in states.values()} or {False}
+        return lasts and (kind == "lift-off") in apart
+    began = {part: change.kind for change in reversed(run.changes) for part in change.of if change.kind in _BEFORE}
+    found = {*states.values()} & {*_STATES.values()}
+    found |= {_BEFORE[began[name]] for name in meant if name in began and name not in states}
+    there = found == {_STATES[kind]} if every else _STATES[kind] in found
+    return there or (lasts and not found)
 
 
 def _meant(words: str, parts: Collection[str], limits: Any) -> set[str]:

@@ -44,7 +44,7 @@ _REMARK = re.compile(
     r"\s*\((?:i\.?\s?e\b|e\.?\s?g\b|that is|because|since|so|as|hence|thus|note|acting|by|from|see)\b[^()=]*\)(?=\s*(?:[,;.]|$))"
 )
 _IN_LATEX = re.compile(
-    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,]+[A-Za-z]+)*\s*[,.:]?)\s*\}(?!\s*[_^'])"
+    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,'-]+[A-Za-z]+)*\s*[,.:]?\s*)\}(?!\s*[_^'])"
 )
 _CONNECTIVES = {
     *(
@@ -204,7 +204,7 @@ def _is_unit(words: str) -> bool:
 
 
 def _of_latex(found: re.Match[str]) -> str:
-    """Words that are set upright in LaTeX, if they are several or join what stands around them."""
+    """Words that are set upright in LaTeX, if they are several or join what stands around them: ``\\text{while } C \\text{ rests}``."""
     words = re.findall("[A-Za-z]+", found[1])
-    several = len(words) > 1 or found[1][-1] in ",.:"
+    several = len(words) > 1 or found[1][-1] in ",.: "
     return f" {found[1]} " if several or {*words} <= _CONNECTIVES else found[0]

@@ -10,20 +10,21 @@ from freebody.symbolic.tree import Fn, Node, Num, Sym, children, exchange, walk
 
 from .language.spelling import spell
 
+_RATES = ("rate({})", "accel({})", "rate(accel({}))")
 _NEXT = {"rate": "accel", "vx": "ax", "vy": "ay", "omega": "alpha"}
 _MOVING = {*_NEXT, "speed", "accel", "ax", "ay", "alpha"}
 
 
 def derivative(text: str, dots: int) -> str:
-    """The text differentiated so many times by time: ``rate(…)`` and ``accel(…)`` of a configuration; what holds rates
+    """The text differentiated so many times by time: ``rate(…)``, ``accel(…)`` and the rate of that of a configuration; what holds rates
     already, once, by the rules of the calculus. Raises ``ModelProblem`` where the model language has no such quantity."""
     if not dots:
         return text
     expression = syntax.parse(text)
     if not _moves(expression.tree):
-        if dots > 2:
-            raise ModelProblem(f"a derivative of order {dots} is not known to the model", "at most accelerations are")
-        return f"{('rate', 'accel')[dots - 1]}({text})"
+        if dots > len(_RATES):
+            raise ModelProblem(f"a derivative of order {dots} is not known to the model", "at most rates of accelerations are")
+        return _RATES[dots - 1].format(text)
     if dots > 1:
         raise ModelProblem(f"`{text}` holds rates; the derivative of its accelerations is not known to the model")
     tree, rates = _in_readings(expression)

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 from freebody.core import cards
 from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest
+from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Column, Dot, Matrix, Mul, Negative, Num, Pow, Sym, Unit, exchange, walk
+from freebody.symbolic.tree import Column, Dot, Fn, Matrix, Mul, Negative, Num, Pow, Sym, Unit, exchange, walk
 
 from . import integrals
 from .language.dimensions import check_dimensions, dimension, misfit
@@ -75,7 +76,15 @@ class Reading:
             names = (*names, *(name for name in self.known.names if name not in names))
             program = self._eliminated(self._parsed(names), chains=True)
         self._require_written_out(program)
-        return self._sized(self._fitting(program, names, units))
+        return self._sized(self._fitting(self._exponential(program), names, units))
+
+    def _exponential(self, program: Program) -> Program:
+        """The same with e^(…) as the exponential function where e is a length, say, which nothing but a number can be an exponent of."""
+        measures = {name for name, dimension in self.known.dimensions.items() if dimension != NUMBER_ONLY}
+        for node in [n for n in walk(program) if isinstance(n, Pow) and n.base == Sym("e") and "e" in measures]:
+            if any(isinstance(n, Sym) for n in walk(node.exponent)):
+                program = exchange(program, node, Fn("exp", (node.exponent,), span=node.span))
+        return program
 
     def _in_words_of_the_model(self) -> None:
         """What is asked in the model's own words, ``ax(rod.G)``, ``energy()``, ``accel(s)``, becomes a symbol. Raises ``StatementError``."""

@@ -30,6 +30,8 @@ HOLDS = 1e-10
 """Below it, relative to the terms, an equation holds but for round-off."""
 FAILS = 1e-6
 """Above it an equation is wrong; between the two a bad condition is to be suspected."""
+_FEW, _BLURRED = 0.1, 1e-8
+"""Share of the states that may be badly conditioned, and the worst that they may show."""
 REACH = 1e-3
 """A term below it, relative to all, cannot be judged right or wrong."""
 SLIGHT = 1e-5
@@ -78,6 +80,12 @@ class Residual:
 
     sides: Sides
     ratio: Array
+
+    @property
+    def holds_but_for_few(self) -> bool:
+        """Whether an equation holds, badly conditioned states aside if they are few."""
+        worst = np.abs(self.ratio).max(axis=1)
+        return bool(np.mean(~(worst < HOLDS)) <= _FEW and worst.max() < _BLURRED)
 
     @property
     def worst(self) -> float:

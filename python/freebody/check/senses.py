@@ -1,4 +1,4 @@
-"""Rates of one sense, where what acts depends on it: a drag written c v² resists what moves forward alone."""
+"""Rates of one sense, where what acts depends on it, a drag written c v² resists what moves forward alone, or where one is said to be a root."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from freebody.symbolic.tree import Num, Pow, Sym, walk
+from freebody.symbolic.tree import Fn, Mul, Node, Num, Pow, Quotient, Sym, walk
 
 from .language.statements import Equation
 
@@ -26,10 +26,27 @@ def one_sense(case: Case, equation: Equation) -> tuple[str, Family] | None:
     powers = (n for n in walk(equation) if isinstance(n, Pow) and isinstance(n.base, Sym) and isinstance(n.exponent, Num))
     rates = dict.fromkeys(n.base for n in powers if n.exponent.value > 1 and known.vocabulary.is_rate(n.base))
     said = {n: known.read_from(n) for n in rates}
-    texts = {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said
+    return _as_at_start(case, {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said)
+
+
+def of_root(case: Case, equation: Equation) -> tuple[str, Family] | None:
+    """The same of a rate that is said to be a root, θ' = √(…)."""
+    pairs = ((equation.left, equation.right), (equation.right, equation.left))
+    rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
+    return _as_at_start(case, {n: case.meaning.read_from(n) for n in rates})
+
+
+def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[str, Family] | None:
+    """The motions in which rates have the sense that they have at the start, in words."""
     if not texts:
         return None
     began = dict(zip(texts, case.sampler.core.evaluate([*texts.values()], case.sampler.own), strict=True))
     words = ", ".join(f"{n.key} {'<' if began[n] < 0 else '>'} 0" for n in texts)
     above = tuple(f"-({text})" if began[n] < 0 else text for n, text in texts.items())
     return words, replace(case.hypothesis, above=(*case.hypothesis.above, *above))
+
+
+def is_root(node: Node) -> bool:
+    """Whether a root stands in it as a factor."""
+    factors = node.factors if isinstance(node, Mul) else (node.top,) if isinstance(node, Quotient) else (node,)
+    return any(isinstance(factor, Fn) and factor.name == "sqrt" for factor in factors)

@@ -122,7 +122,8 @@ class Symbols:
     @property
     def constants(self) -> list[str]:
         """Symbols that do not change with time; letters for what parameters make are among them."""
-        still = {*map(spell, self.of_kind("parameter")), *_FUNCTIONS}
+        parameters = (name for name, (kind, _) in self.named.values.items() if kind == "parameter")  # also behind another name
+        still = {*map(spell, parameters), *_FUNCTIONS}
         made = [n for n in self.of_kind("declared") if all({*_WORD.findall(text)} <= still for text in self.meanings[n].texts)]
         return [*self.of_kind("parameter", "gravity", "direction", "initial", "vibration", "inertia"), *made]
 

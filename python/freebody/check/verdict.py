@@ -17,7 +17,7 @@ from freebody.solve.rich_tables import PlainText
 from freebody.symbolic.differentiate import rate
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import is_zero
-from freebody.symbolic.tree import Num, Pow, Sym
+from freebody.symbolic.tree import Sym
 
 from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, of_family, tiny
 from .case import Case
@@ -29,7 +29,7 @@ from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import SAMPLES
 from .nearest import nearest
 from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, sizes, unreached
-from .senses import one_sense
+from .senses import of_root, one_sense
 from .stated import Correction
 
 if TYPE_CHECKING:
@@ -37,11 +37,9 @@ if TYPE_CHECKING:
 
 _FAR = 2.0  # size of a correction from which on one is looked for among the balances
 _FAR_FETCHED = 1.5  # size of a correction from which on what a balance says may be nearer
-_BLURRED = 1e-8  # worst that fresh states may show where a few are badly conditioned
 _UNITS = ("i", "j", "k")
 _SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
 """What has no sign."""
-_FEW = 0.1  # share of such states
 _GLANCE = 3  # states, on which most of what is wrong shows
 _ROUND_OFF = 1e-9  # of the largest component of an equation: one that stays below is 0
 _DEPENDENT = 1e-8  # singular value, of rows whose largest entry is 1, below which equations depend on each other
@@ -185,9 +183,8 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(broken, case.values()))
     worst = found.worst
     if HOLDS <= worst <= FAILS:  # on fresh states, badly conditioned ones aside if they are few
-        again = np.abs(case.residual(equation, fresh=7).ratio).max(axis=1)
-        few = np.mean(again >= HOLDS) <= _FEW and again.max() < _BLURRED
-        worst = float(np.median(again) if few else again.max())
+        again = case.residual(equation, fresh=7)
+        worst = float(np.median(np.abs(again.ratio).max(axis=1))) if again.holds_but_for_few else again.worst
     in_digits = HOLDS <= worst <= FAILS or (case.hypothesis.numbers and worst >= HOLDS)
     if worst < HOLDS or (in_digits and np.all(np.abs(found.sides.residual) <= rounding(equation, case.values()))):
         return _true(case, equation, text, found)
@@ -308,11 +305,14 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
 
 
 def _of_one_sense(case: Case, equation: Equation) -> Verdict | None:
-    """That it is true where rates have one sense, if what acts depends on it; else None."""
-    words, family = one_sense(case, equation) or ("", None)
-    if family is None or not of_family(case, equation, family, _GLANCE) or not of_family(case, equation, family):
-        return None
-    return Verdict(Kind.TRUE_IF, case.program.text, f"true only if: {words}", words)
+    """That it is true where rates have one sense, if what acts depends on it, or where a rate that is said to be a root has the sense of
+    the start; else None."""
+    for kind, found in ((Kind.TRUE_IF, one_sense(case, equation)), (Kind.TRUE, of_root(case, equation))):
+        words, family = found or ("", None)
+        if family and of_family(case, equation, family, _GLANCE) and of_family(case, equation, family):
+            reason = f"true only if: {words}" if kind is Kind.TRUE_IF else f"holds where {words}, as at the start"
+            return Verdict(kind, case.program.text, reason, words)
+    return None
 
 
 def _from_start(case: Case, equation: Equation) -> Verdict | None:
@@ -325,7 +325,12 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     since = replace(given, since="start")
     glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)
     known = figure or case.meaning.speaks_of_start(equation)
-    if not (known or _never_changes(case, equation) or _but_for_sign(case, equation) or glance()):
+    if not (
+        known
+        or _never_changes(case, equation)
+        or (_has_sizes(case, equation) and of_family(case, equation, since, _GLANCE))
+        or glance()
+    ):
         return None
     for family in (since, replace(since, through=True)):
         if of_family(case, equation, family, SAMPLES):
@@ -344,13 +349,9 @@ def _never_changes(case: Case, equation: Equation) -> bool:
     return False
 
 
-def _but_for_sign(case: Case, equation: Equation) -> bool:
-    """Whether sizes of velocities stand in it, and its sides are equal but for their sign."""
-    known = case.meaning
-    if equation.relation != "=" or not any(_SIZE.search(text) for n in symbols_in(equation) for text in known.texts(Sym(n.name))):
-        return False
-    two = Num(2.0, "2")
-    return holds(case, Equation(Pow(equation.left, two), Pow(equation.right, two)))
+def _has_sizes(case: Case, equation: Equation) -> bool:
+    """Whether sizes of velocities stand in it."""
+    return any(_SIZE.search(text) for n in symbols_in(equation) for text in case.meaning.texts(Sym(n.name)))
 
 
 def _as_figures(case: Case, equation: Equation) -> Verdict | None:

@@ -3,7 +3,7 @@ frequencies."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -18,6 +18,7 @@ from freebody.stability.state_space import SingularConfiguration, state_space
 from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
 
+from .families import NoMotion
 from .user_symbols import Masses, Meaning, Values
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ _STAGES = 6  # in which a place of rest goes along as parameters change, where i
 _NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
 _WELDS = 1e3  # of the largest natural frequency: rates at which dampers make motions fade, above which they are as good as rigid
 _LASTING = 30.0  # of the rate at which it fades, the rate of what swings for long
+_ALIKE = 1e-6  # of what moves in a vibration, below which it does not change what coordinates have to do with each other
 _APART = 0.1  # of what is typical of each coordinate, to a place where linear equations may be others
 _LATE = 0.37, 0.91  # of the typical time: later, when what goes on at one speed does so
 _NEWTON, _FOUND = 20, 1e-10  # steps to a place of rest, and the last of them, of what is typical of each coordinate
@@ -90,6 +92,24 @@ class Vibration:
     def count(self) -> int:
         """How many natural frequencies it has."""
         return sum(name.startswith("natural frequency") for name in self._own) if self.rest else 0
+
+    def modes(self, relations: Sequence[str]) -> list[int]:
+        """The numbers of those natural vibrations in which expressions of several coordinates stay 0, as they are at rest. Raises
+        ``NoMotion`` where there is none."""
+        core, rest, every = self.sampler.core, self.rest, list(range(1, self.count + 1))
+        space, size = state_space(core, rest), self.sampler.sizes
+        slopes = core.derivatives(list(relations), rest)[:, 1 : 1 + len(size)] * size if relations else np.zeros((0, 0))
+        slopes = slopes[np.sum(np.abs(slopes) > _NOTHING, axis=1) > 1]
+        if not len(slopes) or len(space.free) != len(size):
+            return every
+        squares, shapes = np.linalg.eig(-space.a[len(size) :, : len(size)])
+        swinging = [k for k in np.argsort(squares.real) if squares[k].real > _NOTHING * np.abs(squares).max()]
+        order = [self.sampler.names.index(name) for name in space.free]
+        moved = np.abs(slopes[:, order] @ (shapes[:, swinging].real / size[order, None]))
+        most = np.abs(slopes[:, order]) @ np.abs(shapes[:, swinging].real / size[order, None])
+        if not (found := [i for i, so in zip(every, np.all(moved <= _ALIKE * most, axis=0), strict=False) if so]):
+            raise NoMotion("no natural vibration of this model is of that kind")
+        return found
 
     @property
     def place(self) -> str:

@@ -51,6 +51,9 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
         return in_phase(checker, declared, found, words, statement)
+    if not lasts and _OVER.search(words):
+        with suppress(ModelProblem):
+            return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
@@ -66,7 +69,10 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         raise problem
     if stretch and not verdict.ok:
         return _later(checker, declared, words, statement, verdict, problem)
-    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as a label, and not judged."))
+    run, _ = checker.moment("end")
+    at_first = lasts and any(change.t > run.t[0] for change in run.changes)  # there are other stretches
+    how = "at first" if at_first else "a label, and not judged"
+    return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
 
 
 def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:
@@ -127,6 +133,8 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
 IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
+_OVER = re.compile(r"\b(?:has|have|had)\b")
+"""``once the drum has stopped``: what is so after something that happens."""
 _ONE_PART = re.compile(
     r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
 )

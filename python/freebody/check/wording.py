@@ -12,16 +12,18 @@ _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long 
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until)\b)[^=<>:;,\n]*[,:]\s*(?=(?:{_STARTS})\b[^:;\n]*:(?!=))(?<!\A)"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|while|during|until)\b[^:;\n]*:(?!=))"
+    rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
+"""``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
 _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
 """``at t = 0 (at rest, beam level)``."""
 _FREQUENCIES = re.compile(
-    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*\Z"
+    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)"
 )
 LASTS = re.compile(r"(?:while|until|during|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
-_WORDS = re.compile(r"[A-Za-z\s'-]+")
+_WORDS = re.compile(r"[\w\s'-]+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
@@ -33,7 +35,7 @@ _THINGS = (
 )
 _STATES = "is|are|was|were|has|have|no|not|rest|zero|cut|taut|slack|light|heavy|massless|rigid|smooth|rough|constant|steady|small|large|alone"
 """Words that tell what a condition is, which is no label."""
-_NAMED_PLACE = re.compile(r"[A-Za-z][A-Za-z\s-]*\(([^()]*[=<>][^()]*)\)")
+_NAMED_PLACE = re.compile(r"([A-Za-z][A-Za-z\s-]*?)\s*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
@@ -41,8 +43,21 @@ _UNIFORM = re.compile(
     r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speed|velocity|motion)|(?:moving\s+)?uniformly"
 )
 _SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
-_SMALL = re.compile(rf"\A\s*(?:(?:for|with|at)\s+)?small ({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s*:(?!=)")
-"""``small θ:``, ``for small φ and s:``; a small block is no angle."""
+_SMALL = re.compile(
+    rf"(?:\A\s*|(?<=,)\s*)(?:(?:for|with|at)\s+)?small\s+({_SYMBOL}(?:(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*|(?:\s*=\s*[-+−]?\s*{_SYMBOL})+))\s*(?=:(?!=)|,\s*(?:{CONDITION})\b)"
+)
+"""``small θ:``, ``for small φ and s, if φ = 0:``, ``small y_1 = y_2:``; a small block is no angle."""
+_SMALL_BEHIND = re.compile(
+    rf"\b(for|with)\s+({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s+small\b|\b(small) values of\b"
+)
+"""``for x, y small:``, ``for small values of x:``."""
+_WHICH_MODE = re.compile(
+    r"\s*(?:the\s+)?(?:(first|lower|lowest|fundamental)|(second|upper|higher))\s+(?:(?:natural|normal|circular)\s+)*(?:mode|frequency)(?:\s+of\s+vibration)?\s*"
+)
+_GIVEN_IN_WORDS = re.compile(
+    rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))"
+)
+"""``engine off, no damping (Q = 0, c = 0):``."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^=]*:(?!=))")
 _OF_WHAT = re.compile(
@@ -61,7 +76,7 @@ _HAPPENS_WHEN = re.compile(
 )
 """``the block breaks loose when k x = μ m g``."""
 _PARTS = re.compile(r",|\band\b")
-_WHEN = re.compile(r"\s+(?:when|where|while|with)\s+")
+_WHEN = re.compile(r"\s+(?:when|where|while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
 _ABOUT = re.compile(r"\s*about\s[^=]*=")
 """Of a vibration: ``about x = m g/k``."""
 _SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
@@ -84,7 +99,7 @@ _CONSTANT = re.compile(
 """``E = T + V = const``, ``p is conserved``."""
 _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
 """``Energy: T + V = const``."""
-_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|\\[\[\]]")
+_DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
 _GIVEN_FIRST = re.compile(
@@ -146,42 +161,56 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, _LABELLED.sub("", text)))
+    text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))
+    text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
+    text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, text))
     text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text))
     label, colon, rest = text.partition(":")
+    if colon and (found := _WHICH_MODE.fullmatch(label)):
+        return f"frequencies {1 if found[1] else 2}: {rest}"
     if colon and "=" in rest and (found := _WITHOUT.search(label)):
         others = f"{label[: found.start()]} {label[found.end() :]}".strip()
         return f"if without {'friction' if any(found.groups()) else 'damping'}: {f'{others}:' if others else ''}{rest}"
     if colon and "=" in rest and (found := _FREQUENCIES.search(label)):
-        before = label[: found.start()].strip()
+        before = f"{label[: found.start()]}{label[found.end() :]}".strip()
         return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
-    if not found:
-        return text
-    word, said, statement = (
-        " ".join(found[1].split()),
-        _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1", _plainly(found[2])))),
-        found[3],
-    )
+    return _conditional(" ".join(found[1].split()), _plainly(found[2]), found[3]) if found else text
+
+
+def _conditional(word: str, words: str, statement: str) -> str:
+    """A claim whose condition is ``words`` behind the ``word`` with which it begins."""
+    side, place = word.split()[-1], _NAMED_PLACE.search(words)
+    named = place is not None and (side in ("after", "before") or place[1].startswith(("the ", "a ")))  # it may be an event
+    said = _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1, \2" if named else r"\2", words)))
     if word == "at" and said == "start":
-        return text  # of the model's own run, as ``at end``
+        return f"at start: {statement}"  # of the model's own run, as ``at end``
     first, *others = _PARTS.split(said)
     labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
+    if (kept := [part for part in parts if part.strip() not in ("constant", "conserved")]) and len(kept) < len(parts):
+        parts, statement = kept, f"constant: {statement}"
     parts[0] = "from the start" if word == "from" else parts[0]
     first = f"{word} {parts[0].strip()}"
-    if LASTS.match(first) and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
+    if (LASTS.match(first) or word == "on") and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
         parts[0] = first
     said = ",".join(parts)
-    if len(parts) > 1 and (beside := next((p for p in (f"{word} {parts[0]}", *parts[1:]) if _BESIDE.fullmatch(p.strip())), None)):
-        others = [_condition(p) for p in (f"{word} {parts[0]}", *parts[1:]) if p is not beside]
-        return as_claim(f"if {', '.join(others)}: {beside.strip()}: {statement}")
-    side = word.split()[-1]
+    each = [f"{word} {parts[0]}", *parts[1:]]
+    if len(parts) > 1 and (beside := next((part for part in each if _BESIDE.fullmatch(part.strip())), None)):
+        others = ", ".join(_condition(part) for part in each if part is not beside)
+        if "->" in others or "small motions" in others:
+            return as_claim(f"{beside.strip()}: as {others}: {statement}")
+        return as_claim(f"if {others}: {beside.strip()}: {statement}")
     is_start = word == "initially" or (" " in word and side == "after" and (not said or _START.fullmatch(said)))
     if side in ("after", "before") and not is_start:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
     said = "at the start" if is_start else said
-    parts = [_condition(part) for part in _PARTS.split(said)]
+    parts = _PARTS.split(said)
+    if statement.startswith("frequencies:"):  # they are of small motions
+        parts = [part for part in parts if not re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", part)]
+        if not parts:
+            return statement
+    parts = [_condition(part) for part in parts]
     small = {part.removesuffix(" -> 0") for part in parts if part.endswith(" -> 0")}
     parts = [part for part in parts if part.rstrip("'") == part or part.rstrip("'") not in small]  # so are its rates
     if any("->" in part or part == "small motions" for part in parts):
@@ -196,9 +225,10 @@ def as_claim(text: str) -> str:
 
 
 def _all_small(found: re.Match[str]) -> str:
-    """``for small φ, small s:``."""
-    names = filter(None, (part.strip() for part in _PARTS.split(found[1])))
-    return f"for {', '.join(f'small {name}' for name in names)}:"
+    """``for small φ, small s``, and what is said of them beside, ``φ = s``."""
+    parts = [part.strip() for part in _PARTS.split(found[1]) if part.strip()]
+    names = dict.fromkeys(name.strip(" -+−") for part in parts for name in part.split("="))
+    return f"for {', '.join([*(f'small {name}' for name in names), *(part for part in parts if '=' in part)])}"
 
 
 def _plainly(condition: str) -> str:
@@ -214,7 +244,7 @@ def _condition(part: str) -> str:
         rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
     ):
         return "small motions"
-    if found := re.fullmatch(r"(small|large) (.+)", said):
+    if found := re.fullmatch(r"(small|large)\s+(.+?)(?:\s+about\s[^=]*)?", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
     if _START.fullmatch(said):
         return "at the start"
