@@ -441,7 +441,9 @@ class _Search:
             return None
         left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
         linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
-        solved = next((each for each in linear if each is not None), None)
+        solved = next(
+            (each for each in linear if each is not None and np.abs(each).max() > _ROUND_OFF), None
+        )  # m (…) = 0 says m = 0
         if solved is None and left.shape[1] > 1:
             solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
         if solved is None:

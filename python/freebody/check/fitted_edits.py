@@ -145,16 +145,28 @@ class FittedEdits:
                 yield Pow(found, node.exponent) if isinstance(node, Pow) else found, size
 
     def _pairs(self, its: Dimension | None) -> tuple[list[tuple[Node, Node]], Array]:
-        """Sums and differences of two symbols of a dimension, and their values."""
+        """Sums and differences of two symbols of a dimension, and of one and what rolls off beside it, and their values."""
         if its not in self._made_pairs:
             known = [n for n in self._known if its is not None and self.vocabulary.dimension(n) == its]
-            apart = (
+            apart = [
                 (a, b) for a, b in permutations(known, 2) if not np.allclose(*np.abs([self.values[a.key], self.values[b.key]]))
-            )
-            pairs = [(a, c) for a, b in apart for c in (*((b,) if a.key < b.key else ()), Negative(b))]
+            ]
+            pairs: list[tuple[Node, Node]] = [(a, c) for a, b in apart for c in (*((b,) if a.key < b.key else ()), Negative(b))]
+            moving = [n for n in known if Sym(n.name) in self.vocabulary.coordinates]
+            pairs += [(a, c) for a in moving for b in self._rolled(its) for c in (b, Negative(b))]
             rows = [sampled(Add(pair), self.values) for pair in pairs]
             self._made_pairs[its] = pairs, np.array(rows).reshape(len(rows), len(next(iter(self.values.values()))))
         return self._made_pairs[its]
+
+    def _rolled(self, its: Dimension | None) -> list[Node]:
+        """Lengths times angles, or times their rates, of a dimension."""
+        lengths = [n for n in self.vocabulary.parameters if self.vocabulary.dimension(n) == LENGTH]
+        turns = [n for n in self._known if n not in self.vocabulary.parameters and its == self._times_length(n)]
+        return [Mul((length, turn)) for length in lengths[:_MOST_LENGTHS] for turn in turns]
+
+    def _times_length(self, symbol: Sym) -> Dimension | None:
+        own = self.vocabulary.dimension(symbol)
+        return None if own is None else own.times(LENGTH, 1)
 
     @cached_property
     def _squares(self) -> SquareEdits:

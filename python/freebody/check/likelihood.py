@@ -365,8 +365,8 @@ def _is_place(base: Node, known: Vocabulary) -> bool:
 def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) -> float:
     """How unlikely a number is to be taken for another; ``usual``: one that is usual before terms, for another."""
     before, after = (float(_numbers(node, values)[0]) for node in (old, new))
-    if before * after < 0:
-        return _ODD
+    if before * after < 0:  # another sign and another number are two slips
+        return 2 * _ODD
     before, after = abs(before), abs(after)
     if isinstance(old, Num) and isinstance(new, Num) and before.is_integer() and after not in FIGURES:
         return _ODD
