@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
+from freebody.run.moments import PATIENT, Unreached
 from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
@@ -29,7 +30,7 @@ from .language.glyphs import CONDITION
 from .language.statements import Program, symbols_in
 from .laws import without_laws
 from .motion_sampler import MotionSampler
-from .phases import alike, phase
+from .phases import alike, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .senses import is_root
@@ -42,7 +43,6 @@ from .wording import as_claim, with_condition_first
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
-_PATIENT = 10.0  # s, within which an event is waited for where the model does not say how long it runs
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
@@ -68,7 +68,7 @@ class Checker:
         self.sampler, self.printed = MotionSampler(mechanism, seed, **asked), PrintedSymbols(mechanism, **asked)
         self.vibration = Vibration(self.sampler)
         self.hypothesis = ALL
-        self.correcting = True
+        self.correcting, self.is_at_first = True, False
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
@@ -160,11 +160,15 @@ class Checker:
             label, colon, _ = plain.partition(":")
             if colon and len(verdict.mends) > 1:
                 verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)
+            if verdict.ok and verdict.untested and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment):
+                verdict = self._also_later(verdict, text, letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:
             return Verdict(Kind.UNDECIDABLE, text, str(error))
         except (ModelProblem, ModelError, MotionError) as error:
             what, hint = error.args[-2:]
+        except Unreached as error:
+            what, hint = str(error), ""
         except ModelFileError as error:  # a number of a parameter that is none
             what, hint = error.problems[0].what, error.problems[0].hint
         except StatementError as error:
@@ -174,6 +178,23 @@ class Checker:
         word = next((word for word in re.findall("`([^`]+)`", what) if word in text), text)
         start = text.find(word)
         raise StatementError(what, (start, start + len(word)), hint, text)
+
+    def _also_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
+        """The verdict about what holds as the model is at first, where some of it is 0: wrong where it does not hold after something switches."""
+        run = self.own_motion
+        for name in dict.fromkeys(f"{c.kind} {part}" for c in run.changes if c.t > run.t[0] for part in c.of):
+            with suppress(ModelProblem, StatementError):
+                later = self.beside("after", name, {}).check(text, letters)
+                if later.kind is Kind.WRONG:
+                    said = ", ".join(f"`{term}`" for term in verdict.untested)
+                    return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
+        return verdict
+
+    def at_first(self) -> Checker:
+        """The same, of which is asked what is so as the model is at first, whatever switches on it later."""
+        other = copy(self)
+        other.is_at_first = True
+        return other
 
     def beside(self, side: str, event: str, held: Mapping[str, float]) -> Checker:
         """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
@@ -202,7 +223,7 @@ class Checker:
         said = re.sub(r"\A(?:the|an?)\s+", "", event)
         if said in events:
             return said
-        run, _ = self.moment("end")
+        run = self.own_motion
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
@@ -211,7 +232,11 @@ class Checker:
         for found in (named(events), when.changes if when else (), named(parts)):
             if len(found) == 1:
                 return found[0]
-        later = [change for change in run.changes if change.t > run.t[0]]
+        alike_in_kind = [name for name in events if (kind := kind_of(said)) and kind == kind_of(name)]
+        if len(alike_in_kind) == 1:
+            return alike_in_kind[0]
+        times = [event.t for event in run.events]
+        later = [change for change in run.changes if change.t > run.t[0] and change.t not in times]
         impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
         if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):
             return next(iter(impacts))
@@ -225,7 +250,7 @@ class Checker:
         """What the impacts on the model's own run are at, where it is one part, and nothing happens at its start."""
         if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
             return None
-        run, _ = self.moment("end")
+        run = self.own_motion
         parts = {tuple(change.of[:1]) for change in run.changes if change.t > run.t[0] and change.kind == "impact"}
         return next(iter(parts))[0] if len(parts) == 1 else None
 
@@ -270,13 +295,23 @@ class Checker:
         alone = alone and all(meaning.dimension != NUMBER_ONLY for meaning in vectors.values())
         return {name: "hypot({}, {})".format(*m.texts[:2]) for name, m in vectors.items()} if alone else {}
 
+    @cached_property
+    def own_motion(self) -> Any:
+        """The model's own run; where the model does not say how long it runs, one on which something switches that may."""
+        run, _ = self.moment("end")
+        open_ended = self.mechanism.run_numbers().until is None and not any(change.t > run.t[0] for change in run.changes)
+        may_switch = bool(self.sampler.spec["events"]) or bool(self.sampler.core.instant(self.sampler.own).limits)
+        if open_ended and may_switch:
+            return self._runs.get(PATIENT) or self._runs.setdefault(PATIENT, self.mechanism.simulate(PATIENT))
+        return run
+
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
         until = None if self.mechanism.run_numbers().until is not None else 1.0
         with suppress(ModelProblem):
             until = until and max(until, quantity("at", name, "s"))
         if until and any(event["name"] == name for event in self.sampler.spec["events"]):
-            until = _PATIENT  # it may come late
+            until = PATIENT  # it may come late
         run = self._runs.get(until) or self._runs.setdefault(until, self.mechanism.simulate(until))
         times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
         times |= {event.name: event.t for event in reversed(run.events)}

@@ -110,12 +110,14 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         and not checker.sampler.has(given)
     ):
         return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
-    others = []
+    others = (
+        [(replace(given, since="", at_start=True), condition)] if given.since == "rest" else []
+    )  # of the moment of the release
     if given.vanishing and (
         places or verdict.kind is Kind.UNDECIDABLE
     ):  # it may be so only where something switches, or has done so
-        others = [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
-    elif given.since:
+        others += [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
+    elif given.since and not others:
         return verdict
     elif given.at_rest and "at rest" in condition and _is_of_places(checker.case(statement, declared)):
         others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
@@ -336,7 +338,7 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
 def _happens(checker: Checker, parts: Sequence[str], motion: Trajectory, begins: float) -> bool:
     """Whether rates jump on a motion, by something of parts that changes on the model's own run, too."""
     jumps = any(each.before is not None for each in motion.changes if each.t > begins)
-    return jumps and any({*each.of} & {*parts} for each in checker.moment("end")[0].changes if each.t > 0)
+    return jumps and any({*each.of} & {*parts} for each in checker.own_motion.changes if each.t > 0)
 
 
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:

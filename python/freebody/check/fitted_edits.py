@@ -219,6 +219,16 @@ class FittedEdits:
             yield Edit.at(
                 equation, "missing factor", required.node, Mul((required.node, factors[place]), span=required.node.span), size
             )
+        yield from self._of_sums(equation, required, factors, rows)
+
+    def _of_sums(self, equation: Equation, required: RequiredTerm, factors: Sequence[Node], rows: Array) -> Iterator[Edit]:
+        """A term that lacks a number times a sum, as 2 (1 + cos θ)."""
+        sums = [i for i, factor in enumerate(factors) if isinstance(factor, Add)]
+        for place in (sums[i] for i in proportional(rows[sums], required.factor, _SAME * self.blur)) if sums else ():
+            number = self._constant(required.factor / rows[place])
+            new = None if number is None or number == 1 else multiplied(Mul((required.node, factors[place])), number)
+            if new is not None:
+                yield Edit.at(equation, "missing factor", required.node, new, 0.3)
 
     @cached_property
     def _single(self) -> tuple[list[Node], Array]:

@@ -182,6 +182,10 @@ class MotionSampler(AskedModel):
         if fixed:
             return value
         low, high = _ANGLE_FACTOR if dimension == ANGLE else _LOOP_FACTOR if self.shapes_loop(name) else _FACTOR
+        if (
+            dimension == ANGLE and self.restricted and value % (math.pi / 2)
+        ):  # what leans to one side does so with other numbers, too
+            high = min(high, math.ceil(abs(value) / (math.pi / 2)) * (math.pi / 2) / abs(value))
         factor = low * (high / low) ** size
         return value * factor if value else sign * factor * self.unit(dimension)
 

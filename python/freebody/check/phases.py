@@ -58,15 +58,20 @@ class Phase:
     is_moment: bool
 
 
+def kind_of(words: str) -> str | None:
+    """What goes on in words, of the kinds above."""
+    said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
+    return max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
+
+
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
-    said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
-    kind = max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
+    kind = kind_of(words)
     place = _ON.match(words)
     lasts, on_body = LASTS.match(words) is not None or place is not None, place and place[1] in checker.symbols().bodies
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
-    run, _ = checker.moment("end")
+    run = checker.own_motion
     happened = {change.kind for change in run.changes if change.t > run.t[0]}
     kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]

@@ -68,7 +68,7 @@ def _symbolically(checker: Checker, declared: Declared, event: str, statement: s
 
 def report(checker: Checker, declared: Declared, label: str, figure: str) -> Verdict:
     """A quantity of the section ``report``, from the model's own run with its own numbers."""
-    run, _ = checker.moment("end")
+    run = checker.own_motion
     if label not in run.report:
         raise ModelProblem(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
     printed = parse(f"0 = {figure}").equations[0]

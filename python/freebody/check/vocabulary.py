@@ -83,6 +83,7 @@ class Vocabulary:
         squares += [_square(Fn(name, (angle,))) for angle in self.angles for name in ("sin", "cos")]
         shares = [n for n, its in self.parameters.items() if its == NUMBER_ONLY and n not in self.angular]
         sums = [Add((Num(1.0, "1"), share)) for n in shares for share in (n, Negative(n))]
+        sums += [Add((Num(1.0, "1"), sign(Fn("cos", (angle,))))) for angle in self.angles for sign in (lambda n: n, Negative)]
         return [*apart, *squares, *(_square(Add((a, Negative(b)))) for a, b in rates), *(Mul(pair) for pair in rates), *sums]
 
     # -- terms

@@ -60,17 +60,20 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     }
     names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
     said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
-    stretch = lasts and said and not names and _ONE_PART.search(words) is None
-    verdict = checker.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
+    placed = _PLACED.match(words) is not None
+    stretch = (lasts or placed) and said and not names and _ONE_PART.search(words) is None
+    asked = checker.at_first() if lasts or placed else checker
+    verdict = asked.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
     if verdict is None or not (names or stretch or verdict.ok):
         with suppress(ModelProblem):
             if said and (until := _UNTIL.fullmatch(words)):
                 return beside_event(checker, declared, "", "before", until[1], statement)
         raise problem
-    if stretch and not verdict.ok:
+    run = checker.own_motion
+    others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
+    if (stretch or (placed and others)) and not verdict.ok:
         return _later(checker, declared, words, statement, verdict, problem)
-    run, _ = checker.moment("end")
-    at_first = lasts and any(change.t > run.t[0] for change in run.changes)  # there are other stretches
+    at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
 
@@ -79,7 +82,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     """What does not hold as the model is at first, behind words that say how long it should: true where it holds after something
     that happens, wrong where it holds on none of these stretches, whichever is meant. Raises the ``problem`` of the words for what
     should stay the same, of which nothing says how long."""
-    run, _ = checker.moment("end")
+    run = checker.own_motion
     happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
     found = in_phase(checker, declared, Phase(False, tuple(happens), False), words, statement, [at_first])
     if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
@@ -99,7 +102,9 @@ def in_phase(
     problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
     for place, name in zip(places, names[len(names) - len(places) :], strict=True):
         try:
-            one = beside_event(checker, declared, *place, statement) if place[1] else checker.check(statement, declared)
+            one = (
+                beside_event(checker, declared, *place, statement) if place[1] else checker.at_first().check(statement, declared)
+            )
         except (ModelProblem, StatementError) as error:
             problem = error
             continue
@@ -118,6 +123,11 @@ def in_phase(
 def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
     """Before or after something that happens on a motion, at once or until the next change."""
     held = {name: float(value) for name, value in checker.hypothesis.held if _FIGURE.fullmatch(str(value))}
+    if just and side == "after" and not checker.sampler.spec["events"] and not checker.own_motion.changes:
+        verdict = checker.check(statement, declared, replace(checker.hypothesis, at_start=True))
+        return replace(
+            verdict, notes=(*verdict.notes, f"`{event}` is read as what the model starts with: nothing else happens on it.")
+        )
     there = checker.beside(side, event, held)
     just = just or there.sampler.stated  # before what happens at the start there is no motion
     given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
@@ -135,6 +145,8 @@ _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
 _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
+_PLACED = re.compile(r"(?:with|once)\b")
+"""``with the lump on the rim``: words that may be of a later stretch."""
 _ONE_PART = re.compile(
     r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
 )

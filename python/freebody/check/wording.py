@@ -64,6 +64,8 @@ _OF_WHAT = re.compile(
     rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
 )
 """``momentum along x``, ``both rods``: behind a condition a label."""
+_QUANTITY = re.compile(r"\s*\$?\\?[A-Za-z]_\{?\w+\}?\$?\s*")
+"""``H_D``: behind a condition what the equation is of."""
 _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
@@ -186,13 +188,17 @@ def _conditional(word: str, words: str, statement: str) -> str:
     if word == "at" and said == "start":
         return f"at start: {statement}"  # of the model's own run, as ``at end``
     first, *others = _PARTS.split(said)
-    labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch
+    labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch, _QUANTITY.fullmatch
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
     if (kept := [part for part in parts if part.strip() not in ("constant", "conserved")]) and len(kept) < len(parts):
         parts, statement = kept, f"constant: {statement}"
     parts[0] = "from the start" if word == "from" else parts[0]
     first = f"{word} {parts[0].strip()}"
-    if (LASTS.match(first) or word == "on") and _WORDS.fullmatch(first) and _condition(parts[0]) == parts[0].strip():
+    if (
+        (LASTS.match(first) or word in ("on", "with", "once"))
+        and _WORDS.fullmatch(first)
+        and _condition(parts[0]) == parts[0].strip()
+    ):
         parts[0] = first
     said = ",".join(parts)
     each = [f"{word} {parts[0]}", *parts[1:]]

@@ -21,6 +21,10 @@ _MOMENT = 1e-6
 it has none before these events."""
 
 
+PATIENT = 10.0
+"""s, for which something is waited for where the model does not say how long it runs."""
+
+
 class Unreached(ValueError):
     """A moment to which a motion does not come."""
 
@@ -80,8 +84,8 @@ def state_of(
 
 
 def _end(mechanism: Builder, start: State) -> float:
-    """When the model's own run ends, a second after its start where it says nothing, s."""
-    return mechanism.run_numbers().until or start.t + 1.0
+    """When the model's own run ends, or how long what happens is waited for where it says nothing, s."""
+    return mechanism.run_numbers().until or start.t + PATIENT
 
 
 def time_of(run: Run, name: str) -> float:
