@@ -101,6 +101,30 @@ def m_rates(m, rates):
     return dict(m.model.initial.rates) | rates
 
 
+@pytest.mark.parametrize(
+    "initial",
+    [
+        "{phi: 1, guess: {psi: -1.5}, rates: {phi: 2}}",
+        "{phi: 1, branch: {y(coupler.end): negative}}",
+        "{points: {crank.end: [0.06 m, 0.08 m]}, guess: {psi: 1.5}}",
+        "{phi: L/(0.3 m), guess: {psi: 2*phi0}, rates: {phi: 3 rad/s}}",
+    ],
+)
+def test_loops_close_from_what_a_start_says_on_any_number_of_threads(initial):
+    """Guesses, branches, places of points and formulas of parameters, which are others in each member."""
+    text = FOUR_BAR.replace("{phi: 1, guess: {psi: 1.5}, rates: {phi: 2}}", initial)
+    m = fb.Mechanism.loads(text.replace("{L: 0.3 m}", "{L: 0.3 m, phi0: 0.7 rad}"))
+    lengths, angles = np.linspace(0.28, 0.32, 7), np.linspace(0.6, 0.8, 7)
+    made = [m.batch(p={"L": lengths, "phi0": angles}, t_eval=[0], threads=threads, **STEP) for threads in (1, 2, 5)]
+    assert made[0].identical(made[1]) and made[0].identical(made[2])
+    for i, (length, angle) in enumerate(zip(lengths.tolist(), angles.tolist(), strict=True)):
+        state, _ = m.start(L=length, phi0=angle)
+        run = m.simulate(t_eval=[0], L=length, phi0=angle, **STEP)
+        np.testing.assert_array_equal(made[0].q[i], run.q)
+        np.testing.assert_array_equal(made[0].u[i], run.u)
+        np.testing.assert_allclose(run.q[0], state.q, rtol=1e-12)  # the first step may close it to the last digits
+
+
 def test_neither_threads_nor_neighbours_change_a_bit():
     m = fb.Mechanism.loads(PENDULUMS)
     q0, p = members(21, "alpha", "beta"), members(21, "L")
@@ -160,6 +184,14 @@ def test_arrays_that_do_not_fit_are_refused_with_what_and_where(given, what):
         fb.Mechanism.loads(PENDULUMS).batch(**STEP, **given)
 
 
-def test_a_member_with_numbers_that_cannot_be_is_named():
-    with pytest.raises((MotionError, fb.ModelError, ModelFileError), match="member 1"):
-        fb.Mechanism.loads(PENDULUMS).batch(p={"m2": [1, -1]}, **STEP)
+@pytest.mark.parametrize(
+    "text, p, error, what",
+    [
+        (PENDULUMS, {"m2": [1, -1]}, fb.ModelError, "member 1"),
+        (FOUR_BAR, {"L": [0.3, 0.2, 0.01, 0.3, 0.02]}, MotionError, "the parts do not fit together.*member 2"),
+    ],
+)
+def test_the_first_member_with_numbers_that_cannot_be_is_named(text, p, error, what):
+    for threads in (1, 3):
+        with pytest.raises(error, match=what):
+            fb.Mechanism.loads(text).batch(p=p, threads=threads, **STEP)

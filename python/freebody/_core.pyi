@@ -64,6 +64,9 @@ class Mechanism:
     def bind_rows(self, names: list[str], columns: Array) -> Array:
         """Parameters (members, np), those of the names given in columns (members, k)."""
 
+    def starts(self, t: float, asked: list[Mapping[str, Any]], threads: int) -> list[Array]:
+        """q and u (members, n); of each is asked ``{"p", "fixed", "guess", "rates", "points", "branch"}`` as in ``assemble``."""
+
     def runs_in_lanes(self) -> bool: ...
     def batch(
         self,

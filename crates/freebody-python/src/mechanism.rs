@@ -310,6 +310,19 @@ impl Mechanism {
         Ok([part(|x| x.hi)?, part(|x| x.lo)?])
     }
 
+    /// Coordinates and rates of many at their starts.
+    fn starts<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        asked: Vec<batch::Asked<'py>>,
+        threads: usize,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let wishes: PyResult<Vec<_>> =
+            asked.into_iter().map(|asked| batch::wish(&mut self.of.names(), asked)).collect();
+        batch::starts(py, &self.of.mechanism(), t, &wishes?, threads)
+    }
+
     /// Whether a batch by `rk4` runs side by side.
     fn runs_in_lanes(&self) -> bool {
         freebody::batch::fits_lanes(&self.of.mechanism())

@@ -129,6 +129,12 @@ class CompiledModel:
         member."""
         return self.mechanism.bind_rows(list(columns), np.column_stack(list(columns.values())))
 
+    def starts(self, asked: Sequence[Mapping[str, Any]], t: float, threads: int) -> tuple[Array, Array]:
+        """Coordinates and rates (members, n) of many starts, each to the last bit as ``assemble`` finds it by these arguments. Raises
+        ``MotionError``, which names the first member that has none."""
+        q, u = self.mechanism.starts(t, list(asked), threads)
+        return q, u
+
     @property
     def runs_in_lanes(self) -> bool:
         """Whether ``batch`` makes its motions by ``rk4`` side by side: it is a tree, and nothing switches, happens or is looked up."""

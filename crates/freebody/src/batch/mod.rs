@@ -1,6 +1,11 @@
 //! Many motions of one mechanism: side by side in lanes where its equations are the same operations for all, each for itself where not;
 //! over threads. A motion has the bits of [`simulate`], whatever stands beside it.
 
+mod starts;
+mod threads;
+
+pub use starts::{starts, Wish};
+
 use crate::bound_values::BoundValues;
 use crate::dynamics::{DynamicsError, TreeMotion};
 use crate::hybrid::{simulate, Settings, Start, Trajectory};
@@ -8,8 +13,7 @@ use crate::mechanism::Mechanism;
 use crate::motion::{march, Outcome, Span};
 use crate::scalar::{Lanes, LANES};
 use multiversion::multiversion;
-use std::sync::Mutex;
-use std::thread;
+use threads::share_out;
 
 /// Motions to be made, from states at one time.
 pub struct Batch<'a> {
@@ -72,28 +76,19 @@ impl Batch<'_> {
         let in_lanes = self.is_march() && fits_lanes(self.m);
         let block = if in_lanes { LANES } else { 1 };
         let states = made.states.chunks_mut((block * width).max(1));
-        let todo = Mutex::new(Some(states.zip(made.endings.chunks_mut(block)).enumerate()));
-        let work = |go_on: &mut dyn FnMut() -> bool| {
+        let todo = states.zip(made.endings.chunks_mut(block)).enumerate();
+        let begin = || {
             let mut tree = in_lanes.then(|| TreeMotion::new(self.m, self.bind_lanes(0)));
-            loop {
-                let next = todo.lock().expect("no thread panics while it takes work").as_mut().and_then(Iterator::next);
-                let Some((i, (states, endings))) = next else { return };
+            move |(i, (states, endings)): (usize, (&mut [f64], &mut [Ending]))| {
                 let done = tree.as_mut().is_some_and(|tree| self.side_by_side(tree, i * block, states, endings));
                 if !done {
                     let each = states.chunks_mut(width).zip(endings).enumerate();
                     each.for_each(|(k, (states, ending))| *ending = self.alone(i * block + k, states));
                 }
-                if !go_on() {
-                    *todo.lock().expect("no thread panics while it takes work") = None;
-                }
+                true
             }
         };
-        thread::scope(|scope| {
-            (1..self.threads).for_each(|_| drop(scope.spawn(|| work(&mut || true))));
-            work(go_on);
-        });
-        let finished = todo.into_inner().expect("no thread panics while it takes work").is_some();
-        finished.then_some(made)
+        share_out(todo, self.threads, begin, go_on).then_some(made)
     }
 
     /// Whether it is a march of fixed steps to [`simulate`], too, and not too many.
