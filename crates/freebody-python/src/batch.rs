@@ -12,28 +12,30 @@ use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArr
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 
-/// Of each motion its states at each time, and how it ended: the name, whether it did what was asked, when, a sentence, and its item.
+/// Of each motion its rows at each time, and how it ended: the name, whether it did what was asked, when, a sentence, and its item.
 pub type Made<'py> = (Bound<'py, PyArray3<f64>>, Vec<(&'static str, bool, f64, String, String)>);
 
 /// Parameters, coordinates and rates, in rows.
 pub type Rows<'py> = [PyReadonlyArray2<'py, f64>; 3];
 
+#[allow(clippy::too_many_arguments)]
 pub fn batch<'py>(
     py: Python<'py>,
     m: &Mechanism,
     [p, q, u]: &Rows<'py>,
     [t, until]: [f64; 2],
     times: &PyReadonlyArray1<'py, f64>,
+    reactions: bool,
     settings: &Settings,
     threads: usize,
 ) -> PyResult<Made<'py>> {
     settings.integrator().map_err(errors::motion)?;
     let members = q.shape()[0];
     let (p, q, u, times) = (p.as_slice()?, q.as_slice()?, u.as_slice()?, times.as_slice()?);
-    let batch = Batch { m, members, p, q, u, t, until, times, settings, threads };
+    let batch = Batch { m, members, p, q, u, t, until, times, reactions, settings, threads };
     let made = unless_stopped(py, |go_on| batch.run(go_on))?;
-    let states = array(py, made.states, [members, times.len(), 2 * m.freedom()])?;
-    Ok((states, made.endings.into_iter().map(|e| (e.name, e.is_ok, e.t, e.sentence, e.path)).collect()))
+    let rows = array(py, made.rows, [members, times.len(), batch.width()])?;
+    Ok((rows, made.endings.into_iter().map(|e| (e.name, e.is_ok, e.t, e.sentence, e.path)).collect()))
 }
 
 /// What a member is asked to be at its start, as `Assembly` of the Python package.

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from freebody.core import Array, ModelError, Settings
+from freebody.core import Array, ModelError, Outcome, Settings
 from freebody.model.errors import ModelFileError
 from freebody.model.start import Assembly, Start
 
@@ -26,6 +26,16 @@ Given = Mapping[str, ArrayLike | str] | ArrayLike
 """By name a value for each member, or one for all, which may be a quantity like ``"90 deg"``; or an array (members, coordinates)."""
 SHOWN = 101
 """Times that are kept where none are asked for."""
+_OVER_TIME = {
+    "q": ("coordinate", "coordinates, m or rad"),
+    "u": ("coordinate", "rates of the coordinates, m/s or rad/s"),
+    "accelerations": ("coordinate", "second time derivatives of the coordinates, m/s^2 or rad/s^2"),
+    "reactions": (
+        "reaction",
+        "N, N*m: of a joint on its second body, of a contact, stop or string on its first; NaN where indeterminate",
+    ),
+}
+"""Variables, in the order of the core's numbers: along what beside time, and what they are."""
 
 
 class Members:
@@ -135,7 +145,9 @@ def _is_plain(start: Start) -> bool:
     return not (start.points or start.branch) and all(isinstance(number, (int, float)) for number in stated)
 
 
-def batch(members: Members, settings: Settings, t: float, t_eval: Times | None, threads: int | None) -> xarray.Dataset:
+def batch(
+    members: Members, settings: Settings, t: float, t_eval: Times | None, threads: int | None, reactions: bool
+) -> xarray.Dataset:
     """The motions of all members."""
     xarray = need("xarray")
     until = settings.until
@@ -148,34 +160,41 @@ def batch(members: Members, settings: Settings, t: float, t_eval: Times | None, 
     threads = threads or _cores()
     p, q, u = members.states(t, threads)
     times = _times(settings, t, t_eval)
-    if q.size * 2 * len(times) > MAX_FIGURES:
-        what = f"{len(times)} times of {len(q)} members make {q.size * 2 * len(times):.3g} figures; at most {MAX_FIGURES:.0e} are kept"
+    n = q.shape[1]
+    figures = len(q) * len(times) * (3 * n + len(core.reaction_names) if reactions else 2 * n)
+    if figures > MAX_FIGURES:
+        what = f"{len(times)} times of {len(q)} members make {figures:.3g} figures; at most {MAX_FIGURES:.0e} are kept"
         raise members.error(what, "ask for fewer times by t_eval or every")
     if outside := [time for time in times if not t <= time <= until]:
         raise members.error(f"t_eval has the time {outside[0]:g} s", f"the motions go from {t:g} s to {until:g} s")
     chosen = {name: value for name, value in asdict(settings).items() if name not in ("until", "every")}
-    states, endings = core.batch(p, q, u, t, until, times, threads, **chosen)
-    n, along = q.shape[1], ("member", "time", "coordinate")
-    data = xarray.Dataset(
-        {
-            "q": (along, states[:, :, :n], {"long_name": "coordinates, m or rad"}),
-            "u": (along, states[:, :, n:], {"long_name": "rates of the coordinates, m/s or rad/s"}),
-            "outcome": (
-                "member",
-                np.array([each.name.value for each in endings]),
-                {"long_name": "how the motion ended; NaN after that"},
-            ),
-            "ok": ("member", np.array([each.ok for each in endings]), {"long_name": "whether it ended as was asked"}),
-            "end": ("member", np.array([each.t for each in endings]), {"units": "s", "long_name": "when it ended"}),
-            "sentence": ("member", np.array([each.sentence for each in endings]), {"long_name": "how it ended, in a sentence"}),
-        },
-        {"member": np.arange(len(q)), "time": ("time", times, {"units": "s"}), "coordinate": core.coordinate_names},
-        {"title": core.name, "method": settings.method},
-    )
+    found, endings = core.batch(p, q, u, t, until, times, threads, reactions=reactions, **chosen)
+    cuts = [n, 2 * n, 3 * n] if reactions else [n]
+    variables = {
+        name: (("member", "time", along), part, {"long_name": says})
+        for (name, (along, says)), part in zip(_OVER_TIME.items(), np.split(found, cuts, axis=2), strict=False)
+    }
+    labels = {"member": np.arange(len(q)), "time": ("time", times, {"units": "s"}), "coordinate": core.coordinate_names}
+    if reactions:
+        labels["reaction"] = core.reaction_names
     if members.p:
-        data["p"] = (("member", "parameter"), np.column_stack(list(members.p.values())), {"long_name": "parameters, SI"})
-        data = data.assign_coords(parameter=list(members.p))
-    return data
+        labels["parameter"] = [*members.p]
+        variables["p"] = (("member", "parameter"), np.column_stack([*members.p.values()]), {"long_name": "parameters, SI"})
+    return xarray.Dataset(variables | _ended(endings), labels, {"title": core.name, "method": settings.method})
+
+
+def _ended(endings: Sequence[Outcome]) -> dict[str, Any]:
+    """How the motions ended, as variables."""
+    return {
+        "outcome": (
+            "member",
+            np.array([each.name.value for each in endings]),
+            {"long_name": "how the motion ended; NaN after that"},
+        ),
+        "ok": ("member", np.array([each.ok for each in endings]), {"long_name": "whether it ended as was asked"}),
+        "end": ("member", np.array([each.t for each in endings]), {"units": "s", "long_name": "when it ended"}),
+        "sentence": ("member", np.array([each.sentence for each in endings]), {"long_name": "how it ended, in a sentence"}),
+    }
 
 
 def _times(settings: Settings, t: float, t_eval: Times | None) -> Array:
