@@ -199,10 +199,13 @@ def reactions_by_name(m, now):
     return dict(zip(names, now.reactions.ravel(), strict=True)) | now.motions | limits
 
 
-@pytest.mark.parametrize("text, q0", [(PENDULUMS, ("alpha", "beta")), (FOUR_BAR, ("phi",))])
-def test_neither_threads_nor_neighbours_change_a_bit(text, q0):
+@pytest.mark.parametrize(
+    "text, q0, p",
+    [(PENDULUMS, ("alpha", "beta"), ("L",)), (CART, ("s", "theta"), ()), (CART, ("s",), ("L",)), (FOUR_BAR, ("phi",), ("L",))],
+)
+def test_neither_threads_nor_neighbours_change_a_bit(text, q0, p):
     m = fb.Mechanism.loads(text)
-    q0, p = members(21, *q0), {"L": 0.3 + 0.1 * members(21, "L")["L"]}
+    q0, p = members(21, *q0), {name: 0.3 + 0.1 * column for name, column in members(21, *p).items()}
     alone = m.batch(q0, p=p, threads=1, reactions=True, **STEP)
     for threads in (2, 4):
         assert alone.identical(m.batch(q0, p=p, threads=threads, reactions=True, **STEP))

@@ -142,7 +142,9 @@ impl Batch<'_> {
         }
         let gather = |of: &[f64], i: usize| Lanes::from_fn(|lane| row(of, n, (first + lane).min(last))[i]);
         let mut y: Vec<Lanes> = [self.q, self.u].iter().flat_map(|of| (0..n).map(|i| gather(of, i))).collect();
-        y.extend_from_slice(&tree.n.p[self.m.first_state()..]);
+        // Those of the tree are where the block before came to.
+        let own = |i: usize| Lanes::from_fn(|lane| self.parameters((first + lane).min(last))[i]);
+        y.extend((self.m.first_state()..self.m.parameters.len()).map(own));
         let step = self.settings.options.first_step.unwrap_or(f64::NAN).abs() * (self.until - self.t).signum();
         let span = Span { from: self.t, to: self.until, step, times: self.times };
         let mut shown = vec![Lanes::from_fn(|_| f64::NAN); self.times.len() * self.width()];
