@@ -61,6 +61,38 @@ initial: {phi: 1, guess: {psi: 1.5}, rates: {phi: 2}}
 events: {level: {when: sin(phi), then: stop}}
 """
 """A loop, and an event that ends some of the motions."""
+DRIVEN = """
+freebody: 1
+parameters: {L: 0.3 m, w: 3 rad/s}
+gravity: 9.81
+ground: {points: {D: [0.4, 0], E: [0, 1], F: [0, 2]}}
+bodies:
+  crank: {shape: rod, length: 0.1 m, mass: 1 kg}
+  coupler: {shape: rod, length: L, mass: 1 kg}
+  rocker: {shape: rod, length: 0.3 m, mass: 1 kg}
+  door: {shape: rod, length: 1 m, mass: 5 kg}
+joints:
+  A: {type: hinge, of: [ground.O, crank.start], coordinate: phi}
+  B: {type: hinge, of: [crank.end, coupler.start]}
+  C: {type: hinge, of: [coupler.end, rocker.end]}
+  D: {type: hinge, of: [ground.D, rocker.start], coordinate: psi}
+  lower: {type: hinge, of: [ground.E, door.start]}
+  upper: {type: hinge, of: [ground.F, door.end]}
+motions: {motor: {of: phi, is: 1 rad + w*t}}
+initial: {guess: {psi: 1.5}, lower.angle: 90 deg}
+"""
+"""A motor, and a door of which its hinges leave open which of them carries it."""
+LADDER = """
+freebody: 1
+parameters: {L: 4 m, tilt: 70 deg}
+gravity: 9.81
+ground: {lines: {floor: {through: O, angle: 0}, wall: {through: O, angle: -90 deg}}}
+bodies: {ladder: {shape: rod, length: L, mass: 10 kg, points: {A: start, B: end}}}
+joints: {plane: {type: free, of: [ground.O, ladder.G], coordinates: [x, y, theta]}}
+contacts: {floor: {of: [ladder.A, ground.floor]}, wall: {of: [ladder.B, ground.wall]}}
+initial: {points: {ladder.A: [L*cos(tilt), 0], ladder.B: [0, L*sin(tilt)]}, at_rest: true}
+"""
+"""It slides down a wall until it leaves it."""
 
 
 def members(count, *names, seed=1):
@@ -101,16 +133,94 @@ def m_rates(m, rates):
     return dict(m.model.initial.rates) | rates
 
 
-def test_neither_threads_nor_neighbours_change_a_bit():
-    m = fb.Mechanism.loads(PENDULUMS)
-    q0, p = members(21, "alpha", "beta"), members(21, "L")
-    alone = m.batch(q0, p=p, threads=1, **STEP)
+@pytest.mark.parametrize(
+    "initial",
+    [
+        "{phi: 1, guess: {psi: -1.5}, rates: {phi: 2}}",
+        "{phi: 1, branch: {y(coupler.end): negative}}",
+        "{points: {crank.end: [0.06 m, 0.08 m]}, guess: {psi: 1.5}}",
+        "{phi: L/(0.3 m), guess: {psi: 2*phi0}, rates: {phi: 3 rad/s}}",
+    ],
+)
+def test_loops_close_from_what_a_start_says_on_any_number_of_threads(initial):
+    """Guesses, branches, places of points and formulas of parameters, which are others in each member."""
+    text = FOUR_BAR.replace("{phi: 1, guess: {psi: 1.5}, rates: {phi: 2}}", initial)
+    m = fb.Mechanism.loads(text.replace("{L: 0.3 m}", "{L: 0.3 m, phi0: 0.7 rad}"))
+    lengths, angles = np.linspace(0.28, 0.32, 7), np.linspace(0.6, 0.8, 7)
+    made = [m.batch(p={"L": lengths, "phi0": angles}, t_eval=[0], threads=threads, **STEP) for threads in (1, 2, 5)]
+    assert made[0].identical(made[1]) and made[0].identical(made[2])
+    for i, (length, angle) in enumerate(zip(lengths.tolist(), angles.tolist(), strict=True)):
+        state, _ = m.start(L=length, phi0=angle)
+        run = m.simulate(t_eval=[0], L=length, phi0=angle, **STEP)
+        np.testing.assert_array_equal(made[0].q[i], run.q)
+        np.testing.assert_array_equal(made[0].u[i], run.u)
+        np.testing.assert_allclose(run.q[0], state.q, rtol=1e-12)  # the first step may close it to the last digits
+
+
+@pytest.mark.parametrize(
+    "text, p, settings",
+    [
+        (PENDULUMS, ("L", "m2"), STEP),
+        (CART, ("L", "k"), STEP),
+        (FOUR_BAR, ("L",), {"until": 3, "rtol": 1e-8}),
+        (DRIVEN, ("L", "w"), {"until": 1, "rtol": 1e-8}),
+        (LADDER, ("L", "tilt"), {"until": 1.5, "rtol": 1e-8}),
+    ],
+)
+def test_accelerations_and_reactions_are_those_of_the_balances_of_every_body(text, p, settings):
+    """Newton's and Euler's, in one system of equations with all reactions, at the states of `simulate`. That and the elimination each
+    lose some digits of 16 where a loop stands stretched; 1e-9 of the largest leaves room for it."""
+    m = fb.Mechanism.loads(text)
+    p = {
+        name: {"L": 0.3, "m2": 0.2, "k": 40, "w": 2, "tilt": 1.1}[name] + 0.1 * column for name, column in members(4, *p).items()
+    }
+    made = m.batch(p=p, reactions=True, **settings)
+    for i in range(4):
+        run = m.simulate(
+            t_eval=made.time[: int(np.isfinite(made.q[i, :, 0]).sum())], **settings, **{n: float(x[i]) for n, x in p.items()}
+        )
+        for k in range(0, len(run.t), 10):
+            now = m.compile().instant(run.motion.state(float(run.t[k])), "newton_euler")
+            np.testing.assert_allclose(made.accelerations[i, k], now.accelerations, 1e-9, 1e-9 * abs(now.accelerations).max())
+            expected = reactions_by_name(m, now)
+            largest = np.nanmax(np.abs([*expected.values()]))
+            np.testing.assert_allclose(made.reactions[i, k].sel(reaction=[*expected]), [*expected.values()], 1e-9, 1e-9 * largest)
+        assert len(expected) == made.sizes["reaction"]
+        assert np.isnan(
+            made[["q", "u", "accelerations", "reactions"]].isel(member=i, time=slice(len(run.t), None)).to_array()
+        ).all()
+    assert np.isnan(made.reactions[0, 0]).any() == (text is DRIVEN)
+
+
+def reactions_by_name(m, now):
+    """Those of joints, motors and contacts at an instant."""
+    names = [f"{joint['name']}.{part}" for joint in m.compile().metadata["joints"] for part in ("Fx", "Fy", "M")]
+    limits = {f"{name}.F{axis}": getattr(limit, f"F{axis}") for name, limit in now.limits.items() for axis in "xy"}
+    return dict(zip(names, now.reactions.ravel(), strict=True)) | now.motions | limits
+
+
+@pytest.mark.parametrize(
+    "text, q0, p",
+    [(PENDULUMS, ("alpha", "beta"), ("L",)), (CART, ("s", "theta"), ()), (CART, ("s",), ("L",)), (FOUR_BAR, ("phi",), ("L",))],
+)
+def test_neither_threads_nor_neighbours_change_a_bit(text, q0, p):
+    m = fb.Mechanism.loads(text)
+    q0, p = members(21, *q0), {name: 0.3 + 0.1 * column for name, column in members(21, *p).items()}
+    alone = m.batch(q0, p=p, threads=1, reactions=True, **STEP)
     for threads in (2, 4):
-        assert alone.identical(m.batch(q0, p=p, threads=threads, **STEP))
+        assert alone.identical(m.batch(q0, p=p, threads=threads, reactions=True, **STEP))
     order = np.random.default_rng(4).permutation(21)
-    mixed = m.batch({n: x[order] for n, x in q0.items()}, p={n: x[order] for n, x in p.items()}, **STEP)
-    np.testing.assert_array_equal(mixed.q, alone.q[order])
-    np.testing.assert_array_equal(mixed.u, alone.u[order])
+    mixed = m.batch({n: x[order] for n, x in q0.items()}, p={n: x[order] for n, x in p.items()}, reactions=True, **STEP)
+    assert mixed.drop_vars("member").identical(alone.isel(member=order).drop_vars("member"))
+    assert alone[["q", "u", "outcome"]].identical(m.batch(q0, p=p, **STEP)[["q", "u", "outcome"]])
+
+
+def test_in_lanes_reactions_have_the_bits_that_one_alone_has():
+    """With a route of its own each is made by itself."""
+    m = fb.Mechanism.loads(CART)
+    p = {"L": np.linspace(0.3, 0.6, 9)}
+    made, alone = (m.batch(p=p, reactions=True, **STEP, **how) for how in ({}, {"route": "minimal"}))
+    assert made.identical(alone)
 
 
 def test_energy_of_pendulums_is_kept_to_the_fourth_power_of_the_step():
@@ -160,6 +270,14 @@ def test_arrays_that_do_not_fit_are_refused_with_what_and_where(given, what):
         fb.Mechanism.loads(PENDULUMS).batch(**STEP, **given)
 
 
-def test_a_member_with_numbers_that_cannot_be_is_named():
-    with pytest.raises((MotionError, fb.ModelError, ModelFileError), match="member 1"):
-        fb.Mechanism.loads(PENDULUMS).batch(p={"m2": [1, -1]}, **STEP)
+@pytest.mark.parametrize(
+    "text, p, error, what",
+    [
+        (PENDULUMS, {"m2": [1, -1]}, fb.ModelError, "member 1"),
+        (FOUR_BAR, {"L": [0.3, 0.2, 0.01, 0.3, 0.02]}, MotionError, "the parts do not fit together.*member 2"),
+    ],
+)
+def test_the_first_member_with_numbers_that_cannot_be_is_named(text, p, error, what):
+    for threads in (1, 3):
+        with pytest.raises(error, match=what):
+            fb.Mechanism.loads(text).batch(p=p, threads=threads, **STEP)

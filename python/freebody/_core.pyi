@@ -64,6 +64,10 @@ class Mechanism:
     def bind_rows(self, names: list[str], columns: Array) -> Array:
         """Parameters (members, np), those of the names given in columns (members, k)."""
 
+    def starts(self, t: float, asked: list[Mapping[str, Any]], threads: int) -> list[Array]:
+        """q and u (members, n); of each is asked ``{"p", "fixed", "guess", "rates", "points", "branch"}`` as in ``assemble``."""
+
+    def reaction_names(self) -> list[str]: ...
     def runs_in_lanes(self) -> bool: ...
     def batch(
         self,
@@ -78,10 +82,11 @@ class Mechanism:
         route: str,
         impacts: str,
         painleve: str,
+        reactions: bool,
         max_steps: int = 1_000_000,
     ) -> tuple[Array, list[tuple[Any, bool, float, str, str]]]:
-        """Of p (members or 1, np), q and u (members, n): the states (members, nt, 2 n) and how each motion ended: name, whether that
-        is as asked, when, a sentence, the item that it is about."""
+        """Of p (members or 1, np), q and u (members, n): the states (members, nt, 2 n), with ``reactions`` followed by accelerations and all
+        reactions, and how each motion ended: name, whether that is as asked, when, a sentence, the item that it is about."""
 
     def assemble(
         self,
@@ -133,7 +138,7 @@ class Trajectory:
     def sample(self, times: Array) -> tuple[Array, Array]: ...
     def evaluate(self, texts: list[str], times: Array) -> Array: ...
     def poses(self, times: Array) -> Array: ...
-    def instants(self, times: Array) -> tuple[Array, NDArray[np.bool_]]: ...
+    def reactions(self, times: Array) -> Array: ...
     def ledger(self, times: Array) -> tuple[list[str], Array]: ...
     def state(self, t: float) -> State: ...
     def state_of_impact(self, change: int) -> State: ...

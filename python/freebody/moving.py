@@ -176,6 +176,7 @@ class Moving:
         *,
         t_eval: Times | None = None,
         threads: int | None = None,
+        reactions: bool = False,
         t: float = 0.0,
         **settings: Any,
     ) -> xarray.Dataset:
@@ -186,6 +187,8 @@ class Moving:
         (members, n) in the order of the coordinates. What they do not name is as in the model. ``settings`` are those of ``simulate``.
         The answer, an ``xarray.Dataset``, holds ``q`` and ``u`` (member, time, coordinate) at the times ``t_eval`` or ``every``, by default
         101 of them, and of each member ``outcome``, ``ok``, ``end`` (s) and ``sentence``; what comes after the end of a motion is NaN.
+        With ``reactions=True`` it holds ``accelerations`` (member, time, coordinate) and ``reactions`` (member, time, reaction), too, by the
+        names that ``evaluator`` gives them: ``"pivot.Fx"``. They are solved again at each of these times, and NaN where indeterminate.
 
         ``method="rk4"`` with a ``step`` (s) carries trees side by side in lanes; all else is made motion by motion. Both run on all ``threads``,
         and have the same bits on any number of them, in any order. Raises ``ModelFileError`` for arrays that do not fit together,
@@ -196,7 +199,7 @@ class Moving:
         words = {field.name for field in fields(Settings)}
         changes = {name: settings.pop(name) for name in settings.keys() - words}
         with self.core_errors():
-            return batch(Members(self, q0, u0, p, changes), self.run_plan(until, settings), t, t_eval, threads)
+            return batch(Members(self, q0, u0, p, changes), self.run_plan(until, settings), t, t_eval, threads, reactions)
 
     def check_equilibrium(self: Builder, state: State) -> None:
         """Whether all stays at rest in a state while everything is in place. Raises ``ModelFileError``."""

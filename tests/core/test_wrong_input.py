@@ -97,7 +97,7 @@ def test_a_motion_is_read_at_times_or_refuses(started, data):
     core, start = started
     motion = core.simulate(start, start.t + 0.01)
     times = np.array(data.draw(st.lists(st.one_of(st.floats(0, 0.01), numbers), max_size=3)), float)
-    calls = [motion.sample, motion.poses, motion.instants, motion.ledger, lambda t: motion.evaluate(["kinetic()"], t)]
+    calls = [motion.sample, motion.poses, motion.reactions, motion.ledger, lambda t: motion.evaluate(["kinetic()"], t)]
     calls += [lambda t: core.instant(motion.state(float(t[0]))) if len(t) else None, lambda t: motion.state_of_impact(len(t))]
     with contextlib.suppress(*REFUSALS):
         data.draw(st.sampled_from(calls))(times)

@@ -21,6 +21,11 @@ pub fn expression(text: &str, e: ExprError) -> PyErr {
 }
 
 pub fn motion(t: DynamicsError) -> PyErr {
+    motion_of(t, "")
+}
+
+/// With something more behind what it says, as of whom.
+pub fn motion_of(t: DynamicsError, more: &str) -> PyErr {
     let (what, hint) = t.what_and_hint();
-    MotionError::new_err((t.name(), t.path().unwrap_or_default().to_string(), what, hint))
+    MotionError::new_err((t.name(), t.path().unwrap_or_default().to_string(), format!("{what}{more}"), hint))
 }

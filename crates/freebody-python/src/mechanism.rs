@@ -8,7 +8,7 @@ use crate::trajectory::Trajectory;
 use freebody::assembly::{assemble, Closed};
 use freebody::builder::chosen;
 use freebody::compile::Compiled;
-use freebody::dynamics::{DynamicsError, Route, Source, Workspace};
+use freebody::dynamics::{reaction_names, DynamicsError, Route, Source, Workspace};
 use freebody::gauges::ModelExpr;
 use freebody::hybrid::{simulate, Settings, Start};
 use freebody::initial::Initial;
@@ -310,12 +310,30 @@ impl Mechanism {
         Ok([part(|x| x.hi)?, part(|x| x.lo)?])
     }
 
+    /// Coordinates and rates of many at their starts.
+    fn starts<'py>(
+        &self,
+        py: Python<'py>,
+        t: f64,
+        asked: Vec<batch::Asked<'py>>,
+        threads: usize,
+    ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
+        let wishes: PyResult<Vec<_>> =
+            asked.into_iter().map(|asked| batch::wish(&mut self.of.names(), asked)).collect();
+        batch::starts(py, &self.of.mechanism(), t, &wishes?, threads)
+    }
+
+    /// The names of the reactions of a batch, as of an evaluator.
+    fn reaction_names(&self) -> Vec<String> {
+        reaction_names(&self.of.mechanism())
+    }
+
     /// Whether a batch by `rk4` runs side by side.
     fn runs_in_lanes(&self) -> bool {
         freebody::batch::fits_lanes(&self.of.mechanism())
     }
 
-    #[pyo3(signature = (states, span, times, threads, method, rtol, step, max_step, route, impacts, painleve, max_steps=1_000_000))]
+    #[pyo3(signature = (states, span, times, threads, method, rtol, step, max_step, route, impacts, painleve, reactions, max_steps=1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn batch<'py>(
         &self,
@@ -331,11 +349,12 @@ impl Mechanism {
         route: &str,
         impacts: &str,
         painleve: &str,
+        reactions: bool,
         max_steps: usize,
     ) -> PyResult<Made<'py>> {
         let options = Options { rtol, first_step: step, max_step: max_step.unwrap_or(f64::INFINITY), max_steps };
         let settings = Settings::named([method, route, impacts, painleve], options).map_err(errors::model)?;
-        batch::batch(py, &self.of.mechanism(), &states, span, &times, &settings, threads)
+        batch::batch(py, &self.of.mechanism(), &states, span, &times, reactions, &settings, threads)
     }
 }
 

@@ -77,19 +77,13 @@ impl Trajectory {
         let bodies = m.listed_bodies().len();
         array(py, rows.concat().concat(), [rows.len(), bodies, 3])
     }
-    #[allow(clippy::type_complexity)]
-    fn instants<'py>(
-        &self,
-        py: Python<'py>,
-        times: PyReadonlyArray1<f64>,
-    ) -> PyResult<(Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<bool>>)> {
+    /// The reactions of all joints; NaN where one is not determinate.
+    fn reactions<'py>(&self, py: Python<'py>, times: PyReadonlyArray1<f64>) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let m = self.of.mechanism();
-        let rows = self.run.reactions(&m, times.as_slice()?).map_err(errors::motion)?;
-        let shape = [rows.len(), m.listed_joints().count(), 3];
-        let known = |x: f64, sure: bool| if sure { x } else { f64::NAN };
-        let values = rows.iter().flatten().flat_map(|(x, s)| (0..3).map(|i| known(x[i], s[i]))).collect();
-        let sure: Vec<bool> = rows.iter().flatten().flat_map(|(_, s)| *s).collect();
-        Ok((array(py, values, shape)?, array(py, sure, shape)?))
+        let rows = self.run.instants(&m, times.as_slice()?).map_err(errors::motion)?;
+        let (first, joints) = (3 * m.freedom(), m.listed_joints().count());
+        let of_joints = rows.iter().flat_map(|row| row[first..first + 3 * joints].iter().copied());
+        array(py, of_joints.collect(), [rows.len(), joints, 3])
     }
     fn ledger<'py>(
         &self,

@@ -129,20 +129,32 @@ class CompiledModel:
         member."""
         return self.mechanism.bind_rows(list(columns), np.column_stack(list(columns.values())))
 
+    def starts(self, asked: Sequence[Mapping[str, Any]], t: float, threads: int) -> tuple[Array, Array]:
+        """Coordinates and rates (members, n) of many starts, each to the last bit as ``assemble`` finds it by these arguments. Raises
+        ``MotionError``, which names the first member that has none."""
+        q, u = self.mechanism.starts(t, list(asked), threads)
+        return q, u
+
     @property
     def runs_in_lanes(self) -> bool:
         """Whether ``batch`` makes its motions by ``rk4`` side by side: it is a tree, and nothing switches, happens or is looked up."""
         return self.mechanism.runs_in_lanes()
 
+    @cached_property
+    def reaction_names(self) -> list[str]:
+        """The names of the reactions of ``batch``, as an ``Evaluator`` has them."""
+        return self.mechanism.reaction_names()
+
     def batch(
         self, p: Array, q: Array, u: Array, t: float, until: float, times: Array, threads: int, **settings: Any
     ) -> tuple[Array, list[Outcome]]:
         """The motions from many states, in rows of ``q``, ``u`` and ``p`` (or one row of ``p`` for all): coordinates and rates (members,
-        nt, 2 n) at ``times``, NaN after the end of a motion, and how each ended. ``settings`` as in ``simulate``. Each has the same bits
-        on any number of ``threads``, and whatever stands beside it."""
+        nt, 2 n) at ``times``, with ``reactions=True`` followed by accelerations and reactions (members, nt, 3 n + k), NaN after the end of
+        a motion, and how each ended. The other ``settings`` as in ``simulate``. Each has the same bits on any number of ``threads``, and
+        whatever stands beside it."""
         rows = [np.ascontiguousarray(each) for each in (p, q, u)]
-        states, endings = self.mechanism.batch(rows, [t, until], times, threads, **settings)
-        return states, [Outcome(OutcomeKind(name), *ending) for name, *ending in endings]
+        found, endings = self.mechanism.batch(rows, [t, until], times, threads, **settings)
+        return found, [Outcome(OutcomeKind(name), *ending) for name, *ending in endings]
 
     def assemble(
         self,

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from freebody import _core
 
@@ -181,9 +180,9 @@ class Trajectory(Motion):
         """Frame origin x, y and angle of every body (nt, nb, 3)."""
         return self.run.poses(times)
 
-    def instants(self, times: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Reactions (nt, nj, 3) and whether they are determinate."""
-        return self.run.instants(times)
+    def reactions(self, times: Array) -> Array:
+        """Reactions of the joints (nt, nj, 3); NaN where one is not determinate."""
+        return self.run.reactions(times)
 
     def ledger(self, times: Array) -> tuple[list[str], Array]:
         """Column names and values (nt, k): kinetic, potential, work of each non-conservative force and motion, balance."""

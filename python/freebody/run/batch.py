@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from freebody.core import Array, Settings
+from freebody.core import Array, ModelError, Outcome, Settings
 from freebody.model.errors import ModelFileError
-from freebody.model.start import Start
+from freebody.model.start import Assembly, Start
 
 from .sampling import MAX_FIGURES, Times
 from .storage import need
@@ -26,6 +26,16 @@ Given = Mapping[str, ArrayLike | str] | ArrayLike
 """By name a value for each member, or one for all, which may be a quantity like ``"90 deg"``; or an array (members, coordinates)."""
 SHOWN = 101
 """Times that are kept where none are asked for."""
+_OVER_TIME = {
+    "q": ("coordinate", "coordinates, m or rad"),
+    "u": ("coordinate", "rates of the coordinates, m/s or rad/s"),
+    "accelerations": ("coordinate", "second time derivatives of the coordinates, m/s^2 or rad/s^2"),
+    "reactions": (
+        "reaction",
+        "N, N*m: of a joint on its second body, of a contact, stop or string on its first; NaN where indeterminate",
+    ),
+}
+"""Variables, in the order of the core's numbers: along what beside time, and what they are."""
 
 
 class Members:
@@ -84,7 +94,7 @@ class Members:
     def error(self, what: str, hint: str) -> ModelFileError:
         return self.model.error((), what, hint)
 
-    def states(self, t: float) -> tuple[Array, Array, Array]:
+    def states(self, t: float, threads: int) -> tuple[Array, Array, Array]:
         """Parameters, coordinates and rates at the start, in rows; one row of parameters where they are the same for all."""
         if self.count is None:
             raise self.error(
@@ -92,13 +102,12 @@ class Members:
             )
         if self.count == 0:
             raise self.error(f"{self._first} is empty", "give at least one member")
-        core = self.model.compile()
-        if not (core.runs_in_lanes and _is_plain(self.model.lowered().start)):
-            return self._assembled(t)
+        core, start = self.model.compile(), self.model.lowered().start
+        if unknown := [*(self.q.keys() | self.u.keys()) - start.coordinates.keys()]:
+            self.model.initial_state(dict.fromkeys(unknown, 0.0))
+        if not (core.runs_in_lanes and _is_plain(start)):
+            return self._assembled(t, threads)
         state, _ = self.model.start(t=t, **self.same)
-        unknown = [*(self.q.keys() | self.u.keys()) - set(core.coordinate_names)]
-        if unknown:
-            self.model.start(t=t, **dict.fromkeys(unknown, 0.0))
         q, u = (np.tile(row, (self.count, 1)) for row in (state.q, state.u))
         for rows, columns in ((q, self.q), (u, self.u)):
             for name, column in columns.items():
@@ -113,15 +122,21 @@ class Members:
         columns = {name: np.full(self.count, value) for name, value in named.items()} | self.p
         return core.bind_rows(columns), q, u
 
-    def _assembled(self, t: float) -> tuple[Array, Array, Array]:
+    def _assembled(self, t: float, threads: int) -> tuple[Array, Array, Array]:
         """Each for itself."""
-        states = []
-        for i in range(self.count or 0):
-            of_member = {name: float(column[i]) for name, column in (self.q | self.p).items()}
-            rates = dict(self.same.get("rates", {})) | {name: float(column[i]) for name, column in self.u.items()}
-            states.append(self.model.start(t=t, **self.same | of_member | ({"rates": rates} if rates else {}))[0])
-        p, q, u = (np.array([getattr(state, name) for state in states]) for name in ("p", "q", "u"))
-        return p, q, u
+        asked = [self._asked(i) for i in range(self.count or 0)]
+        return np.array([each["p"] for each in asked]), *self.model.compile().starts(asked, t, threads)
+
+    def _asked(self, i: int) -> Assembly:
+        """The start of a member as it is asked for."""
+        of_member = {name: float(column[i]) for name, column in (self.q | self.p).items()}
+        rates = dict(self.same.get("rates", {})) | {name: float(column[i]) for name, column in self.u.items()}
+        try:
+            return self.model.initial_state(self.same | of_member | ({"rates": rates} if rates else {}))
+        except ModelFileError as error:
+            raise self.error(f"{error.problems[0].what} (member {i})", error.problems[0].hint) from None
+        except ModelError as error:
+            raise ModelError(error.path, f"{error.what} (member {i})", error.hint) from None
 
 
 def _is_plain(start: Start) -> bool:
@@ -130,7 +145,9 @@ def _is_plain(start: Start) -> bool:
     return not (start.points or start.branch) and all(isinstance(number, (int, float)) for number in stated)
 
 
-def batch(members: Members, settings: Settings, t: float, t_eval: Times | None, threads: int | None) -> xarray.Dataset:
+def batch(
+    members: Members, settings: Settings, t: float, t_eval: Times | None, threads: int | None, reactions: bool
+) -> xarray.Dataset:
     """The motions of all members."""
     xarray = need("xarray")
     until = settings.until
@@ -140,36 +157,44 @@ def batch(members: Members, settings: Settings, t: float, t_eval: Times | None, 
         raise model.error(
             ("events", next(iter(handed))), "the motion continues with another model", "simulate each member by itself"
         )
-    p, q, u = members.states(t)
+    threads = threads or _cores()
+    p, q, u = members.states(t, threads)
     times = _times(settings, t, t_eval)
-    if q.size * 2 * len(times) > MAX_FIGURES:
-        what = f"{len(times)} times of {len(q)} members make {q.size * 2 * len(times):.3g} figures; at most {MAX_FIGURES:.0e} are kept"
+    n = q.shape[1]
+    figures = len(q) * len(times) * (3 * n + len(core.reaction_names) if reactions else 2 * n)
+    if figures > MAX_FIGURES:
+        what = f"{len(times)} times of {len(q)} members make {figures:.3g} figures; at most {MAX_FIGURES:.0e} are kept"
         raise members.error(what, "ask for fewer times by t_eval or every")
     if outside := [time for time in times if not t <= time <= until]:
         raise members.error(f"t_eval has the time {outside[0]:g} s", f"the motions go from {t:g} s to {until:g} s")
     chosen = {name: value for name, value in asdict(settings).items() if name not in ("until", "every")}
-    states, endings = core.batch(p, q, u, t, until, times, threads or _cores(), **chosen)
-    n, along = q.shape[1], ("member", "time", "coordinate")
-    data = xarray.Dataset(
-        {
-            "q": (along, states[:, :, :n], {"long_name": "coordinates, m or rad"}),
-            "u": (along, states[:, :, n:], {"long_name": "rates of the coordinates, m/s or rad/s"}),
-            "outcome": (
-                "member",
-                np.array([each.name.value for each in endings]),
-                {"long_name": "how the motion ended; NaN after that"},
-            ),
-            "ok": ("member", np.array([each.ok for each in endings]), {"long_name": "whether it ended as was asked"}),
-            "end": ("member", np.array([each.t for each in endings]), {"units": "s", "long_name": "when it ended"}),
-            "sentence": ("member", np.array([each.sentence for each in endings]), {"long_name": "how it ended, in a sentence"}),
-        },
-        {"member": np.arange(len(q)), "time": ("time", times, {"units": "s"}), "coordinate": core.coordinate_names},
-        {"title": core.name, "method": settings.method},
-    )
+    found, endings = core.batch(p, q, u, t, until, times, threads, reactions=reactions, **chosen)
+    cuts = [n, 2 * n, 3 * n] if reactions else [n]
+    variables = {
+        name: (("member", "time", along), part, {"long_name": says})
+        for (name, (along, says)), part in zip(_OVER_TIME.items(), np.split(found, cuts, axis=2), strict=False)
+    }
+    labels = {"member": np.arange(len(q)), "time": ("time", times, {"units": "s"}), "coordinate": core.coordinate_names}
+    if reactions:
+        labels["reaction"] = core.reaction_names
     if members.p:
-        data["p"] = (("member", "parameter"), np.column_stack(list(members.p.values())), {"long_name": "parameters, SI"})
-        data = data.assign_coords(parameter=list(members.p))
-    return data
+        labels["parameter"] = [*members.p]
+        variables["p"] = (("member", "parameter"), np.column_stack([*members.p.values()]), {"long_name": "parameters, SI"})
+    return xarray.Dataset(variables | _ended(endings), labels, {"title": core.name, "method": settings.method})
+
+
+def _ended(endings: Sequence[Outcome]) -> dict[str, Any]:
+    """How the motions ended, as variables."""
+    return {
+        "outcome": (
+            "member",
+            np.array([each.name.value for each in endings]),
+            {"long_name": "how the motion ended; NaN after that"},
+        ),
+        "ok": ("member", np.array([each.ok for each in endings]), {"long_name": "whether it ended as was asked"}),
+        "end": ("member", np.array([each.t for each in endings]), {"units": "s", "long_name": "when it ended"}),
+        "sentence": ("member", np.array([each.sentence for each in endings]), {"long_name": "how it ended, in a sentence"}),
+    }
 
 
 def _times(settings: Settings, t: float, t_eval: Times | None) -> Array:

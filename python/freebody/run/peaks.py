@@ -108,7 +108,7 @@ def _peak(run: Run, sampled: Run, i: int, name: str, noise: float) -> Peak:
         return Peak(name, reaction.second, False)
 
     def solved(t: Array) -> Array:
-        return run.motion.instants(t)[0][:, i]
+        return run.motion.reactions(t)[:, i]
 
     t, size = _largest(run, sampled.t, reaction.size, lambda t: np.hypot(*solved(t)[:, :2].T))
     couple = t_couple = None

@@ -446,9 +446,7 @@ class Run(PlainText):
 
     @cached_property
     def _reactions(self) -> Array:
-        values, determinate = self.motion.instants(self.t)
-        known = np.asarray(determinate).reshape(*np.shape(determinate), *[1] * (3 - np.ndim(determinate)))
-        return np.where(known, values, np.nan)
+        return self.motion.reactions(self.t)
 
     @cached_property
     def _limits(self) -> Array:

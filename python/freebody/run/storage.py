@@ -147,11 +147,10 @@ class Recorded(Motion):
         rows = self._rows(times)
         return self.blocks["pose"][rows].reshape(len(rows), -1, 3)
 
-    def instants(self, times: Array) -> tuple[Array, Any]:
-        """Reactions (nt, nj, 3) at saved times, and whether they are determinate."""
+    def reactions(self, times: Array) -> Array:
+        """Reactions of the joints (nt, nj, 3) at saved times; NaN where one is not determinate."""
         rows = self._rows(times)
-        values = self.blocks["reaction"][rows].reshape(len(rows), -1, 3)
-        return values, ~np.isnan(values)
+        return self.blocks["reaction"][rows].reshape(len(rows), -1, 3)
 
     def state(self, t: float) -> State:
         """The state at a saved time, without its history."""

@@ -73,19 +73,11 @@ const ATTEMPTS: usize = 64;
 /// # Errors
 /// `cannot_assemble` with the gap at each joint, `branch_not_found`, `branch_lost`, `inconsistent_velocities`.
 pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Result<Assembled, DynamicsError> {
-    let (q, others) = match &request.from {
-        Some(from) => (follow(workspace, t, request, from)?, vec![]),
-        None => {
-            let start = released::start(workspace, t, request);
-            let q = match attempt(workspace, t, request, &start) {
-                Ok(q) if on_branch(workspace, t, &q, request) => q,
-                first => search(workspace, t, request, first)?,
-            };
-            let others = other_assemblies(workspace, t, request, &q);
-            (q, others)
-        }
+    let [q, u] = state(workspace, t, request)?;
+    let others = match request.from {
+        Some(_) => vec![],
+        None => other_assemblies(workspace, t, request, &q),
     };
-    let u = velocities(workspace, t, request, &q)?;
     workspace.move_to(t, &q, &u);
     let gap = workspace.worst_gap();
     let laws: Vec<&ModelExpr> = request.near.iter().map(|(_, law, _)| law).collect();
@@ -93,6 +85,25 @@ pub fn assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) ->
     let near = request.near.iter().map(|(name, ..)| name.clone()).zip(values).collect();
     let behind = workspace.behind_lines();
     Ok(Assembled { q, u, near, gap, others, behind })
+}
+
+/// The coordinates and rates of [`assemble`] alone.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn state(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Result<[Vec<f64>; 2], DynamicsError> {
+    let q = match &request.from {
+        Some(from) => follow(workspace, t, request, from)?,
+        None => {
+            let start = released::start(workspace, t, request);
+            match attempt(workspace, t, request, &start) {
+                Ok(q) if on_branch(workspace, t, &q, request) => q,
+                first => search(workspace, t, request, first)?,
+            }
+        }
+    };
+    let u = velocities(workspace, t, request, &q)?;
+    Ok([q, u])
 }
 
 /// One attempt from one start: first drawn to what should be near, then closed exactly.

@@ -1,8 +1,9 @@
 //! Accelerations and all reactions as bare numbers, at one state after another.
 
-use super::{joint_place, Determinacy, DynamicsError, Workspace};
+use super::{joint_place, Determinacy, DynamicsError, SolvedView, Workspace};
 use crate::mechanism::{DriveKind, Mechanism};
 use crate::mode::Mode;
+use crate::scalar::Scalar;
 
 /// The names of what [`Workspace::evaluate_at`] gives: of each joint the force on its second body along the fixed axes and the couple
 /// (N, N·m), the force or torque of each motion and coupling, and of each contact, stop and string the force on its first body.
@@ -44,31 +45,39 @@ impl Workspace<'_> {
         }
         self.solve()?;
         self.check_finite()?;
-        self.accelerations(accelerations);
-        self.write_reactions(reactions);
+        self.write_solution(accelerations, reactions);
         Ok(())
     }
 
-    fn write_reactions(&mut self, out: &mut [f64]) {
-        let open = (!self.is_determinate()).then(|| self.determinacy());
-        let (m, seen) = (self.m, self.solved_view());
+    /// Writes the accelerations of the last solution, and its reactions as [`Workspace::evaluate_at`] has them.
+    pub fn write_solution(&mut self, accelerations: &mut [f64], reactions: &mut [f64]) {
+        let determinacy = (!self.is_determinate()).then(|| self.determinacy());
+        self.accelerations(accelerations);
+        self.solved_view().write_reactions(determinacy.as_ref(), reactions);
+    }
+}
+
+impl<S: Scalar> SolvedView<'_, S> {
+    /// Writes the reactions in the order of [`reaction_names`]; NaN where one is not determinate. No `determinacy`: all are.
+    pub fn write_reactions(&self, determinacy: Option<&Determinacy>, out: &mut [S]) {
+        let m = self.at.m;
         let mut out = out.iter_mut();
-        let mut put = |value: f64, is_sure: &dyn Fn(&Determinacy) -> bool| {
+        let mut put = |value: S, is_sure: &dyn Fn(&Determinacy) -> bool| {
             *out.next().expect("as many as there are names") =
-                if open.as_ref().is_none_or(is_sure) { value } else { f64::NAN };
+                if determinacy.is_none_or(is_sure) { value } else { S::of(f64::NAN) };
         };
         for j in m.listed_joints() {
-            let load = seen.reaction(j, joint_place(seen.at, j));
+            let load = self.reaction(j, joint_place(self.at, j));
             for (k, value) in load.parts().into_iter().enumerate() {
                 put(value, &|open| open.joints[j][k]);
             }
         }
         if !m.drives.is_empty() {
-            let forces = seen.drive_forces();
+            let forces = self.drive_forces();
             driven(m).for_each(|d| put(forces[d], &|open| open.drives[d]));
         }
         for g in 0..m.groups.len() {
-            let force = seen.force_on_first(g);
+            let force = self.force_on_first(g);
             put(force.x, &|open| open.groups[g][0]);
             put(force.y, &|open| open.groups[g][1]);
         }

@@ -2,7 +2,7 @@
 
 use super::articulated_body::ArticulatedBody;
 use super::loads::{centre_arms, loads, unaccounted_power};
-use super::DynamicsError;
+use super::{DynamicsError, SolvedView};
 use crate::bound_values::BoundValues;
 use crate::gauges::ModelExpr;
 use crate::joints::Joint as _;
@@ -14,7 +14,8 @@ use crate::scalar::Scalar;
 
 /// A tree in motion. Its equations are those of [`super::Workspace`], to the same bits.
 pub struct TreeMotion<'m, S> {
-    m: &'m Mechanism,
+    /// The mechanism.
+    pub m: &'m Mechanism,
     /// Its numbers.
     pub n: BoundValues<S>,
     mode: Mode,
@@ -74,6 +75,40 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
     /// `singular_mass`, where that is so of any of the mechanisms.
     #[inline(always)]
     pub fn rate(&mut self, t: S, y: &[S], dy: &mut [S]) -> Result<(), DynamicsError> {
+        let n = self.m.freedom();
+        self.solve(t, y, &mut dy[n..2 * n], |_, _| {})?;
+        dy[..n].copy_from_slice(&y[n..2 * n]);
+        for (rate, law) in dy[2 * n..].iter_mut().zip(&self.m.state_rates) {
+            *rate = law.eval(&State(self.at(t, y)));
+        }
+        Ok(())
+    }
+
+    /// Writes accelerations, and reactions in the order of [`super::reaction_names`], at y and a time.
+    ///
+    /// # Errors
+    /// As [`TreeMotion::rate`].
+    #[inline(always)]
+    pub fn write_solution(&mut self, t: S, y: &[S], out: &mut [S]) -> Result<(), DynamicsError> {
+        let (accelerations, reactions) = out.split_at_mut(self.m.freedom());
+        let mut joint_wrenches = vec![Wrench::zero(); self.m.bodies.len()];
+        self.solve(t, y, accelerations, |body, wrench| joint_wrenches[body] = wrench)?;
+        // No row closes anything, nothing rubs, and no length is asked for.
+        let (at, joint_wrenches, length) = (self.at(t, y), &joint_wrenches[..], f64::NAN);
+        let solved = SolvedView { at, joint_wrenches, rows: &[], lambda: &[], sliding_friction: &[], length };
+        solved.write_reactions(None, reactions);
+        Ok(())
+    }
+
+    /// Writes the accelerations at y and a time; `passed` is told the load that each body's joint puts on it.
+    #[inline(always)]
+    fn solve(
+        &mut self,
+        t: S,
+        y: &[S],
+        accelerations: &mut [S],
+        passed: impl FnMut(usize, Wrench<S>),
+    ) -> Result<(), DynamicsError> {
         let (m, n) = (self.m, self.m.freedom());
         let (q, u) = (&y[..n], &y[n..2 * n]);
         self.n.p[m.first_state()..].copy_from_slice(&y[2 * n..]);
@@ -81,19 +116,19 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
         let at = StateView { m, n: &self.n, k: &self.k, q, u, t, mode: &self.mode };
         centre_arms(at, &mut self.arms);
         loads(at, &self.arms, &mut self.loads);
-        let (nu_dot, bodies) = (&mut self.nu_dot, &mut self.bodies);
-        self.sweep.solve(at, &self.arms, &self.loads, nu_dot, bodies, |_, _| {})?;
-        dy[..n].copy_from_slice(u);
-        self.k.user_rates(m, &self.n, &self.bodies, &self.nu_dot, &mut dy[n..2 * n]);
-        for (rate, law) in dy[2 * n..].iter_mut().zip(&m.state_rates) {
-            *rate = law.eval(&State(at));
-        }
+        self.sweep.solve(at, &self.arms, &self.loads, &mut self.nu_dot, &mut self.bodies, passed)?;
+        self.k.user_rates(m, &self.n, &self.bodies, &self.nu_dot, accelerations);
         Ok(())
+    }
+
+    /// The state that was solved last.
+    fn at<'a>(&'a self, t: S, y: &'a [S]) -> StateView<'a, S> {
+        let (q, u) = y[..2 * self.m.freedom()].split_at(self.m.freedom());
+        StateView { m: self.m, n: &self.n, k: &self.k, q, u, t, mode: &self.mode }
     }
 
     /// The power of a force without what its potential accounts for, where the rates were written last, W.
     pub fn unaccounted_power(&self, t: S, y: &[S], force: usize) -> S {
-        let (q, u) = y[..2 * self.m.freedom()].split_at(self.m.freedom());
-        unaccounted_power(StateView { m: self.m, n: &self.n, k: &self.k, q, u, t, mode: &self.mode }, force)
+        unaccounted_power(self.at(t, y), force)
     }
 }

@@ -4,7 +4,7 @@ use super::mode_changes::ModeChange;
 use super::system::Phase;
 use super::works::Works;
 use super::{HybridSystem, Settings};
-use crate::dynamics::{DynamicsError, Workspace};
+use crate::dynamics::{reaction_names, DynamicsError, Workspace};
 use crate::gauges::ModelExpr;
 use crate::mechanism::{Discontinuity, Event, EventAction, Mechanism};
 use crate::mode::Mode;
@@ -230,23 +230,21 @@ impl Trajectory {
         Ok(rows)
     }
 
-    /// Reactions (Fx, Fy, M) of every joint of the model with whether they are determinate, at times.
+    /// Coordinates, rates, accelerations, and reactions in the order of [`reaction_names`], at times; of the last two NaN at a singular
+    /// place that the motion passes.
     ///
     /// # Errors
     /// As [`Trajectory::sample`], and what keeps an instant from being solved.
-    #[allow(clippy::type_complexity)]
-    pub fn reactions(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<([f64; 3], [bool; 3])>>, DynamicsError> {
-        let mut rows = vec![];
-        self.each(m, times, |workspace, _, _| {
-            if passed(workspace.solve())?.is_none() {
-                rows.push(m.listed_joints().map(|_| ([f64::NAN; 3], [false; 3])).collect());
-                return Ok(());
+    pub fn instants(&self, m: &Mechanism, times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
+        let (n, reactions, mut rows) = (m.freedom(), reaction_names(m).len(), vec![]);
+        self.each(m, times, |workspace, _, y| {
+            let mut row = y[..2 * n].to_vec();
+            row.resize(3 * n + reactions, f64::NAN);
+            if passed(workspace.solve())?.is_some() {
+                let (accelerations, reactions) = row[2 * n..].split_at_mut(n);
+                workspace.write_solution(accelerations, reactions);
             }
-            let sure = workspace.determinacy().joints;
-            let seen = workspace.solved_view();
-            let reaction = |joint: usize| (seen.joint_load(joint), sure[joint]);
-            let reactions = m.listed_joints().map(reaction);
-            rows.push(reactions.map(|(l, s)| ([l.force.x, l.force.y, l.couple], s)).collect());
+            rows.push(row);
             Ok(())
         })?;
         Ok(rows)
@@ -255,7 +253,7 @@ impl Trajectory {
     /// Values of expressions at times; NaN at a singular place that the motion passes.
     ///
     /// # Errors
-    /// As [`Trajectory::reactions`].
+    /// As [`Trajectory::instants`].
     pub fn evaluate(&self, m: &Mechanism, laws: &[&ModelExpr], times: &[f64]) -> Result<Vec<Vec<f64>>, DynamicsError> {
         let mut rows = vec![];
         self.each(m, times, |workspace, t, y| {

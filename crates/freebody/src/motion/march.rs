@@ -30,7 +30,7 @@ pub fn march<S: Scalar>(
     span: Span,
     start: &[S],
     mut rate: impl FnMut(S, &[S], &mut [S]) -> Result<(), DynamicsError>,
-    mut show: impl FnMut(usize, &[S]),
+    mut show: impl FnMut(&[S]),
 ) -> Result<(), DynamicsError> {
     let n = start.len();
     let mut k = vec![vec![S::zero(); n]; TABLE.b.len()];
@@ -39,7 +39,7 @@ pub fn march<S: Scalar>(
     let (mut t, mut shown) = (span.from, 0);
     rate(S::of(t), &y, &mut k[0])?;
     while shown < span.times.len() && span.times[shown] == t {
-        show(shown, &y);
+        show(&y);
         shown += 1;
     }
     while t != span.to {
@@ -65,7 +65,7 @@ pub fn march<S: Scalar>(
         while shown < span.times.len() && (span.times[shown] - end) * h <= 0.0 {
             let segment = segment.get_or_insert_with(|| Segment::hermite((t, &y, &k[0]), (end, &next, &slope)));
             segment.at(span.times[shown], &mut stage);
-            show(shown, &stage);
+            show(&stage);
             shown += 1;
         }
         std::mem::swap(&mut y, &mut next);

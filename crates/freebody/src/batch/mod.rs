@@ -1,15 +1,19 @@
 //! Many motions of one mechanism: side by side in lanes where its equations are the same operations for all, each for itself where not;
 //! over threads. A motion has the bits of [`simulate`], whatever stands beside it.
 
+mod starts;
+mod threads;
+
+pub use starts::{starts, Wish};
+
 use crate::bound_values::BoundValues;
-use crate::dynamics::{DynamicsError, TreeMotion};
+use crate::dynamics::{reaction_names, DynamicsError, TreeMotion};
 use crate::hybrid::{simulate, Settings, Start, Trajectory};
 use crate::mechanism::Mechanism;
 use crate::motion::{march, Outcome, Span};
-use crate::scalar::{Lanes, LANES};
+use crate::scalar::{Lanes, Scalar, LANES};
 use multiversion::multiversion;
-use std::sync::Mutex;
-use std::thread;
+use threads::share_out;
 
 /// Motions to be made, from states at one time.
 pub struct Batch<'a> {
@@ -29,6 +33,8 @@ pub struct Batch<'a> {
     pub until: f64,
     /// Increasing times at which their states are wanted, s.
     pub times: &'a [f64],
+    /// Whether accelerations and reactions are wanted, too.
+    pub reactions: bool,
     /// How each is made.
     pub settings: &'a Settings,
     /// On how many threads.
@@ -52,8 +58,9 @@ pub struct Ending {
 
 /// Motions made.
 pub struct Motions {
-    /// Of each motion, at each time, coordinates and rates; NaN after its end.
-    pub states: Vec<f64>,
+    /// Of each motion, at each time, coordinates and rates; where they are wanted accelerations, and reactions in the order of
+    /// [`reaction_names`]. NaN after its end.
+    pub rows: Vec<f64>,
     /// How each ended.
     pub endings: Vec<Ending>,
 }
@@ -66,34 +73,31 @@ pub fn fits_lanes(m: &Mechanism) -> bool {
 impl Batch<'_> {
     /// Makes them. `go_on` is asked now and then; None where it answers false.
     pub fn run(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Motions> {
-        let width = self.times.len() * 2 * self.m.freedom();
+        let width = self.times.len() * self.width();
         let mut made =
-            Motions { states: vec![f64::NAN; self.members * width], endings: vec![Ending::default(); self.members] };
+            Motions { rows: vec![f64::NAN; self.members * width], endings: vec![Ending::default(); self.members] };
         let in_lanes = self.is_march() && fits_lanes(self.m);
         let block = if in_lanes { LANES } else { 1 };
-        let states = made.states.chunks_mut((block * width).max(1));
-        let todo = Mutex::new(Some(states.zip(made.endings.chunks_mut(block)).enumerate()));
-        let work = |go_on: &mut dyn FnMut() -> bool| {
+        let rows = made.rows.chunks_mut((block * width).max(1));
+        let todo = rows.zip(made.endings.chunks_mut(block)).enumerate();
+        let begin = || {
             let mut tree = in_lanes.then(|| TreeMotion::new(self.m, self.bind_lanes(0)));
-            loop {
-                let next = todo.lock().expect("no thread panics while it takes work").as_mut().and_then(Iterator::next);
-                let Some((i, (states, endings))) = next else { return };
-                let done = tree.as_mut().is_some_and(|tree| self.side_by_side(tree, i * block, states, endings));
+            move |(i, (rows, endings)): (usize, (&mut [f64], &mut [Ending]))| {
+                let done = tree.as_mut().is_some_and(|tree| self.side_by_side(tree, i * block, rows, endings));
                 if !done {
-                    let each = states.chunks_mut(width).zip(endings).enumerate();
-                    each.for_each(|(k, (states, ending))| *ending = self.alone(i * block + k, states));
+                    let each = rows.chunks_mut(width).zip(endings).enumerate();
+                    each.for_each(|(k, (rows, ending))| *ending = self.alone(i * block + k, rows));
                 }
-                if !go_on() {
-                    *todo.lock().expect("no thread panics while it takes work") = None;
-                }
+                true
             }
         };
-        thread::scope(|scope| {
-            (1..self.threads).for_each(|_| drop(scope.spawn(|| work(&mut || true))));
-            work(go_on);
-        });
-        let finished = todo.into_inner().expect("no thread panics while it takes work").is_some();
-        finished.then_some(made)
+        share_out(todo, self.threads, begin, go_on).then_some(made)
+    }
+
+    /// How many numbers there are of a motion at a time.
+    pub fn width(&self) -> usize {
+        let n = self.m.freedom();
+        2 * n + if self.reactions { n + reaction_names(self.m).len() } else { 0 }
     }
 
     /// Whether it is a march of fixed steps to [`simulate`], too, and not too many.
@@ -129,7 +133,7 @@ impl Batch<'_> {
         &self,
         tree: &mut TreeMotion<Lanes>,
         first: usize,
-        states: &mut [f64],
+        rows: &mut [f64],
         endings: &mut [Ending],
     ) -> bool {
         let (n, last) = (self.m.freedom(), self.members - 1);
@@ -138,37 +142,40 @@ impl Batch<'_> {
         }
         let gather = |of: &[f64], i: usize| Lanes::from_fn(|lane| row(of, n, (first + lane).min(last))[i]);
         let mut y: Vec<Lanes> = [self.q, self.u].iter().flat_map(|of| (0..n).map(|i| gather(of, i))).collect();
-        y.extend_from_slice(&tree.n.p[self.m.first_state()..]);
+        // Those of the tree are where the block before came to.
+        let own = |i: usize| Lanes::from_fn(|lane| self.parameters((first + lane).min(last))[i]);
+        y.extend((self.m.first_state()..self.m.parameters.len()).map(own));
         let step = self.settings.options.first_step.unwrap_or(f64::NAN).abs() * (self.until - self.t).signum();
         let span = Span { from: self.t, to: self.until, step, times: self.times };
-        let mut shown = vec![Lanes::from_fn(|_| f64::NAN); self.times.len() * 2 * n];
+        let mut shown = vec![Lanes::from_fn(|_| f64::NAN); self.times.len() * self.width()];
         if carry(tree, span, &y, &mut shown).is_err() {
             return false;
         }
-        for (lane, states) in states.chunks_mut(shown.len()).enumerate() {
-            states.iter_mut().zip(&shown).for_each(|(state, lanes)| *state = lanes.0[lane]);
+        for (lane, rows) in rows.chunks_mut(shown.len()).enumerate() {
+            rows.iter_mut().zip(&shown).for_each(|(x, lanes)| *x = lanes.0[lane]);
         }
         endings.fill(Ending::of(&Outcome::Completed, self.until, Outcome::Completed.to_string()));
         true
     }
 
     /// One motion for itself.
-    fn alone(&self, member: usize, states: &mut [f64]) -> Ending {
+    fn alone(&self, member: usize, rows: &mut [f64]) -> Ending {
         let n = self.m.freedom();
         let (q, u) = (row(self.q, n, member), row(self.u, n, member));
         let start = Start { p: self.parameters(member), t: self.t, q, u, mode: None };
         let made = simulate(self.m, &start, self.until, self.settings, &mut |_| true);
-        made.and_then(|run| self.read(&run, states)).unwrap_or_else(|error| {
+        made.and_then(|run| self.read(&run, rows)).unwrap_or_else(|error| {
             let outcome = Outcome::DynamicsError(error);
             Ending::of(&outcome, self.t, outcome.to_string())
         })
     }
 
-    fn read(&self, run: &Trajectory, states: &mut [f64]) -> Result<Ending, DynamicsError> {
+    fn read(&self, run: &Trajectory, rows: &mut [f64]) -> Result<Ending, DynamicsError> {
         let end = *run.steps.last().expect("a run has its start");
         let known = self.times.partition_point(|&t| t <= end);
-        let rows = run.sample(self.m, &self.times[..known])?;
-        states.iter_mut().zip(rows.concat()).for_each(|(state, x)| *state = x);
+        let read = if self.reactions { Trajectory::instants } else { Trajectory::sample };
+        let found = read(run, self.m, &self.times[..known])?;
+        rows.iter_mut().zip(found.concat()).for_each(|(row, x)| *row = x);
         Ok(Ending::of(&run.outcome, end, run.sentence(self.m, &[])))
     }
 }
@@ -186,7 +193,14 @@ fn row(of: &[f64], width: usize, i: usize) -> &[f64] {
 /// Carries a tree along a span in the widest registers that the machine has.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd+avx2", "x86_64+avx2"))]
 fn carry(tree: &mut TreeMotion<Lanes>, span: Span, start: &[Lanes], shown: &mut [Lanes]) -> Result<(), DynamicsError> {
-    let width = shown.len() / span.times.len();
-    let show = |i: usize, y: &[Lanes]| shown[i * width..(i + 1) * width].copy_from_slice(&y[..width]);
-    march(span, start, |t, y, dy| tree.rate(t, y, dy), show)
+    let (width, n, mut seen) = (shown.len() / span.times.len().max(1), tree.m.freedom(), vec![]);
+    march(span, start, |t, y, dy| tree.rate(t, y, dy), |y| seen.push(y.to_vec()))?;
+    for (i, (y, &t)) in seen.iter().zip(span.times).enumerate() {
+        let (state, solution) = shown[i * width..(i + 1) * width].split_at_mut(2 * n);
+        state.copy_from_slice(&y[..2 * n]);
+        if !solution.is_empty() {
+            tree.write_solution(Lanes::of(t), y, solution)?;
+        }
+    }
+    Ok(())
 }
