@@ -237,7 +237,8 @@ class FittedEdits:
         rows = np.full((len(nodes), len(next(iter(self.values.values())))), np.nan)
         for row, node in zip(rows, nodes, strict=True):
             if {n.key for n in symbols_in(node)} <= self.values.keys() and (value := sampled(node, self.values)).ndim == 1:
-                row[:] = value
+                still = isinstance(node, Add) and node.symbols & {*self.vocabulary.coordinates} and np.ptp(value) <= _NEARLY
+                row[:] = np.nan if still else value  # 1 + cos θ is no factor where θ is small, or stays
         return nodes, rows
 
     def _constant(self, values: Array) -> float | None:
