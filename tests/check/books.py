@@ -23,7 +23,7 @@ from slipped import slipped
 
 from freebody.check import Checker, Kind
 from freebody.check.file import WORDS, judged_alone
-from freebody.check.language.statements import Equation, symbols_in
+from freebody.check.language.statements import Equation, symbols_in, terms
 from freebody.check.prose import plainly
 from freebody.check.residual import HOLDS, residual
 from freebody.check.verdict import Verdict
@@ -113,6 +113,8 @@ class Book:
         if _proportional(one, other, places) or (scalar and independent.says_the_same(one, other, at)):
             return True
         kinematic = any(case.is_kinematic(case.equations[0]) for case in cases)
+        if kinematic and _names(one) <= _names(other) and _differs_in_one_term(one, other):
+            return True
         return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})
 
     @cached_property
@@ -160,6 +162,16 @@ class Book:
         self.checker.correcting = correcting
         for statement in self.data["statements"]:
             yield Said(self.name, statement, judged_alone(self.checker, statement["says"]))
+
+
+def _names(equation: Equation) -> set[str]:
+    return {n.name for n in symbols_in(equation)}
+
+
+def _differs_in_one_term(one: Equation, other: Equation) -> bool:
+    """Whether equations of motions alone, which both are true, have all terms but one in common: that is the same in other letters."""
+    first, second = ({*terms(each, expand=True)} for each in (one, other))
+    return len(first - second) == len(second - first) == 1
 
 
 def _tied(places: Mapping[str, Array], values: Mapping[str, Array], moving: Iterable[str]) -> dict[str, Array]:

@@ -112,7 +112,7 @@ class Checker:
         try:
             return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
-            is_of_omega = re.search("`(?:ω|omega)(?:_n)?`", error.what) is not None
+            is_of_omega = re.search("`(?:ω|omega)(?:_[A-Za-z])?`", error.what) is not None
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
                 return found
             raise
@@ -123,11 +123,16 @@ class Checker:
         if "frequencies:" in text or not OMEGA.search(said):
             return None
         claim = as_claim(f"{'for ' * bool(_SMALL.match(condition))}{condition}: frequencies: {said}")
-        claim = claim if re.match(rf"(?:{CONDITION}|frequencies)\b", claim) else f"frequencies: {text}"
+        if not re.match(rf"(?:{CONDITION}|frequencies)\b", claim):
+            if re.search(r"[=<>→]|\bmode\b", condition):  # which of them is meant is not understood
+                return None
+            claim = f"frequencies: {text}"
         with suppress(StatementError, ModelProblem):  # what letters lack is told of the statement itself
             known = self.symbols(letters)
-            if "ω" not in known.meanings and all(
-                OMEGA.fullmatch(n.name) or n.name in known.constants for n in symbols_in(known.read(with_condition_first(said)))
+            taken = {*known.meanings}
+            if "ω" not in taken and all(
+                (OMEGA.fullmatch(n.name) and n.name not in taken) or n.name in known.constants
+                for n in symbols_in(known.read(with_condition_first(said)))
             ):
                 return self.check(claim, letters, *how)
         return None

@@ -25,7 +25,7 @@ from .case import Case
 from .condition_edits import other_conditions
 from .constants import constant_corrections
 from .correction import MOST, SECOND, corrections
-from .families import ALL, SINCE_START, Samples
+from .families import ALL, SINCE_START, Family, Samples
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -110,12 +110,10 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         and not checker.sampler.has(given)
     ):
         return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
-    others = (
-        [(replace(given, since="", at_start=True), condition)] if given.since == "rest" else []
-    )  # of the moment of the release
-    if given.vanishing and (
-        places or verdict.kind is Kind.UNDECIDABLE
-    ):  # it may be so only where something switches, or has done so
+    release = replace(given, since="", at_start=True)
+    others = [(release, condition)] if given.since == "rest" else []
+    later = places or verdict.kind is Kind.UNDECIDABLE or _comes_later(checker, declared, given, statement)
+    if given.vanishing and later:  # it may be so only where something switches, or has done so
         others += [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since and not others:
         return verdict
@@ -123,12 +121,20 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
     for other, words in others:
         found = checker.check(statement, declared, other, correcting=not verdict.mends)
-        if found.ok:
+        if found.ok and (other is not release or found.evidence):  # at once not all is 0
             return replace(found, assumption=words)
         if found.kind is verdict.kind and found.mends and not verdict.mends:
             verdict = replace(verdict, mends=found.mends)
         verdict = found if verdict.kind is Kind.UNDECIDABLE and found.kind is not verdict.kind else verdict
     return verdict
+
+
+def _comes_later(checker: Checker, declared: Declared, given: Family, statement: str) -> bool:
+    """Whether a statement where a rate is 0 names what the model has at its start alone: it is of the motion that comes there from the start."""
+    with suppress(StatementError):
+        case = checker.case(statement, declared)
+        return "rate(" in "".join(given.vanishing) and any(map(case.meaning.speaks_of_start, case.equations))
+    return False
 
 
 def _letters_of(checker: Checker, declared: Declared, condition: str) -> tuple[dict[str, str], str]:
@@ -433,7 +439,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_(₀-₉])")
+OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
 _SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
 _PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")
 _ZEROS = ("0", "0.0")

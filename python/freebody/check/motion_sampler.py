@@ -119,7 +119,8 @@ class MotionSampler(AskedModel):
                         break
         if not found and count >= _PATIENCE:
             self._without.add((family, fresh))
-        return found if len(found) >= min(_LATE_ENOUGH if family.late else _ENOUGH, count) else []
+        far = family.late or (family.since and family.vanishing)
+        return found if len(found) >= min(_LATE_ENOUGH if far else _ENOUGH, count) else []
 
     def _made(
         self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float
@@ -291,6 +292,8 @@ class MotionSampler(AskedModel):
                 return self._sampled(motion.state(one + 0.99 * min(usual / self.rate, other - one)), family.through), start
             if (found := self._first(first[0], motion, parts)) is not None:
                 return self._sampled(found, family.through), start
+            if not goes_on and self.vanishes(first[0], motion.end):  # an event ends it there
+                return self._sampled(motion.end, family.through), start
             if ends < motion.end.t and not family.through:
                 break
         return (self._sampled(start) if first and self.vanishes(first[0], start) else None), start

@@ -98,10 +98,17 @@ class Symbols:
         self._measure_gauges()
         for name, said in (declared or {}).items():
             try:
-                self.declare(name, said)
+                self.declare(name, self._with_gravity(said, gravity))
             except ModelProblem as problem:
                 self._declare_as_stated(name, said, problem)
             self._hide_others(name)
+
+    def _with_gravity(self, said: str | Sequence[str | float], gravity: str | None) -> str | Sequence[str | float]:
+        """What a letter stands for, with the symbol of gravity for its number: 9.81 in it is no other one."""
+        pull = self.spec.get("gravity")
+        if gravity is None or not isinstance(said, str) or not pull:
+            return said
+        return re.sub(rf"(?<![\w.]){re.escape(f'{-pull[1]:g}')}(?![\w.])", gravity, said)
 
     # --- what there is -------------------------------------------------------------------------
 

@@ -268,7 +268,9 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     seen = evidence(found, case.values())
     if plainly := _of_one_sense(case, equation) or _from_start(case, equation) or _as_figures(case, equation):
         return plainly
-    placed = any(n in case.meaning.vocabulary.coordinates for n in symbols_in(equation))
+    known = case.meaning.vocabulary
+    placed = any(n in known.coordinates for n in symbols_in(equation))
+    placed &= not any(n.dots or known.is_load(n) for n in symbols_in(equation) if n not in known.parameters)
     if placed and case.sampler.rolls_in_loop and _stays(case, equation):
         what = "the angles of what rolls are measured from a place where both sides are equal"
         return Verdict(

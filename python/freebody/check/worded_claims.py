@@ -16,7 +16,7 @@ from freebody.symbolic.errors import StatementError
 from . import timed_claims
 from .assumptions import WORDS
 from .families import BEFORE, SINCE_START
-from .phases import Phase, phase
+from .phases import Phase, kind_of, phase
 from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
 from .wording import LASTS
@@ -54,6 +54,9 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     if not lasts and _OVER.search(words):
         with suppress(ModelProblem):
             return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
+    if not lasts and kind_of(words):
+        with suppress(ModelProblem):  # an event by what goes on from there
+            return in_phase(checker, declared, Phase(False, (checker.happening(words),), True), words, statement)
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
@@ -68,6 +71,8 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         with suppress(ModelProblem):
             if said and (until := _UNTIL.fullmatch(words)):
                 return beside_event(checker, declared, "", "before", until[1], statement)
+        if lasts and verdict is not None and not (found := _later(checker, declared, words, statement, verdict, problem)).ok:
+            return found  # whichever stretch is meant
         raise problem
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion

@@ -12,7 +12,7 @@ _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long 
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|while|during|until)\b[^:;\n]*:(?!=))"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|while|during|until|small)\b[^:;\n]*:(?!=))"
     rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
 """``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
@@ -72,7 +72,9 @@ _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b
 _STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
 _BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
-_BEHIND = re.compile(rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS})(?:\s[^:;\n]+)?)")
+_BEHIND = re.compile(
+    rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS}|while|during|until)(?:\s[^:;\n]+)?)"
+)
 _HAPPENS_WHEN = re.compile(
     rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,3}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
 )
@@ -115,11 +117,12 @@ _ENERGIES = re.compile(r"[\sTVUEK+=()_{}12₁₂]+")
 _COMPONENT = re.compile(r"\(\s*((?:\\(?:vec|mathbf|bm)\s*)?\{?[av]\}?_\{?\w+\}?)\s*\)_\{?([txynr])\}?")
 """``(a_G)_t``, a component of a vector that has an index."""
 _NAMED = {
-    r"period(?: of (?:small )?(?:oscillations?|vibrations?))?": "period",
-    r"(?:natural|circular|angular|natural circular|natural angular) frequency": "natural_frequency",
+    r"(?:the )?period(?: of (?:small )?(?:oscillations?|vibrations?))?": "period",
+    r"(?:the )?(?:natural|circular|angular|natural circular|natural angular) frequency": "natural_frequency",
     r"frequency": "frequency",
 }
 _NAMED_VALUE = re.compile(r"([a-z ]+?)\s*(?::|\bis\b)\s*([^=:;\n]+)")
+_AS_OMEGA = {"period": "ω = 2 π/({})", "natural_frequency": "ω = {}", "frequency": "ω = 2 π ({})"}
 _FROM_TO = re.compile(
     r"(∫|\\int)(?![_^])([^=;\n]*?\bd\s*\\?\w+)\s+from\s+(?:\w+\s*=\s*)?(\S+)\s+to\s+(?:\w+\s*=\s*(?=\S+\s*=))?(\S+)"
 )
@@ -183,6 +186,8 @@ def as_claim(text: str) -> str:
 def _conditional(word: str, words: str, statement: str) -> str:
     """A claim whose condition is ``words`` behind the ``word`` with which it begins."""
     side, place = word.split()[-1], _NAMED_PLACE.search(words)
+    if "small" in words and (found := _NAMED_VALUE.fullmatch(statement)) and (name := _quantity(found[1])):
+        statement = f"frequencies: {_AS_OMEGA[name].format(found[2])}"
     named = place is not None and (side in ("after", "before") or place[1].startswith(("the ", "a ")))  # it may be an event
     said = _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1, \2" if named else r"\2", words)))
     if word == "at" and said == "start":
@@ -207,6 +212,8 @@ def _conditional(word: str, words: str, statement: str) -> str:
         if "->" in others or "small motions" in others:
             return as_claim(f"{beside.strip()}: as {others}: {statement}")
         return as_claim(f"if {others}: {beside.strip()}: {statement}")
+    if side == "after" and re.fullmatch(r"(?:(?:the|a) )?time t", said):
+        word, side, said = "if", "", "from the start"
     is_start = word == "initially" or (" " in word and side == "after" and (not said or _START.fullmatch(said)))
     if side in ("after", "before") and not is_start:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
@@ -260,6 +267,8 @@ def _condition(part: str) -> str:
         return "in the steady state"
     if _UNIFORM.fullmatch(said):
         return "at constant speed"
+    if found := re.fullmatch(r"(.+[=<>].+)\s+again", said):
+        return f"{found[1]}, from the start"
     if found := _THROUGHOUT.fullmatch(said):  # so are its rates
         return f"{found[1]} = {found[2]}, ({found[1]})' = ({found[2]})'"
     return "at rest" if said == "rest" else said

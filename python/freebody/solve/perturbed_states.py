@@ -103,7 +103,8 @@ def same_mode(one: FreeBodies, other: FreeBodies) -> bool:
 def _senses(free: FreeBodies) -> list[bool]:
     """In which sense everything slides with friction, and on which flank teeth bear."""
     sliding = [load.follows[1] > 0 for load in free.loads if load.follows]
-    return sliding + [load.value > 0 for load in free.loads if load.card.flank]
+    turning = [load.value > 0 for load in free.loads if load.symbol.endswith(".friction")]
+    return sliding + turning + [load.value > 0 for load in free.loads if load.card.flank]
 
 
 class Closing:
