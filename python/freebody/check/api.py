@@ -22,8 +22,9 @@ from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 from .assumptions import free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
-from .claims import OMEGA, claimed
+from .claims import claimed
 from .families import ALL, Family, NoMotion
+from .frequency_claims import OMEGA
 from .inner_forces import without_inner_forces
 from .language.dimensions import misfit
 from .language.glyphs import CONDITION
@@ -165,7 +166,8 @@ class Checker:
             label, colon, _ = plain.partition(":")
             if colon and len(verdict.mends) > 1:
                 verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)
-            if verdict.ok and verdict.untested and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment):
+            plainly_said = verdict.ok and not found and checker.hypothesis == ALL
+            if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
                 verdict = self._also_later(verdict, text, letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:

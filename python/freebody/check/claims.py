@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from itertools import chain, takewhile
+from itertools import takewhile
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,6 +26,7 @@ from .condition_edits import other_conditions
 from .constants import constant_corrections
 from .correction import MOST, SECOND, corrections
 from .families import ALL, SINCE_START, Family, Samples
+from .frequency_claims import frequencies
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -33,7 +34,6 @@ from .motion_sampler import touching
 from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
-from .vibration import OfVibration
 from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled
 from .wording import as_claim, named, with_condition_first
 
@@ -45,7 +45,7 @@ _MOMENTS = 6
 _RUNS = 12
 _ENOUGH, _CLEARLY = 5, 1e-3  # runs after which what changes by so much is no constant
 _NEWTON = 20  # steps by which premises are made true
-_FEWEST = 8  # places at which they have to be, and at which something has to swing
+_FEWEST = 8  # places at which they have to be
 
 
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
@@ -121,7 +121,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
     for other, words in others:
         found = checker.check(statement, declared, other, correcting=not verdict.mends)
-        if found.ok and (other is not release or found.evidence):  # at once not all is 0
+        if found.ok and (other is not release or (found.evidence and not found.untested)):  # what is 0 at once says nothing
             return replace(found, assumption=words)
         if found.kind is verdict.kind and found.mends and not verdict.mends:
             verdict = replace(verdict, mends=found.mends)
@@ -171,42 +171,6 @@ def _is_of_places(case: Case) -> bool:
     known = case.meaning.vocabulary
     used = symbols_in(case.program)
     return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
-
-
-def _frequencies(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:
-    """An equation that each natural frequency, or that of a ``number``, satisfies; that one of them does, where it says what ω is: with
-    other numbers it may be another one by size."""
-    names = _vibrations(checker, declared)
-    names = names[int(number) - 1 :][:1] if number and len(names) > 1 else names
-    said = [OMEGA.sub(lambda _, name=name: name, statement) for name in names]  # type: ignore[misc]
-    verdicts = (checker.check(text, declared) for text in said)
-    if not _SAYS_OMEGA.fullmatch(statement):
-        first = next(verdicts)
-        return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
-    best = min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
-    if best.ok or best.kind is not Kind.WRONG:
-        return best
-    cases = [checker.case(text, declared) for text in said]
-    left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
-    left = left[:, ~np.isnan(left).all(axis=0)]  # where it swings
-    if left.shape[1] >= _FEWEST and np.nanmin(left, axis=0).max() < HOLDS:
-        reason = "one of the natural frequencies, with any parameters"
-        return replace(best, kind=Kind.TRUE, reason=reason, mends=(), evidence=None)
-    return best
-
-
-def _vibrations(checker: Checker, declared: Declared) -> list[str]:
-    """The names of the natural frequencies: ω_n or ω_1, ω_2 …, or in words where that is the angular velocity of a body, say."""
-    vibration = checker.vibration_of(checker.hypothesis)
-    numbers = [f"_{i}" for i in vibration.modes(checker.hypothesis.vanishing)] if (count := vibration.count) > 1 else ["_n"]
-    known = checker.symbols(declared)
-    with suppress(StatementError, ModelProblem):
-        known.read(f"ω{numbers[0]} = 0")
-    if not count:
-        raise ModelProblem("no place of rest was found about which this model swings with small vibrations")
-    if isinstance(known.meanings.get(f"ω{numbers[0]}"), OfVibration | None):
-        return [f"ω{number}" for number in numbers]
-    return [f"natural_frequency{number.removesuffix('_n')}" for number in numbers]
 
 
 def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
@@ -439,8 +403,6 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
-_SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
 _PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
@@ -460,7 +422,7 @@ _WHOLE = {
 _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
-    (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), _frequencies),
+    (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),

@@ -29,6 +29,7 @@ from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
+from .marks import Marks
 from .momentum_edits import momentum_edits
 from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
 from .senses import one_sense
@@ -178,6 +179,9 @@ class _Search:
         self.given, self.case = case.meaning.given(), case
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self._part = part
+        self._marks = Marks(
+            equation, self.vocabulary.parameters, self.given, (self.other, self.free), family.at_start, self._residual
+        )
         self.lasts = partial(case.budget.lasts, part=part + _CONFIRMING)
         self.fits = FittedEdits(
             self.values, self.vocabulary, self.within, _BLUR if family.small or family.scaled else 1.0, bool(family.small)
@@ -265,7 +269,7 @@ class _Search:
                 break
             if (kept and size > least + EQUAL) or np.isinf(size):
                 break
-            mark = self._mark(each.after)
+            mark = self._marks.of(each.after)
             idle = any(self._is_idle(edit, len(each.edits) > 1) for edit in each.edits)
             # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
             own = self.said & {n.key for n in symbols_in(each.after)}
@@ -427,46 +431,6 @@ class _Search:
             return self._edited.residual(equation) if values is self.few else residual(equation, values)
         except ValueError:
             return None
-
-    def _mark(self, equation: Equation) -> tuple[float, ...] | None:
-        """What an equation says, however it is arranged; None where it says nothing (a = a)."""
-        places = self.other if {n.key for n in symbols_in(equation)} - self.given else self.free
-        found = self._residual(equation, places)
-        defines = {*symbols_in(equation)} <= {*self.vocabulary.parameters}
-        if (
-            (defines or self.family.at_start) and found and found.worst < HOLDS
-        ):  # what a parameter is, or a force at one instant, may be asked
-            places, found = self.free, self._residual(equation, self.free)
-        if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
-            return None
-        left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
-        linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
-        solved = next(
-            (each for each in linear if each is not None and np.abs(each).max() > _ROUND_OFF), None
-        )  # m (…) = 0 says m = 0
-        if solved is None and left.shape[1] > 1:
-            solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
-        if solved is None:
-            ratio = found.ratio.ravel()
-            solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
-        return tuple(np.round(solved, 7).tolist())
-
-    @cached_property
-    def _pivots(self) -> list[str]:
-        """Symbols in which the equation given is linear, accelerations first."""
-        if (found := self._residual(self.equation, self.other)) is None:
-            return []
-        known = [n for n in symbols_in(self.equation) if n.key in self.other and self.other[n.key].ndim == 1]
-        keys, left = [n.key for n in sorted(known, key=lambda n: -n.dots)], found.sides.residual
-        return [key for key in keys if self._solved_for(key, self.equation, left, self.other) is not None]
-
-    def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
-        """The equation solved for a symbol in which it is linear."""
-        once, twice = (self._residual(equation, {**places, key: places[key] + step}) for step in (1.0, 2.0))
-        if base.shape[1] != 1 or once is None or twice is None:
-            return None
-        slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
-        return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
 
 
 def _where_known(equation: Equation, values: Mapping[str, Array]) -> Mapping[str, Array]:

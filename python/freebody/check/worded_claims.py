@@ -150,7 +150,7 @@ _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
 _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
-_PLACED = re.compile(r"(?:with|once)\b")
+_PLACED = re.compile(r"(?:with|once)\b|.+\b(?:on|in|against) the\b")
 """``with the lump on the rim``: words that may be of a later stretch."""
 _ONE_PART = re.compile(
     r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"

@@ -1,0 +1,61 @@
+"""Claims about natural frequencies, whichever letter they have."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import replace
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
+
+from .residual import HOLDS
+from .verdict import Kind, Verdict
+from .vibration import OfVibration
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+
+_FEWEST = 8  # places at which something has to swing
+OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
+_SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
+
+
+def frequencies(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:
+    """An equation that each natural frequency, or that of a ``number``, satisfies; that one of them does, where it says what ω is: with
+    other numbers it may be another one by size."""
+    names = _vibrations(checker, declared)
+    names = names[int(number) - 1 :][:1] if number and len(names) > 1 else names
+    said = [OMEGA.sub(lambda _, name=name: name, statement) for name in names]  # type: ignore[misc]
+    verdicts = (checker.check(text, declared) for text in said)
+    if not _SAYS_OMEGA.fullmatch(statement):
+        first = next(verdicts)
+        return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
+    best = min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
+    if best.ok or best.kind is not Kind.WRONG:
+        return best
+    cases = [checker.case(text, declared) for text in said]
+    left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
+    left = left[:, ~np.isnan(left).all(axis=0)]  # where it swings
+    if left.shape[1] >= _FEWEST and np.nanmin(left, axis=0).max() < HOLDS:
+        reason = "one of the natural frequencies, with any parameters"
+        return replace(best, kind=Kind.TRUE, reason=reason, mends=(), evidence=None)
+    return best
+
+
+def _vibrations(checker: Checker, declared: Declared) -> list[str]:
+    """The names of the natural frequencies: ω_n or ω_1, ω_2 …, or in words where that is the angular velocity of a body, say."""
+    vibration = checker.vibration_of(checker.hypothesis)
+    numbers = [f"_{i}" for i in vibration.modes(checker.hypothesis.vanishing)] if (count := vibration.count) > 1 else ["_n"]
+    known = checker.symbols(declared)
+    with suppress(StatementError, ModelProblem):
+        known.read(f"ω{numbers[0]} = 0")
+    if not count:
+        raise ModelProblem("no place of rest was found about which this model swings with small vibrations")
+    if isinstance(known.meanings.get(f"ω{numbers[0]}"), OfVibration | None):
+        return [f"ω{number}" for number in numbers]
+    return [f"natural_frequency{number.removesuffix('_n')}" for number in numbers]

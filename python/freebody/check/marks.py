@@ -1,0 +1,74 @@
+"""What equations say, however they are arranged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from functools import cached_property
+
+import numpy as np
+
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Sym
+
+from .language.statements import Equation, symbols_in
+from .residual import HOLDS, Residual
+
+_NOTHING = 1e-12  # relative: a solution below it is 0
+
+
+class Marks:
+    """Those of the edits of one ``equation``, where symbols have any values: those ``given`` bound by what the model defines its
+    parameters to be, or all free."""
+
+    def __init__(
+        self,
+        equation: Equation,
+        parameters: Collection[Sym],
+        given: Collection[str],
+        places: tuple[Mapping[str, Array], Mapping[str, Array]],
+        at_start: bool,
+        residual: Callable[[Equation, Mapping[str, Array]], Residual | None],
+    ) -> None:
+        self._equation, self._parameters, self._given, self._at_start = equation, {*parameters}, {*given}, at_start
+        self._other, self._free = places
+        self._residual = residual
+
+    def of(self, equation: Equation) -> tuple[float, ...] | None:
+        """What an equation says, however it is arranged; None where it says nothing (a = a)."""
+        places = self._other if {n.key for n in symbols_in(equation)} - self._given else self._free
+        found = self._residual(equation, places)
+        defines = {*symbols_in(equation)} <= self._parameters
+        if (
+            (defines or self._at_start) and found and found.worst < HOLDS
+        ):  # what a parameter is, or a force at one instant, may be asked
+            places, found = self._free, self._residual(equation, self._free)
+        if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
+            return None
+        left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
+        linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
+        solved = next(
+            (each for each in linear if each is not None and np.abs(each).max() > _NOTHING), None
+        )  # m (…) = 0 says m = 0
+        if solved is None and left.shape[1] > 1:
+            solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
+        if solved is None:
+            ratio = found.ratio.ravel()
+            solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
+        return tuple(np.round(solved, 7).tolist())
+
+    @cached_property
+    def _pivots(self) -> list[str]:
+        """Symbols in which the equation given is linear, accelerations first."""
+        if (found := self._residual(self._equation, self._other)) is None:
+            return []
+        known = [n for n in symbols_in(self._equation) if n.key in self._other and self._other[n.key].ndim == 1]
+        keys, left = [n.key for n in sorted(known, key=lambda n: -n.dots)], found.sides.residual
+        return [key for key in keys if self._solved_for(key, self._equation, left, self._other) is not None]
+
+    def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
+        """The equation solved for a symbol in which it is linear."""
+        once, twice = (self._residual(equation, {**places, key: places[key] + step}) for step in (1.0, 2.0))
+        if base.shape[1] != 1 or once is None or twice is None:
+            return None
+        slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
+        return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
