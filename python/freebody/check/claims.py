@@ -25,7 +25,7 @@ from .case import Case
 from .condition_edits import other_conditions
 from .constants import constant_corrections
 from .correction import MOST, SECOND, corrections
-from .families import ALL, SINCE_START, Family, Samples
+from .families import ALL, SINCE_START, Samples
 from .frequency_claims import frequencies
 from .language.parser import parse_expression
 from .language.spelling import spell
@@ -112,7 +112,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     release = replace(given, since="", at_start=True)
     others = [(release, condition)] if given.since == "rest" else []
-    later = places or verdict.kind is Kind.UNDECIDABLE or _comes_later(checker, declared, given, statement)
+    later = places or verdict.kind is Kind.UNDECIDABLE or _OF_RATES.search("".join(given.vanishing)) is not None
     if given.vanishing and later:  # it may be so only where something switches, or has done so
         others += [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since and not others:
@@ -127,14 +127,6 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
             verdict = replace(verdict, mends=found.mends)
         verdict = found if verdict.kind is Kind.UNDECIDABLE and found.kind is not verdict.kind else verdict
     return verdict
-
-
-def _comes_later(checker: Checker, declared: Declared, given: Family, statement: str) -> bool:
-    """Whether a statement where a rate is 0 names what the model has at its start alone: it is of the motion that comes there from the start."""
-    with suppress(StatementError):
-        case = checker.case(statement, declared)
-        return "rate(" in "".join(given.vanishing) and any(map(case.meaning.speaks_of_start, case.equations))
-    return False
 
 
 def _letters_of(checker: Checker, declared: Declared, condition: str) -> tuple[dict[str, str], str]:
@@ -403,6 +395,8 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
+_OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")
+"""What comes to 0 on a motion from the start, as a speed where something stops."""
 _PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")
 _ZEROS = ("0", "0.0")
 _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")

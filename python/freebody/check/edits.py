@@ -270,6 +270,11 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
             yield from _other_angles(equation, plain, vocabulary)
         if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _UNSIGNED:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
+    moving = [n for n in dict.fromkeys(found) if n.dots and Sym(n.name) in vocabulary.coordinates]
+    for a, b in (
+        (a, b) for a, b in combinations(moving, 2) if a.dots == b.dots and vocabulary.dimension(a) == vocabulary.dimension(b)
+    ):
+        yield _convention(equation, {a: Sym(b.name, b.dots), b: Sym(a.name, a.dots)}, f"`{a.key}` and `{b.key}` exchanged")
     pairs = [(n, o.name) for n in often for o in vocabulary.alike(Sym(n)) if n < o.name and o.name in often]
     given = [n for n in dict.fromkeys(found) if n in vocabulary.parameters]
     pairs += [(a.name, b.name) for a, b in combinations(given, 2)]

@@ -109,6 +109,8 @@ class Monomials:
     def _term(self, powers: list[int], place: int, wanted: Array) -> Node | None:
         """The term of such powers; None where its number is none that a person writes."""
         own = {node: n for node, n in zip(self.bases, powers, strict=True) if n}
+        if any(own.get(factor, 0) < 0 for factor in self._shapes[place]):
+            return None  # it cancels
         ratio = wanted / sampled(_product(own, self._shapes[place]), self.values)
         if np.ptp(ratio) > self.same * np.abs(ratio).max():
             return None  # of changing sign

@@ -23,6 +23,8 @@ _FROM_REST = re.compile(
 )
 _REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")
 """``(starts from rest at x = 0)``."""
+_REST_THERE = re.compile(r"(if the start is at rest)\s+(?:at|in|from)\s+\$?\\?[^\W\d]+_?\{?\d?[0₀]\}?\$?(?=\s*[:,])")
+"""``released from rest at θ_0:``, where it starts."""
 _THESE_NUMBERS = re.compile(
     r"\b(?:if\s+)?(?:with|for|using|at|from)\s+(?:the\s+|these\s+|our\s+|its\s+)?(?:given\s+|numerical\s+|above\s+)*"
     r"(?:numbers|data|values|parameters)(?:\s+given)?\b|\bnumerically\b",
@@ -165,7 +167,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _AND_THERE.sub(lambda found: f"\n{told(found, 'a remark, and not judged')}", said)
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
-    said = _REST_AT.sub(r"\1, \2_0 = \3", _FROM_REST.sub("if the start is at rest", said))
+    said = _REST_AT.sub(r"\1, \2_0 = \3", _REST_THERE.sub(r"\1", _FROM_REST.sub("if the start is at rest", said)))
     said = _THESE_NUMBERS.sub("if with these numbers", said)
     said = _WHICH_POINT.sub(r"\1", _REMARK.sub("", said))
     for sense, sign in _SENSE.items():

@@ -70,6 +70,10 @@ _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all tim
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
 _STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
+_STILL_FIRST = re.compile(
+    r"\A\s*(?:if\s+|when\s+|while\s+)?(?:(?:it|all)\s+(?:is|hangs|stands)\s+)?(?:held|kept|hanging|standing|holding)\s+still(?=\s*[:,])"
+)
+"""``held still:``."""
 _BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(
@@ -169,7 +173,7 @@ def as_claim(text: str) -> str:
     text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))
     text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
     text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, text))
-    text = _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text))
+    text = _STILL_FIRST.sub("in equilibrium", _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text)))
     label, colon, rest = text.partition(":")
     if colon and (found := _WHICH_MODE.fullmatch(label)):
         return f"frequencies {1 if found[1] else 2}: {rest}"
