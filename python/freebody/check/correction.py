@@ -61,7 +61,7 @@ _FRESH, _FRESH_STATES = 1, 16
 _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELIEST = 1.0  # size of a single edit; none is smaller
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
-_LINEAR = 1e-8  # what is left of a true linear equation where all is small, for round-off and terms of higher order
+_LINEAR = 2e-6  # what is left of a true linear equation where all is small, for terms of higher order and round-off
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _OF_START = 1.0  # by which what is so from the start alone is less likely to be meant
 _OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
@@ -190,7 +190,9 @@ class _Search:
         self.holds, self._near = (
             (_LIMIT, _LIMIT)
             if family.scaled or family.late
-            else (_LINEAR if family.small else _OF_RUN if case.sampler.moment else HOLDS, _PROMISING)
+            else (_LINEAR, _LINEAR)
+            if family.small
+            else (_OF_RUN if case.sampler.moment else HOLDS, _PROMISING)
         )
         self.right = self._worst(equation, self.values) < self.holds
 

@@ -107,7 +107,13 @@ class Vocabulary:
         functions += [(call,) for call in calls]
         dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
-        yield from ((part,) for part in (*self.turned_components, *self.products_across))
+        yield from ((part,) for part in (*self.differences, *self.turned_components, *self.products_across))
+
+    @cached_property
+    def differences(self) -> list[Node]:
+        """Of two coordinates of one kind, and of their rates, as what stands between two masses has them."""
+        pairs = [(a, b) for a, b in combinations(self.coordinates, 2) if self.coordinates[a] == self.coordinates[b]]
+        return [Add((Sym(a.name, dots), Negative(Sym(b.name, dots)))) for a, b in pairs for dots in (0, 1)]
 
     @cached_property
     def products_across(self) -> list[Node]:
