@@ -324,6 +324,25 @@ SLIPS = {
         "another quantity",
     ),
     "three weights at once": ("balanced_linkage", "A_y + D_y = 0", "A_y + D_y = (m2 + m3 + m4) g", "a weight"),
+    "the rates exchanged": ("mass_on_three_springs", "d_1' = [(x − a) y' + y x']/d_1", "d_1' = [(x − a) x' + y y']/d_1", "throughout"),
+    "small motions of lengths": (
+        "mass_on_three_springs",
+        "for small x, y: m x'' + (k1 + k3 cos γ) x + k3 y sin γ cos γ = 0",
+        "for small x, y: m x'' + (k1 + k3 cos² γ) x + k3 y sin γ cos γ = 0",
+        "factor",
+    ),
+    "what stands between two masses": (
+        "beads_on_wire",
+        "for small y_1, y_2: m y_2'' = −(S/l) y_2",
+        "for small y_1, y_2: m y_2'' = −(S/l)(2 y_2 − y_1)",
+        "left out",
+    ),
+    "twice one and a cosine": (
+        "putty_on_hoop",
+        "after the hit: K = M r² θ'² + ½ m r² θ'²",
+        "after the hit: K = M r² θ'² + m r² (1 + cos θ) θ'²",
+        "factor",
+    ),
     "a sense where the start fixes the place": (
         "diving_board",
         "J θ'' = −K θ − ½ m g L cos θ + N L",
