@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from books import FILES, UNSEEN, Book
+from books import FILES, NOT_FOUND, UNSEEN, Book
 from manners import rewritten
 from store import every
 
@@ -19,7 +19,8 @@ TIMES = 2  # that each statement is written otherwise
 def test_a_right_statement_is_right_in_every_manner(book: str) -> None:
     rng, checker = random.Random(book), Book(book).checker
     checker.correcting = False
-    right = [each["says"] for each in Book(book).data["statements"] if each["verdict"] == "right"]
+    said = Book(book).data["statements"]
+    right = [each["says"] for each in said if each["verdict"] == "right" and (book, each["id"]) not in NOT_FOUND]
     if book in UNSEEN:  # what is not found to be right there as it stands is told by the score of benchmarks/books.py
         right = [says for says in right if judged_alone(checker, says).kind is Kind.TRUE]
     for says in right:

@@ -23,7 +23,7 @@ _FROM_REST = re.compile(
 )
 _REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")
 """``(starts from rest at x = 0)``."""
-_REST_THERE = re.compile(r"(if the start is at rest)\s+(?:at|in|from)\s+\$?\\?[^\W\d]+_?\{?\d?[0₀]\}?\$?(?=\s*[:,])")
+_REST_THERE = re.compile(r"(if the start is at rest)\s+(?:at|in|from)\s+\$?\\?[^\W\d]+_?\{?\d?[0₀]\}?\$?(?=\s*:)")
 """``released from rest at θ_0:``, where it starts."""
 _THESE_NUMBERS = re.compile(
     r"\b(?:if\s+)?(?:with|for|using|at|from)\s+(?:the\s+|these\s+|our\s+|its\s+)?(?:given\s+|numerical\s+|above\s+)*"

@@ -204,7 +204,7 @@ def _conditional(word: str, words: str, statement: str) -> str:
     parts[0] = "from the start" if word == "from" else parts[0]
     first = f"{word} {parts[0].strip()}"
     if (
-        (LASTS.match(first) or word in ("on", "with", "once"))
+        (LASTS.match(first) or word in ("on", "once") or (word == "with" and len(parts) == 1))
         and _WORDS.fullmatch(first)
         and _condition(parts[0]) == parts[0].strip()
     ):
