@@ -324,7 +324,12 @@ SLIPS = {
         "another quantity",
     ),
     "three weights at once": ("balanced_linkage", "A_y + D_y = 0", "A_y + D_y = (m2 + m3 + m4) g", "a weight"),
-    "the rates exchanged": ("mass_on_three_springs", "d_1' = [(x − a) y' + y x']/d_1", "d_1' = [(x − a) x' + y y']/d_1", "throughout"),
+    "the rates exchanged": (
+        "mass_on_three_springs",
+        "d_1' = [(x − a) y' + y x']/d_1",
+        "d_1' = [(x − a) x' + y y']/d_1",
+        "throughout",
+    ),
     "small motions of lengths": (
         "mass_on_three_springs",
         "for small x, y: m x'' + (k1 + k3 cos γ) x + k3 y sin γ cos γ = 0",

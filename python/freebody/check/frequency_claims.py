@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
 _FEWEST = 8  # places at which something has to swing
 OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
-_SAYS_OMEGA = re.compile(rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*=(?!.*(?:±|\\pm))[^=]*")
+_SAYS_OMEGA = re.compile(
+    rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*(?:=(?!.*(?:±|\\pm))[^=]*|[-−](?!.*{OMEGA.pattern})[^=±]*=\s*0[\s$.]*)"
+)
 
 
 def frequencies(checker: Checker, declared: Declared, number: str, statement: str) -> Verdict:

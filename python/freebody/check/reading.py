@@ -139,6 +139,9 @@ class Reading:
             else:
                 self.known.unjudged.add(arrow)
             program = exchange(program, line.right, of)
+        for found in [n for n in walk(program) if isinstance(n, Directed)]:  # behind what a letter is given
+            self.known.unjudged.add(found.arrow)
+            program = exchange(program, found, found.of)
         return program
 
     def _fitting(self, program: Program, names: Sequence[str], units: bool) -> Program:

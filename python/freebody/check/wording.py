@@ -102,7 +102,7 @@ _STEADY = re.compile(r"(?:(?:in|for|at)\s+)?(?:the\s+)?steady(?:[\s-]+state)?(?:
 _CONSTANT = re.compile(
     r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
     r"(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
-    r"(?=\s*$|\s+where\b|\s+with\b)"
+    r"(?=\s*[→←↑↓↺↻]?\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``."""
 _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
