@@ -15,7 +15,7 @@ BOTH = FILES | UNSEEN
 TIMES = 2  # that each statement is written otherwise
 
 
-@every(BOTH, "book", share=24)
+@every(BOTH, "book", share=36)
 def test_a_right_statement_is_right_in_every_manner(book: str) -> None:
     rng, checker = random.Random(book), Book(book).checker
     checker.correcting = False

@@ -357,7 +357,7 @@ SLIPS = {
 }
 
 
-@every(SLIPS, "slip", share=3)
+@every(SLIPS, "slip", share=8)
 def test_the_first_correction_is_that_of_a_tutor(slip: str) -> None:
     name, said, right, words = SLIPS[slip]
     book = Book(name)
