@@ -240,6 +240,7 @@ INTRODUCTION = f"""\
 - Then time: the programs take turns, {ROUNDS} rounds; the ratio is the median of the rounds, with the least and the greatest. Above 1
   freebody is faster. It is a processor's time, in rows on many threads that of a clock; in a shared machine times are noisy, ratios less so.
 - What is made once is not counted: reading models, deriving and compiling equations, and the first call.
+- Ratios are of one run; rows may be renewed at different times, so times of different rows are not to be compared.
 - What is "by hand" or derived by SymPy is a program for the one mechanism alone; freebody, Pinocchio, MuJoCo and Exudyn take any.
 - The rows of one instant and of the slider-cranks ask for reactions; the other motions do not, where freebody solves them afterwards.
 """
