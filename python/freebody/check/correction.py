@@ -112,7 +112,7 @@ def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator
         held = replace(given, held=(*given.held, *((name, 0.0) for name in names)))
         families.append((held, ", ".join(f"{name} = 0" for name in names)))
     if forward := one_sense(case, equation):
-        families.append(forward[::-1])
+        families.append(forward)
     parts = rows(equation)
     if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE, part))):
         yield from whole

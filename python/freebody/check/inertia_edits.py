@@ -9,13 +9,13 @@ import numpy as np
 
 from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Quotient, Sym
 
 from .coefficients import multiplied
 from .coefficients import product as product_of
 from .language.statements import Equation, symbols_in
 from .monomials import Monomials
-from .powers import powers_of
+from .powers import power_of, powers_of
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
@@ -51,7 +51,10 @@ def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Arra
     moves = [n for n in symbols_in(equation) if known.dimension(n) == _ACCELERATION and n not in known.parameters]
     inertias, lengths = ([n for n in known.parameters if known.dimension(n) == its] for its in (INERTIA, LENGTH))
     found: list[Node] = [
-        Quotient(product_of([J, a]), _square(r)) for a in moves for J in inertias[:_MOST_WHEELS] for r in lengths[:_MOST_WHEELS]
+        Quotient(product_of([J, a]), power_of(r, 2))
+        for a in moves
+        for J in inertias[:_MOST_WHEELS]
+        for r in lengths[:_MOST_WHEELS]
     ]
     count = len(next(iter(values.values())))
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
@@ -61,10 +64,10 @@ def of_whole(equation: Equation, missing: Array, vocabulary: Vocabulary, values:
     """What an energy lacks of several inertias that turn as one, ½ (I + J + μ ρ²) ω², or a moment, (I + J + μ ρ²) α."""
     known = vocabulary
     rates = [n for n in (*(Sym(q.name, 1) for q in known.coordinates), *known.others) if known.dimension(n) == _SPIN]
-    moves: list[Node] = [Quotient(_square(n), Num(2.0, "2")) for n in rates]
+    moves: list[Node] = [Quotient(power_of(n, 2), Num(2.0, "2")) for n in rates]
     moves += [n for n in symbols_in(equation) if n not in known.parameters and known.dimension(n) == _SPIN.times(TIME, -1)]
     masses, lengths, inertias = ([n for n in known.sizes if known.dimension(n) == its] for its in (MASS, LENGTH, INERTIA))
-    found: list[Node] = [*inertias, *(Mul((mass, _square(length))) for mass in masses for length in lengths)][:_MOST_INERTIAS]
+    found: list[Node] = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)][:_MOST_INERTIAS]
     rows = np.array([sampled(node, values) for node in found])
     for move, sign in product(moves, (1.0, -1.0)):
         needed = sign * missing / sampled(move, values)
@@ -83,7 +86,3 @@ def _adding_up(rows: Array, needed: Array) -> Iterator[tuple[int, ...]]:
             yield i, j
         elif np.all(rest > 0):
             yield from ((i, j, k) for k in np.flatnonzero(np.abs(rows - rest).max(axis=1) <= nothing).tolist() if k > j)
-
-
-def _square(node: Node) -> Node:
-    return Pow(node, Num(2.0, "2"))

@@ -18,9 +18,9 @@ from freebody.equations.balances.system import Problem, groups, problem
 from freebody.equations.balances.virtual_motions import named_motions
 from freebody.symbolic.dimensions import FORCE
 from freebody.symbolic.evaluate import sampled
-from freebody.symbolic.tree import ZERO, Add, Fn, Negative, Node, Num, Sym, addends, exchange, is_zero, walk
+from freebody.symbolic.tree import ZERO, Add, Fn, Negative, Node, Num, Sym, exchange, is_zero, walk
 
-from .beside import Difference, Letters, difference, said_terms, signed
+from .beside import Difference, Letters, difference, said_terms
 from .edits import Edit
 from .families import NoMotion
 from .language.dimensions import dimension
@@ -28,7 +28,7 @@ from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .powers import powers_of, written
 from .residual import HOLDS, residual
-from .slips import WHY, why
+from .slips import why
 from .stated import Correction
 
 if TYPE_CHECKING:
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 _COMMON = 2  # terms that a statement has of a balance at least, to be one that lacks some
 _MOST_MISSING = 4
-_MOST_TURNED = 3  # forces of which another component is meant
 _PART = 0.9  # of the budget, at which no more is looked for
 _MOST_DIFFERENT = 6  # terms that are told
 _EACH = 0.2  # by which a correction is larger for each term
@@ -123,8 +122,7 @@ def nearest(case: Case, equation: Equation) -> Nearest | None:
         sides = ([term for term, _ in letters.terms(side, ZERO)] for side in (best.left, best.right))
         text = spell(Equation(*(_sum(terms) for terms in sides)))
     text = f"{best.words} reads: {text}" if len(text) < _LONG else f"{best.words} is too long to be printed"
-    correction = _lacking(case, equation, best.difference) or _in_other_directions(case, equation, best.difference)
-    return Nearest(text, _in_words(best.difference), correction)
+    return Nearest(text, _in_words(best.difference), _lacking(case, equation, best.difference))
 
 
 def _in_words(found: Difference | None) -> str:
@@ -153,27 +151,6 @@ def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correc
     reasons = (why(Edit("missing term", None, term, after), equation, vocabulary) for term in found.missing)
     size = 1.0 + _EACH * len(found.missing)
     return Correction((("missing term", "", spell(lost)),), spell(after), size, why="; ".join(dict.fromkeys(reasons)))
-
-
-def _in_other_directions(case: Case, equation: Equation, found: Difference | None) -> Correction | None:
-    """The statement with each force as it is in a balance, if all that is wrong is which component of some was taken."""
-    if found is None or not found.common or not 0 < len(found.strange) == len(found.missing) <= _MOST_TURNED:
-        return None
-    loads = lambda term: frozenset(n for n in term.symbols if n in case.meaning.vocabulary.others)
-    strange, missing = ({loads(term): term for term in terms} for terms in (found.strange, found.missing))
-    if strange.keys() != missing.keys() or len(strange) < len(found.strange) or frozenset() in strange:
-        return None
-    right = {strange[of]: missing[of] for of in strange}
-
-    def turned(side: Node, sense: int) -> Node:
-        own = [signed(sense * sign, term) for sign, term in addends(side, expand=True) if not is_zero(term)]
-        return _sum([right.get(term, term) if sense > 0 else _opposite(right.get(term, term)) for term in own])
-
-    after = Equation(turned(equation.left, 1), turned(equation.right, -1))
-    if not {n.key for n in symbols_in(after)} <= case.values().keys() or not residual(after, case.values()).worst < HOLDS:
-        return None
-    edits = tuple(("other term", spell(old), spell(new)) for old, new in right.items())
-    return Correction(edits, spell(after), 1.0 + _EACH * len(edits), why=WHY["components"])
 
 
 def _opposite(term: Node) -> Node:

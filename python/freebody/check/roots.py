@@ -10,6 +10,7 @@ from freebody.symbolic.dimensions import LENGTH
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym
 
+from .powers import power_of
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
@@ -34,9 +35,8 @@ def other_sides(required: RequiredTerm, values: Mapping[str, Array], vocabulary:
     own, needed, known = required.node, required.needed, vocabulary
     if not isinstance(own, Sym) or known.parameters.get(own) != LENGTH or needed.ndim != 1 or not np.all(needed > 0):
         return
-    square = lambda n: Pow(n, Num(2.0, "2"))
     for other in (n for n, its in known.parameters.items() if its == LENGTH and n != own):
-        a, b, one, two = square(own), square(other), required.value**2, values[other.key] ** 2
+        a, b, one, two = power_of(own, 2), power_of(other, 2), required.value**2, values[other.key] ** 2
         for sides, value in (((a, Negative(b)), one - two), ((a, b), one + two), ((b, Negative(a)), two - one)):
             if np.allclose(value, needed**2, rtol=_SAME, atol=0):
                 yield Fn("sqrt", (Add(sides),), span=own.span)

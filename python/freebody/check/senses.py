@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _DEPENDS = re.compile(r"\b(?:abs|sign)\(")
 
 
-def one_sense(case: Case, equation: Equation) -> tuple[str, Family] | None:
+def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
     """The motions in which the rates that an equation has in a higher power keep the sense that they have at the start, in words; None
     where it has none, or nothing depends on it."""
     known = case.meaning
@@ -29,21 +29,21 @@ def one_sense(case: Case, equation: Equation) -> tuple[str, Family] | None:
     return _as_at_start(case, {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said)
 
 
-def of_root(case: Case, equation: Equation) -> tuple[str, Family] | None:
+def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
     """The same of a rate that is said to be a root, θ' = √(…)."""
     pairs = ((equation.left, equation.right), (equation.right, equation.left))
     rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
     return _as_at_start(case, {n: case.meaning.read_from(n) for n in rates})
 
 
-def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[str, Family] | None:
+def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[Family, str] | None:
     """The motions in which rates have the sense that they have at the start, in words."""
     if not texts:
         return None
     began = dict(zip(texts, case.sampler.core.evaluate([*texts.values()], case.sampler.own), strict=True))
     words = ", ".join(f"{n.key} {'<' if began[n] < 0 else '>'} 0" for n in texts)
     above = tuple(f"-({text})" if began[n] < 0 else text for n, text in texts.items())
-    return words, replace(case.hypothesis, above=(*case.hypothesis.above, *above))
+    return replace(case.hypothesis, above=(*case.hypothesis.above, *above)), words
 
 
 def is_root(node: Node) -> bool:

@@ -25,10 +25,10 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
         return "the constraint between these motions is another: count what moves along, and differentiate it term by term"
     if edit.kind == "factor" and (isinstance(edit.new, Add) or _is_of_inertia(edit.old, equation, vocabulary)):
         return "the moment of inertia is about another point: I about P is I_G + m d²"
-    return WHY.get(edit.kind, "")
+    return _WHY.get(edit.kind, "")
 
 
-WHY = {
+_WHY = {
     "convention": "two things stand for each other throughout",
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",

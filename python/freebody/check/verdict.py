@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
 
 _FAR = 2.0  # size of a correction from which on one is looked for among the balances
-_FAR_FETCHED = 1.5  # size of a correction from which on what a balance says may be nearer
 _UNITS = ("i", "j", "k")
 _SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
 """What has no sign."""
@@ -294,10 +293,9 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if not fixes and (small := tiny(case, equation)):
         given, beside = small
         fixes = tuple(replace(each, given=given) for each in islice(corrections(beside, equation, SECOND), MOST))
-    if not fixes or fixes[0].size > (_FAR_FETCHED if len(fixes[0].edits) == 1 else _FAR):
+    if not fixes or fixes[0].size > _FAR:
         near = nearest(case, equation)
-        nearer = near and near.correction and (not fixes or near.correction.size < fixes[0].size)
-        fixes = (near.correction,) if nearer else fixes
+        fixes = (near.correction,) if near and near.correction else fixes
     reason, first = (f"it would hold only if: {words}", assumed[0]) if assumed else ("", "")
     if fixes:
         return Verdict(Kind.WRONG, text, reason, first, fixes, seen)
@@ -310,7 +308,7 @@ def _of_one_sense(case: Case, equation: Equation) -> Verdict | None:
     """That it is true where rates have one sense, if what acts depends on it, or where a rate that is said to be a root has the sense of
     the start; else None."""
     for kind, found in ((Kind.TRUE_IF, one_sense(case, equation)), (Kind.TRUE, of_root(case, equation))):
-        words, family = found or ("", None)
+        family, words = found or (None, "")
         if family and of_family(case, equation, family, _GLANCE) and of_family(case, equation, family):
             reason = f"true only if: {words}" if kind is Kind.TRUE_IF else f"holds where {words}, as at the start"
             return Verdict(kind, case.program.text, reason, words)
