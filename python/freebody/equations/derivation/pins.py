@@ -36,8 +36,9 @@ def from_pins(subject: SymbolicState, named: Directions, bodies: Sequence[str], 
 def _carrying(subject: SymbolicState) -> dict[str, str]:
     """The hinge in which each body hangs on the one before it: of its two bodies, the one that moves with the coordinate."""
     joints = [j for j in subject.source.metadata["joints"] if j["type"] == "hinge" and not j["cut"] and j["coordinates"]]
-    moving = subject.balances([{"ask": "coordinate", "name": joint["coordinates"][0]} for joint in joints])
-    ends = ((joint, [joint["first"], joint["second"]], balance.bodies) for joint, balance in zip(joints, moving, strict=True))
+    bare = {"terms": False, "momentum": False}  # only which bodies move is asked
+    moving = subject.ask([{"ask": "coordinate", "name": joint["coordinates"][0], **bare} for joint in joints])
+    ends = ((joint, [joint["first"], joint["second"]], balance["bodies"]) for joint, balance in zip(joints, moving, strict=True))
     return {body: joint["name"] for joint, pair, carried in ends for body in pair if body in carried}
 
 
