@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from freebody.core import quote
 from freebody.equations.derivation.directions import Directions
 from freebody.solve.symbolic_state import SymbolicState
 from freebody.symbolic.printers.printer import Components
@@ -36,10 +37,11 @@ def from_pins(subject: SymbolicState, named: Directions, bodies: Sequence[str], 
 def _carrying(subject: SymbolicState) -> dict[str, str]:
     """The hinge in which each body hangs on the one before it: of its two bodies, the one that moves with the coordinate."""
     joints = [j for j in subject.source.metadata["joints"] if j["type"] == "hinge" and not j["cut"] and j["coordinates"]]
-    bare = {"terms": False, "momentum": False}  # only which bodies move is asked
-    moving = subject.ask([{"ask": "coordinate", "name": joint["coordinates"][0], **bare} for joint in joints])
-    ends = ((joint, [joint["first"], joint["second"]], balance["bodies"]) for joint, balance in zip(joints, moving, strict=True))
-    return {body: joint["name"] for joint, pair, carried in ends for body in pair if body in carried}
+    ends = [(joint, body) for joint in joints for body in (joint["first"], joint["second"]) if body in subject.free.bodies]
+    slopes = subject.source.derivatives([f"angle({quote(body)})" for _, body in ends], subject.state)
+    place = {c["name"]: 1 + i for i, c in enumerate(subject.source.metadata["coordinates"])}
+    turned = zip(ends, slopes, strict=True)
+    return {body: joint["name"] for (joint, body), slope in turned if slope[place[joint["coordinates"][0]]]}
 
 
 def _from(pins: dict[frozenset, Stated], parts: Components) -> Components:
