@@ -8,7 +8,9 @@ use crate::kinematics::StateView;
 use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
 use crate::scalar::Scalar;
-use crate::solve::{Equations, IslandMemory, Islands, Matrix, Orthogonal, Quasidefinite, SaddleError, Solution, Whole};
+use crate::solve::{
+    Condensed, Equations, IslandMemory, Islands, Matrix, Orthogonal, Quasidefinite, SaddleError, Solution,
+};
 
 /// Memory of the dense solution.
 #[derive(Clone, Debug, Default)]
@@ -17,9 +19,9 @@ pub struct Dense {
     pub(super) g: Matrix,
     b: Matrix,
     pub(super) saddle: Islands,
-    /// The same equations, where only their solution was asked for and they are few and clear.
-    whole: Whole,
-    /// And where every motion has inertia too.
+    /// The same equations, where only their solution was asked for, every motion has inertia and no row depends on others.
+    condensed: Condensed,
+    /// And where they are few.
     quasidefinite: Quasidefinite,
     form: Form,
     /// Units of the coordinates, and what makes the rows of order one.
@@ -40,7 +42,7 @@ pub struct Dense {
 enum Form {
     #[default]
     Islands,
-    Whole,
+    Condensed,
     Quasidefinite,
 }
 
@@ -61,25 +63,36 @@ impl Dense {
     pub(super) fn solve_into(&mut self, f: &[f64], r: &[f64], found: &mut Solution, memory: &mut IslandMemory) {
         match self.form {
             Form::Quasidefinite => self.quasidefinite.solve_into(f, r, found),
-            Form::Whole => self.whole.solve_into(f, r, found),
+            Form::Condensed => self.condensed.solve_into(f, r, found),
             Form::Islands => self.saddle.solve_into(f, r, found, memory),
         }
     }
 }
 
 impl Dense {
+    /// Factors mass matrix and rows where nothing is in doubt, and says whether it is not.
+    fn factor_clear(&mut self, own: bool) -> bool {
+        if !own && self.quasidefinite.refactor(&self.mass, &self.g, &self.columns) {
+            self.form = Form::Quasidefinite;
+            return true;
+        }
+        self.form = Form::Condensed;
+        self.condensed.refactor(&self.mass, &self.g, own.then_some(&self.b))
+    }
+
     /// Factors mass matrix and rows, made of order one, where nothing is known of them; `own`: the multipliers act along others.
-    fn factor_scaled(&mut self, wanted: Wanted, own: bool) -> Result<(), SaddleError> {
+    fn factor_scaled(&mut self, own: bool) -> Result<(), SaddleError> {
+        self.form = Form::Islands;
         self.scales.clear();
         self.scales.extend(row_scales(&self.g, &self.columns));
         let b = own.then_some(&self.b);
-        let of = Equations { mass: &self.mass, g: &self.g, b, row_scale: &self.scales, col_scale: &self.columns };
-        let is_whole = wanted == Wanted::Motion && self.whole.refactor(of);
-        self.form = if is_whole { Form::Whole } else { Form::Islands };
-        match is_whole {
-            true => Ok(()),
-            false => self.saddle.refactor(of),
-        }
+        self.saddle.refactor(Equations {
+            mass: &self.mass,
+            g: &self.g,
+            b,
+            row_scale: &self.scales,
+            col_scale: &self.columns,
+        })
     }
 }
 
@@ -135,6 +148,11 @@ impl Workspace<'_> {
         asked.clear();
         asked.extend(self.rows.iter().map(|row| -row.bias));
         self.dense.solve_into(force, asked, found, islands);
+        if self.dense.form == Form::Condensed && found.inconsistency > 0.0 {
+            let own = self.rows.iter().any(|row| row.force.is_some());
+            self.dense.factor_scaled(own).map_err(|error| self.explain(error))?;
+            self.dense.solve_into(force, asked, found, islands);
+        }
         self.solved.nu_dot.copy_from_slice(&found.a);
         self.solved.lambda.clone_from(&found.lambda);
         self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
@@ -198,18 +216,12 @@ impl Workspace<'_> {
         d.columns.clear();
         d.columns.extend(column_scales(at, self.length));
         let own = force == Force::ActuatorDirection && self.rows.iter().any(|row| row.force.is_some());
-        let is_quasidefinite = wanted == Wanted::Motion && !own && d.quasidefinite.refactor(&d.mass, &d.g, &d.columns);
-        let factored = match is_quasidefinite {
-            true => {
-                d.form = Form::Quasidefinite;
-                Ok(())
-            }
-            false => {
-                if own {
-                    rows_in_coordinates(at, &self.rows, self.length, Row::loads, &mut d.b, &mut d.sizes);
-                }
-                d.factor_scaled(wanted, own)
-            }
+        if own {
+            rows_in_coordinates(at, &self.rows, self.length, Row::loads, &mut d.b, &mut d.sizes);
+        }
+        let factored = match wanted == Wanted::Motion && d.factor_clear(own) {
+            true => Ok(()),
+            false => d.factor_scaled(own),
         };
         self.note_factored(factored.is_ok() && !own, false);
         factored.map_err(|error| self.explain(error))

@@ -323,11 +323,16 @@ impl<'m> Workspace<'m> {
     /// # Errors
     /// As [`Workspace::solve`].
     pub fn solve_motion(&mut self) -> Result<(), DynamicsError> {
-        if self.m.is_hybrid() {
+        if !self.m.joint_friction.is_empty() {
             return self.solve();
         }
         self.placed.bearing = None;
-        self.solve_once(self.cheapest(), Wanted::Motion)
+        let route = self.cheapest();
+        self.solve_once(route, Wanted::Motion)?;
+        if !self.m.is_hybrid() {
+            return Ok(());
+        }
+        self.turn_gear_flanks(route, Wanted::Motion)
     }
 
     fn cheapest(&self) -> Route {
@@ -342,16 +347,21 @@ impl<'m> Workspace<'m> {
         self.placed.bearing = None;
         self.joint_friction_forces.fill(0.0);
         self.solve_once(route, Wanted::Reactions)?;
-        // To the other flank, and back again where teeth would pull there too.
-        for _ in 0..2 {
-            let Some(mode) = self.other_gear_flanks() else { break };
-            self.placed.bearing = Some(mode);
-            self.solve_once(route, Wanted::Reactions)?;
-        }
+        self.turn_gear_flanks(route, Wanted::Reactions)?;
         match self.m.joint_friction.is_empty() {
             true => Ok(()),
             false => self.solve_joint_friction(route),
         }
+    }
+
+    /// Solves it again with gears on the other flank, and back again where teeth would pull there too.
+    fn turn_gear_flanks(&mut self, route: Route, wanted: Wanted) -> Result<(), DynamicsError> {
+        for _ in 0..2 {
+            let Some(mode) = self.other_gear_flanks() else { break };
+            self.placed.bearing = Some(mode);
+            self.solve_once(route, wanted)?;
+        }
+        Ok(())
     }
 
     /// Solves the present state for what is wanted, gears bearing on the flanks that the mode says.

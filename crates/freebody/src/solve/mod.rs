@@ -1,11 +1,12 @@
 //! Linear algebra of one instant of a mechanism: M a − Bᵀ λ = f, G a = r.
 //!
 //! [`Saddle`] is the dense solver, exact about rank and about directions without inertia; it suits mechanisms of up to
-//! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart; [`Whole`] is quicker where they are few and
-//! nothing is in doubt, [`Quasidefinite`] again where every motion has inertia. [`Pattern`] and
+//! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart. Where every motion has inertia and no row
+//! depends on others [`Condensed`] is quicker, and [`Quasidefinite`] where they are few. [`Pattern`] and
 //! [`Factor`] solve the symmetric case for thousands of bodies, at a cost that grows with the fill. The rest is what
 //! they stand on.
 
+mod condensed;
 mod dense;
 mod gmres;
 mod islands;
@@ -17,8 +18,8 @@ mod quasidefinite;
 mod saddle;
 mod simplex;
 mod sparse;
-mod whole;
 
+pub use condensed::Condensed;
 pub use dense::{Lu, Singular};
 pub use islands::{IslandMemory, Islands};
 pub use matrix::Matrix;
@@ -28,7 +29,6 @@ pub use quasidefinite::Quasidefinite;
 pub use saddle::{Equations, Saddle, SaddleError, Solution};
 pub use simplex::keep_above;
 pub use sparse::{Accuracy, Factor, Pattern, Stalled};
-pub use whole::Whole;
 
 #[cfg(test)]
 mod tests;

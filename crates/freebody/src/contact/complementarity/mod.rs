@@ -24,6 +24,7 @@ mod lemke;
 mod mode_search;
 mod modes;
 mod painleve;
+mod relaxation;
 #[cfg(test)]
 mod tests;
 

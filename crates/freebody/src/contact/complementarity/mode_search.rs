@@ -4,6 +4,7 @@ use super::form::{propose, Proposal};
 use super::lcp_block::Found;
 use super::lcp_block::{BlockFriction, LcpBlock};
 use super::modes::{admissible, basic, choices, evaluate, vertices, Mode, Refusal, Tangent};
+use super::relaxation::relaxed;
 use super::{FrictionLaw, Status};
 
 /// Up to this many coupled contacts all modes are tried, to see whether the answer is the only one.
@@ -128,7 +129,9 @@ pub(super) fn pivot(block: &LcpBlock, tolerance: f64) -> Outcome {
             Proposal::None => {}
         }
     }
-    Outcome::Unknown
+    relaxed(block)
+        .find_map(|modes| vertex(block, &modes, tolerance))
+        .map_or(Outcome::Unknown, |found| Outcome::Found(vec![found]))
 }
 
 /// What all modes add to the findings.

@@ -35,8 +35,8 @@ fn pivoting_agrees_with_enumeration() {
         }
     }
     assert!(counts[0] > 50_000 && counts[1] > 1_000 && counts[2] > 1_000 && counts[3] == 0, "{counts:?}");
-    // Where contacts slide, Lemke's path may end on a ray though there is a solution.
-    assert!(lost < 4_000, "{lost}");
+    // Where contacts slide, Lemke's path may end on a ray though there is a solution, and relaxation does not find all of them.
+    assert!(lost < 500, "{lost}");
 }
 
 /// Without contacts that slide already there is always a motion, however many contacts are redundant

@@ -1,0 +1,74 @@
+//! Which contacts carry, by relaxation: the forces of one contact after the other are brought to what its law asks for.
+
+use super::lcp_block::{BlockFriction, LcpBlock};
+use super::modes::{Mode, Tangent};
+use super::FrictionLaw;
+
+/// Sweeps after which the forces are looked at, again and again until they are as often as this in all.
+const SWEEPS: [usize; 4] = [50, 200, 800, 3200];
+/// Part of the largest force that is none, and of a bound of friction within which it is reached.
+const NONE: f64 = 1e-6;
+
+/// Modes as relaxation approaches them (Gauss–Seidel; Jourdan, Alart & Jean, *Comput. Methods Appl. Mech. Eng.* 155, 1998). It finds its
+/// way where many contacts slide, and pivoting ends in rays; where it does not converge its modes are none.
+pub(super) fn relaxed(block: &LcpBlock) -> impl Iterator<Item = Vec<Mode>> + '_ {
+    let mut force = vec![0.0; 2 * block.len()];
+    SWEEPS.into_iter().map_while(move |sweeps| {
+        (0..sweeps).for_each(|_| (0..block.len()).for_each(|i| relax(block, i, &mut force)));
+        force.iter().all(|f| f.is_finite()).then(|| modes(block, &force))
+    })
+}
+
+/// Brings the forces of one contact to what its law asks for while the others stay.
+fn relax(block: &LcpBlock, i: usize, force: &mut [f64]) {
+    let n = block.len();
+    let moved = |row: usize, force: &[f64]| {
+        block.free[row] + block.g.row(row).iter().zip(force).map(|(g, f)| g * f).sum::<f64>()
+    };
+    let drag = match block.friction[i] {
+        BlockFriction::Law(FrictionLaw::Sliding { sense, kinetic }) | BlockFriction::Starting(sense, kinetic) => {
+            -sense * kinetic
+        }
+        BlockFriction::Law(_) => 0.0,
+    };
+    let response = block.g[(i, i)] + drag * block.g[(i, n + i)];
+    if response > 0.0 {
+        force[i] = (force[i] - moved(i, force) / response).max(block.least_normal[i]);
+    }
+    force[n + i] = match block.friction[i] {
+        BlockFriction::Law(FrictionLaw::Frictionless) => 0.0,
+        BlockFriction::Law(FrictionLaw::Sliding { .. }) | BlockFriction::Starting(..) => drag * force[i],
+        law if force[i] > 0.0 && block.g[(n + i, n + i)] > 0.0 => {
+            let (sticking, most) =
+                (force[n + i] - moved(n + i, force) / block.g[(n + i, n + i)], bound(law) * force[i]);
+            sticking.max(-most).min(most)
+        }
+        BlockFriction::Law(_) => 0.0,
+    };
+}
+
+/// Most friction of a contact at rest, over its normal force.
+fn bound(law: BlockFriction) -> f64 {
+    match law {
+        BlockFriction::Law(FrictionLaw::Resting { fixed, .. }) => fixed,
+        _ => f64::INFINITY,
+    }
+}
+
+fn modes(block: &LcpBlock, force: &[f64]) -> Vec<Mode> {
+    let n = block.len();
+    let none = NONE * force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+    let tangent = |i: usize| match block.friction[i] {
+        BlockFriction::Law(FrictionLaw::Frictionless) => Tangent::Free,
+        BlockFriction::Law(FrictionLaw::Sliding { sense, .. }) | BlockFriction::Starting(sense, _) => {
+            Tangent::Slip(sense)
+        }
+        law if force[n + i].abs() >= (1.0 - NONE) * bound(law) * force[i] => Tangent::Slip(-force[n + i].signum()),
+        _ => Tangent::Stick,
+    };
+    let mode = |i: usize| match force[i] - block.least_normal[i] > none {
+        false if block.least_normal[i] == 0.0 => Mode::OPEN,
+        closed => Mode { closed, tangent: tangent(i) },
+    };
+    (0..n).map(mode).collect()
+}

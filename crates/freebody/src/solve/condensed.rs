@@ -1,0 +1,230 @@
+//! The equations of an instant by their multipliers alone, where every motion has inertia and it is clear which rows depend on others.
+
+use super::{axpy, dot, largest, Matrix, Solution};
+
+/// Pivot, over what it was before others were eliminated, below which digits may be lost.
+const CLEAR: f64 = 1e-3;
+/// The same below which it is round-off: the row depends on those before it.
+const DEPENDENT: f64 = 1e-10;
+/// What rows that depend on others leave open of what they ask for, over the terms of which it is the rest, that is round-off.
+const MET: f64 = 1e-9;
+
+/// W λ = r − G M⁻¹ f with W = G M⁻¹ Bᵀ (Delassus), and M a = f + Bᵀ λ. M = L D Lᵀ within its envelope (George & Liu, *Computer
+/// Solution of Large Sparse Positive Definite Systems*, 1981, ch. 4): bodies that share no inertia cost nothing together.
+#[derive(Clone, Debug, Default)]
+pub struct Condensed {
+    lower: Matrix,
+    /// Of each row of L its first entry.
+    first: Vec<usize>,
+    inverse_pivots: Vec<f64>,
+    /// L⁻¹ Gᵀ and L⁻¹ Bᵀ, column after column, as far as they are not 0.
+    rows: Vec<Sparse>,
+    forces: Vec<Sparse>,
+    has_own_forces: bool,
+    /// What makes the rows of order one.
+    scale: Vec<f64>,
+    /// W in its factors, rows and columns in the order of their pivots.
+    condensed: Matrix,
+    order: [Vec<usize>; 2],
+    rank: usize,
+    side: Vec<f64>,
+    x: Vec<f64>,
+}
+
+/// Entries with their places.
+type Sparse = Vec<(usize, f64)>;
+
+impl Condensed {
+    /// Factors other equations, false where it declines; `b`: what the multipliers act along, G if none.
+    pub fn refactor(&mut self, mass: &Matrix, g: &Matrix, b: Option<&Matrix>) -> bool {
+        self.has_own_forces = b.is_some();
+        if !self.factor_mass(mass) {
+            return false;
+        }
+        let mut rows = std::mem::take(&mut self.rows);
+        self.half_solve(g, &mut rows);
+        self.rows = rows;
+        if let Some(b) = b {
+            let mut forces = std::mem::take(&mut self.forces);
+            self.half_solve(b, &mut forces);
+            self.forces = forces;
+        }
+        self.condense() && self.eliminate() && self.is_determinate()
+    }
+
+    fn factor_mass(&mut self, mass: &Matrix) -> bool {
+        let n = mass.rows();
+        self.lower.clone_from(mass);
+        self.first.clear();
+        self.first.extend((0..n).map(|i| mass.row(i)[..i].iter().position(|&x| x != 0.0).unwrap_or(i)));
+        self.inverse_pivots.clear();
+        for i in 0..n {
+            let (above, from) = self.lower.split_rows_mut(i, n);
+            let (row, first) = (&mut from[..n], self.first[i]);
+            for j in first..i {
+                let (other, begin) = (&above[j * n..], self.first[j].max(first));
+                row[j] -= dot(&row[begin..j], &other[begin..j]);
+            }
+            // So far each entry is that of L times its pivot.
+            let mut pivot = row[i];
+            for j in first..i {
+                let entry = row[j] * self.inverse_pivots[j];
+                pivot -= entry * row[j];
+                row[j] = entry;
+            }
+            if !(pivot > CLEAR * row[i]) {
+                return false;
+            }
+            self.inverse_pivots.push(1.0 / pivot);
+        }
+        true
+    }
+
+    /// L⁻¹ of the rows of a matrix.
+    fn half_solve(&mut self, of: &Matrix, out: &mut Vec<Sparse>) {
+        out.resize_with(of.rows(), Sparse::new);
+        for (i, out) in out.iter_mut().enumerate() {
+            self.x.clear();
+            self.x.extend_from_slice(of.row(i));
+            forward(&self.lower, &self.first, &mut self.x);
+            out.clear();
+            out.extend(self.x.iter().copied().enumerate().filter(|(_, x)| *x != 0.0));
+        }
+    }
+
+    /// W, made of order one; false where a row moves nothing.
+    fn condense(&mut self) -> bool {
+        let Condensed { rows, inverse_pivots, scale, .. } = self;
+        let size = |row: &Sparse| row.iter().map(|&(k, x)| x * x * inverse_pivots[k]).sum::<f64>();
+        scale.clear();
+        scale.extend(rows.iter().map(|row| 1.0 / size(row).sqrt()));
+        let m = rows.len();
+        self.condensed.reset(m, m);
+        for j in 0..m {
+            let force = if self.has_own_forces { &self.forces[j] } else { &self.rows[j] };
+            self.x.fill(0.0);
+            force.iter().for_each(|&(k, x)| self.x[k] = x * self.inverse_pivots[k] * self.scale[j]);
+            for (i, row) in self.rows.iter().enumerate() {
+                self.condensed[(i, j)] = row.iter().map(|&(k, x)| x * self.x[k]).sum::<f64>() * self.scale[i];
+            }
+        }
+        self.condensed.data().iter().all(|entry| entry.is_finite())
+    }
+
+    /// W = L U with the largest pivot of all that is left (Golub & Van Loan, *Matrix Computations*, 4th ed., §3.4.6), down to what is
+    /// round-off; false where a pivot is neither large nor that.
+    fn eliminate(&mut self) -> bool {
+        let (w, m) = (&mut self.condensed, self.rows.len());
+        self.order.iter_mut().for_each(|order| order.splice(.., 0..m).for_each(drop));
+        for k in 0..m {
+            let places = (k..m).flat_map(|i| (k..m).map(move |j| (i, j)));
+            let (i, j) = places.reduce(|a, b| if w[b].abs() > w[a].abs() { b } else { a }).expect("one is left");
+            self.rank = k;
+            if w[(i, j)].abs() <= DEPENDENT {
+                return true;
+            }
+            if !(w[(i, j)].abs() > CLEAR) {
+                return false;
+            }
+            w.swap_rows(k, i);
+            (0..m).for_each(|row| w.row_mut(row).swap(k, j));
+            self.order[0].swap(k, i);
+            self.order[1].swap(k, j);
+            let (above, below) = w.split_rows_mut(k + 1, m);
+            let pivot = &above[k * m..];
+            for row in below.chunks_exact_mut(m) {
+                row[k] /= pivot[k];
+                let part = row[k];
+                axpy(-part, &pivot[k + 1..], &mut row[k + 1..]);
+            }
+        }
+        self.rank = m;
+        true
+    }
+
+    /// Whether rows of W that depend on others are rows of G that do, and columns of B: else forces of their own move what no row
+    /// sees, or a row asks for what no force does.
+    fn is_determinate(&mut self) -> bool {
+        // With W = V Vᵀ, as many rows of V depend on others as of W.
+        !self.has_own_forces || (self.rank..self.rows.len()).all(|i| self.depends_alike(i))
+    }
+
+    fn depends_alike(&mut self, i: usize) -> bool {
+        let (w, rank) = (&self.condensed, self.rank);
+        self.side.clear();
+        self.side.resize(i, 0.0);
+        self.side.push(1.0);
+        for k in (0..rank).rev() {
+            self.side[k] = -w[(i, k)] - (k + 1..rank).map(|j| self.side[j] * w[(j, k)]).sum::<f64>();
+        }
+        if !self.is_nothing(0) {
+            return false;
+        }
+        for k in (0..rank).rev() {
+            let known = (k + 1..rank).map(|j| self.condensed[(k, j)] * self.side[j]).sum::<f64>();
+            self.side[k] = -(self.condensed[(k, i)] + known) / self.condensed[(k, k)];
+        }
+        self.is_nothing(1)
+    }
+
+    /// Whether the rows of G (0), or columns of B (1), add up to nothing, each with its part.
+    fn is_nothing(&mut self, which: usize) -> bool {
+        let of = if which == 0 { &self.rows } else { &self.forces };
+        self.x.fill(0.0);
+        for (&i, part) in self.order[which].iter().zip(&self.side) {
+            of[i].iter().for_each(|&(k, x)| self.x[k] += x * part * self.scale[i]);
+        }
+        let size: f64 = self.x.iter().zip(&self.inverse_pivots).map(|(x, inverse)| x * x * inverse).sum();
+        size <= DEPENDENT
+    }
+
+    /// Solves for applied forces f (n) and right-hand sides r (m): into `found`. Of multipliers that depend on others some are 0; what
+    /// contradicts others is left open, and told.
+    pub fn solve_into(&mut self, f: &[f64], r: &[f64], found: &mut Solution) {
+        let Solution { a, lambda, inconsistency } = found;
+        f.clone_into(a);
+        forward(&self.lower, &self.first, a);
+        a.iter_mut().zip(&self.inverse_pivots).for_each(|(a, inverse)| *a *= inverse);
+        let terms = |i: usize| self.rows[i].iter().map(|&(k, x)| x * a[k]);
+        self.side.clear();
+        self.side.extend(self.order[0].iter().map(|&i| (r[i] - terms(i).sum::<f64>()) * self.scale[i]));
+        let size = |i: usize| (r[i].abs() + terms(i).map(f64::abs).sum::<f64>()) * self.scale[i];
+        let most = if self.rank < r.len() { largest((0..r.len()).map(size)) } else { 0.0 };
+        self.substitute();
+        let open = largest(self.side[self.rank..].iter().copied());
+        *inconsistency = if open > MET * most { open } else { 0.0 };
+        lambda.clear();
+        lambda.resize(r.len(), 0.0);
+        for (&j, x) in self.order[1].iter().zip(&self.side[..self.rank]) {
+            lambda[j] = x * self.scale[j];
+        }
+        let forces = if self.has_own_forces { &self.forces } else { &self.rows };
+        for (force, lambda) in forces.iter().zip(&*lambda) {
+            force.iter().for_each(|&(k, x)| a[k] += x * self.inverse_pivots[k] * lambda);
+        }
+        for i in (0..a.len()).rev() {
+            let first = self.first[i];
+            let (before, own) = a.split_at_mut(i);
+            before[first..].iter_mut().zip(&self.lower.row(i)[first..i]).for_each(|(x, l)| *x -= l * own[0]);
+        }
+    }
+
+    /// The multipliers in the order of their pivots, and behind them what is left open of the rows that depend on others.
+    fn substitute(&mut self) {
+        for i in 0..self.side.len() {
+            let known = i.min(self.rank);
+            self.side[i] -= dot(&self.condensed.row(i)[..known], &self.side[..known]);
+        }
+        for i in (0..self.rank).rev() {
+            let row = &self.condensed.row(i)[..self.rank];
+            self.side[i] = (self.side[i] - dot(&row[i + 1..], &self.side[i + 1..self.rank])) / row[i];
+        }
+    }
+}
+
+/// x ← L⁻¹ x.
+fn forward(lower: &Matrix, first: &[usize], x: &mut [f64]) {
+    for (i, &first) in first.iter().enumerate() {
+        x[i] -= dot(&lower.row(i)[first..i], &x[first..i]);
+    }
+}
