@@ -15,14 +15,14 @@ impl Workspace<'_> {
     /// Where closed unilateral constraints can load each other, as a block jammed between walls, the least margin of
     /// all under the forces, of those that balance it, by which it is greatest: they hold as long as any forces hold
     /// them. What each unilateral constraint carries is not determined then. Of the last solution by
-    /// [`Route::Minimal`](super::Route::Minimal); `most`, N, is enough.
+    /// [`Route::Minimal`](super::Route::Minimal), or of the motion alone; `most`, N, is enough.
     pub fn safest_margin(&self, most: f64) -> Option<f64> {
         let closed = |row: &Row| if let Source::Gap(l) = row.source { Some(l) } else { None };
         let constraints: Vec<usize> = self.rows.iter().filter_map(closed).collect();
-        if constraints.is_empty() || self.rows.len() <= self.m.freedom() - self.dense.saddle.dof() {
+        if constraints.is_empty() {
             return None;
         }
-        let stress = self.dense.saddle.self_stress();
+        let stress = self.dense.self_stress();
         if stress.cols() == 0 {
             return None;
         }

@@ -307,7 +307,7 @@ impl Workspace<'_> {
         let sticking: Vec<(usize, f64)> =
             contacts.constraints.iter().zip(&decision.friction_ratios).filter_map(sticking).collect();
         self.enter(&mode);
-        if self.solve_by(super::Route::Minimal).is_ok() || sticking.is_empty() {
+        if self.solve_motion().is_ok() || sticking.is_empty() {
             return Ok(mode);
         }
         for &(l, friction) in &sticking {

@@ -67,9 +67,16 @@ impl Dense {
             Form::Islands => self.saddle.solve_into(f, r, found, memory),
         }
     }
-}
 
-impl Dense {
+    /// The multipliers that balance themselves in the equations factored last, m × d; the largest entry of each column is 1.
+    pub(super) fn self_stress(&self) -> Matrix {
+        match self.form {
+            Form::Quasidefinite => Matrix::zeros(self.g.rows(), 0),
+            Form::Condensed => self.condensed.self_stress(),
+            Form::Islands => self.saddle.self_stress(),
+        }
+    }
+
     /// Factors mass matrix and rows where nothing is in doubt, and says whether it is not.
     fn factor_clear(&mut self, own: bool) -> bool {
         if !own && self.quasidefinite.refactor(&self.mass, &self.g, &self.columns) {

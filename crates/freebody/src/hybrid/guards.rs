@@ -1,7 +1,7 @@
 //! Switching functions: of events, of laws that are not smooth, and guards, which stay positive as long as the mode holds.
 
 use super::HybridSystem;
-use crate::dynamics::{compliant_force, DynamicsError, Route, Source};
+use crate::dynamics::{compliant_force, DynamicsError, Source};
 use crate::mechanism::{Gap, Mechanism};
 use crate::mode::ContactMode;
 
@@ -78,7 +78,7 @@ impl HybridSystem<'_> {
         let m = self.workspace.m;
         let carries = !m.joint_friction.is_empty() || self.mode.contacts.iter().any(|contact| contact.mode.carries());
         if carries {
-            self.workspace.solve_by(Route::Minimal)?;
+            self.workspace.solve_motion()?;
         }
         let shared = if carries { self.workspace.safest_margin(self.strength) } else { None };
         let forces = if carries && shared.is_none() { self.workspace.solved_view().contact_forces() } else { vec![] };

@@ -116,14 +116,14 @@ impl Condensed {
     fn eliminate(&mut self) -> bool {
         let (w, m) = (&mut self.condensed, self.rows.len());
         self.order.iter_mut().for_each(|order| order.splice(.., 0..m).for_each(drop));
+        let mut next = (0..m).fold(Largest::default(), |next, i| next.or_in(w.row(i), i, 0));
         for k in 0..m {
-            let places = (k..m).flat_map(|i| (k..m).map(move |j| (i, j)));
-            let (i, j) = places.reduce(|a, b| if w[b].abs() > w[a].abs() { b } else { a }).expect("one is left");
+            let Largest { size, at: [i, j] } = next;
             self.rank = k;
-            if w[(i, j)].abs() <= DEPENDENT {
+            if size <= DEPENDENT {
                 return true;
             }
-            if !(w[(i, j)].abs() > CLEAR) {
+            if !(size > CLEAR) {
                 return false;
             }
             w.swap_rows(k, i);
@@ -132,10 +132,14 @@ impl Condensed {
             self.order[1].swap(k, j);
             let (above, below) = w.split_rows_mut(k + 1, m);
             let pivot = &above[k * m..];
-            for row in below.chunks_exact_mut(m) {
+            next = Largest::default();
+            for (i, row) in below.chunks_exact_mut(m).enumerate() {
                 row[k] /= pivot[k];
                 let part = row[k];
-                axpy(-part, &pivot[k + 1..], &mut row[k + 1..]);
+                if part != 0.0 {
+                    axpy(-part, &pivot[k + 1..], &mut row[k + 1..]);
+                }
+                next = next.or_in(row, k + 1 + i, k + 1);
             }
         }
         self.rank = m;
@@ -160,11 +164,34 @@ impl Condensed {
         if !self.is_nothing(0) {
             return false;
         }
-        for k in (0..rank).rev() {
-            let known = (k + 1..rank).map(|j| self.condensed[(k, j)] * self.side[j]).sum::<f64>();
-            self.side[k] = -(self.condensed[(k, i)] + known) / self.condensed[(k, k)];
-        }
+        let mut side = std::mem::take(&mut self.side);
+        self.write_stress(i, &mut side);
+        self.side = side;
         self.is_nothing(1)
+    }
+
+    /// Multipliers, in the order of their pivots and of order one, of which W makes nothing: that of dependent column i and those before.
+    fn write_stress(&self, i: usize, out: &mut [f64]) {
+        let (w, rank) = (&self.condensed, self.rank);
+        out[rank..].fill(0.0);
+        out[i] = 1.0;
+        for k in (0..rank).rev() {
+            out[k] = -(w[(k, i)] + (k + 1..rank).map(|j| w[(k, j)] * out[j]).sum::<f64>()) / w[(k, k)];
+        }
+    }
+
+    /// m × d: the multipliers with Bᵀ λ = 0; the largest entry of each column is 1.
+    pub fn self_stress(&self) -> Matrix {
+        let (rank, m) = (self.rank, self.rows.len());
+        let mut all = Matrix::zeros(m, m - rank);
+        let mut part = vec![0.0; m];
+        for i in rank..m {
+            self.write_stress(i, &mut part);
+            let scaled = || self.order[1].iter().zip(&part).map(|(&j, x)| (j, x * self.scale[j]));
+            let largest = scaled().fold(0.0, |most: f64, (_, x)| if x.abs() > most.abs() { x } else { most });
+            scaled().for_each(|(j, x)| all[(j, i - rank)] = x / largest);
+        }
+        all
     }
 
     /// Whether the rows of G (0), or columns of B (1), add up to nothing, each with its part.
@@ -219,6 +246,24 @@ impl Condensed {
             let row = &self.condensed.row(i)[..self.rank];
             self.side[i] = (self.side[i] - dot(&row[i + 1..], &self.side[i + 1..self.rank])) / row[i];
         }
+    }
+}
+
+/// The largest entry so far.
+#[derive(Clone, Copy, Default)]
+struct Largest {
+    size: f64,
+    at: [usize; 2],
+}
+
+impl Largest {
+    /// It, or one of row `i` from a place on.
+    fn or_in(self, row: &[f64], i: usize, from: usize) -> Largest {
+        let larger = |best: Largest, (j, x): (usize, &f64)| match x.abs() > best.size {
+            true => Largest { size: x.abs(), at: [i, j] },
+            false => best,
+        };
+        row.iter().enumerate().skip(from).fold(self, larger)
     }
 }
 
