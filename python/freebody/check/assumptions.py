@@ -52,6 +52,7 @@ _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
+FROM_REST = f"{FROM_START} at rest"
 OWN_NUMBERS = "these numbers of the model"
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
@@ -82,9 +83,12 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     return (words,) if words else ()
 
 
-def leaves_out(words: str, mended: bool, lacks: bool) -> bool:
-    """Whether an assumption takes motion, gravity or a part of the model away, so that it excuses nothing: a term was left out. Where
-    one edit has ``mended`` an equation, a limit and the start excuse nothing, either; nor small angles what ``lacks`` a term."""
+def leaves_out(words: str, mended: bool, lacks: bool, starts_at_rest: bool) -> bool:
+    """Whether an assumption takes motion, also that of the start, gravity or a part of the model away, so that it excuses nothing: a term
+    was left out. Where one edit has ``mended`` an equation, a limit and the start excuse nothing, either; nor small angles what
+    ``lacks`` a term."""
+    if words == FROM_REST and not starts_at_rest:
+        return True
     taken = words.startswith(("at rest", "without gravity")) or re.fullmatch(r"\S+ = 0( \(no friction\))?", words) is not None
     return taken or (mended and ("→" in words or words == "at the start")) or (lacks and words.startswith("small"))
 
@@ -216,7 +220,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     yield [("at the start, with these numbers of the model", replace(own, at_start=True))]
     if not (given.at_rest or given.at_start or given.small):
         yield [(FROM_START, replace(given, since="start"))]
-        yield [("motions from the start of this model at rest", replace(given, since="rest"))]
+        yield [(FROM_REST, replace(given, since="rest"))]
 
 
 def mattering(case: Case) -> list[str]:

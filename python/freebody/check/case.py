@@ -91,6 +91,10 @@ class StatementSymbols:
         other.figures = True
         return other
 
+    def of_start(self) -> StatementSymbols:
+        """The same of motions from the start, of which its numbers may be spoken, too."""
+        return StatementSymbols(self.symbols, self.program, self.sampler, of_instant=True)
+
     def solved(self, symbol: Sym) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
         one = self.symbols.meanings.get(symbol.name)

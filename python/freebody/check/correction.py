@@ -162,7 +162,7 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
     ((given, words), *_) = families
     if given.since or given.at_rest or given.at_start or given.small or given.scaled:
         return []
-    since = replace(given, since="start")
+    since, case = replace(given, since="start"), replace(case, meaning=case.meaning.of_start(), known={})
     return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.together), part))
 
 

@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, TIME
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, addends, is_zero, unsigned, walk
@@ -141,7 +141,7 @@ class Likelihood:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
         other = next((side for side in self._sides if side is not unsigned(term)), None)
         alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
-        solved = alone or (isinstance(term, Sym) and term in self._sides)
+        solved = alone or (isinstance(unsigned(term), Sym) and unsigned(term) in self._sides)
         inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
         its = dimension(term, self.vocabulary.dimensions)
         inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
@@ -289,10 +289,22 @@ class Likelihood:
         said = [n for n in self._said if n not in known.parameters]
         driven = any(known.is_load(n) or (n in known.others and known.dimension(n) is None) for n in said)  # the load of a motor
         if not loads or self._is_balance or driven:
-            return 0.0
+            return _MIXED * (driven and self._has_energy and any(map(self._is_acceleration, loads)))
         if not any(map(known.is_rate, self._said)) or any(n in known.coordinates and not n.dots for n in term.symbols):
             return math.inf if any(n.dots == 2 for n in loads) and any(map(known.is_rate, self._said)) else 0.0
         return _MIXED if all(n in known.letters for n in loads) else math.inf
+
+    def _is_acceleration(self, symbol: Sym) -> bool:
+        return self.vocabulary.dimension(symbol) in (_ACCELERATION, NUMBER_ONLY.times(TIME, -2))
+
+    @cached_property
+    def _has_energy(self) -> bool:
+        """Whether it speaks of kinetic energies, and of no acceleration."""
+        squares = (n for n in walk(self.equation) if isinstance(n, Pow) and isinstance(n.base, Sym))
+        of_motion = ENERGY in {dimension(term, self.vocabulary.dimensions) for term in self._expanded}
+        moves = any(self.vocabulary.is_rate(n.base) and n.base not in self.vocabulary.parameters for n in squares)
+        still = not any(self._is_acceleration(n) for n in self._said if n not in self.vocabulary.parameters)
+        return of_motion and moves and still and any(self.vocabulary.dimension(n) == MASS for n in self._said)
 
     @cached_property
     def _is_balance(self) -> bool:
@@ -327,12 +339,14 @@ class Likelihood:
         return abs(number) == 1 and len(factors) == len(powers) and (alone or len(masses) == len(moves) == len(factors) / 2 == 1)
 
     def _is_centripetal(self, term: Node) -> bool:
-        """Whether the square of a rate stands in it beside the same as the second derivative in the equation."""
+        """Whether the square of a rate stands in it beside the same as the second derivative in the equation, or times a distance beside
+        the second derivative of that."""
         squared = [n.base for n in walk(term) if isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1]
         if len(squared) != 1:
             return False
         sizes = {n for n in term.symbols if not n.dots}
-        return any(sizes <= part.symbols for part in self._expanded if Sym(squared[0].name, 2) in part.symbols)
+        partners = ((sizes, Sym(squared[0].name, 2)), *((sizes - {n}, Sym(n.name, 2)) for n in sizes))
+        return any(own <= part.symbols for own, symbol in partners for part in self._expanded if symbol in part.symbols)
 
     @cached_property
     def _expanded(self) -> list[Node]:

@@ -288,7 +288,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
     assumed = () if slip else assumption(case, equation)
     words = "; or: ".join(assumed)
-    if assumed and not leaves_out(assumed[0], bool(single), lacks):
+    if assumed and not leaves_out(assumed[0], bool(single), lacks, not case.sampler.own.u.any()):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         given, beside = small
