@@ -97,7 +97,7 @@ class Checker:
         began = thread_time()
         program = known.read(text, units, tight)
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
-        meaning = StatementSymbols(known, program, self.sampler, given.at_start or bool(given.since))
+        meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         given = replace(given, since="start") if meaning.needs_past and not given.since else given
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
 

@@ -113,7 +113,8 @@ class FittedEdits:
         match node:
             case Sym() | Fn() if required.value.ndim == needed.ndim == 1:
                 turns = dimension(node, self.vocabulary.dimensions) == INERTIA  # one about another point
-                yield from ((Sym(n.name, n.dots, span=span), 0.0 if turns else 0.3) for n in alike(rows) if n != node)
+                size = lambda n: 0.0 if turns else 0.1 if _is_linear_for_angular(node, n) else 0.3
+                yield from ((Sym(n.name, n.dots, span=span), size(n)) for n in alike(rows) if n != node)
             case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == needed.ndim == 1:
                 yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in alike(rows**2) if n != base)
         yield from self._of_sums_of_two.edits(required)
@@ -408,6 +409,11 @@ class FittedEdits:
         for i in range(max(map(len, parts), default=0)):
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
         return rows
+
+
+def _is_linear_for_angular(old: Node, new: Sym) -> bool:
+    """Whether one rate or acceleration stands for another of quite another kind: I x'' for I θ''."""
+    return isinstance(old, Sym) and old.dots == new.dots > 0
 
 
 def _linear(term: Node) -> Node:

@@ -300,11 +300,10 @@ class Likelihood:
     @cached_property
     def _has_energy(self) -> bool:
         """Whether it speaks of kinetic energies, and of no acceleration."""
-        squares = (n for n in walk(self.equation) if isinstance(n, Pow) and isinstance(n.base, Sym))
-        of_motion = ENERGY in {dimension(term, self.vocabulary.dimensions) for term in self._expanded}
-        moves = any(self.vocabulary.is_rate(n.base) and n.base not in self.vocabulary.parameters for n in squares)
-        still = not any(self._is_acceleration(n) for n in self._said if n not in self.vocabulary.parameters)
-        return of_motion and moves and still and any(self.vocabulary.dimension(n) == MASS for n in self._said)
+        known = self.vocabulary
+        if any(self._is_acceleration(n) for n in self._said if n not in known.parameters):
+            return False
+        return any(abs(number) < 1 and _is_of_motion(powers, known) for number, powers in map(powers_of, self._expanded))
 
     @cached_property
     def _is_balance(self) -> bool:
@@ -356,6 +355,15 @@ class Likelihood:
         """Whether the equation says what one acceleration is, and nothing of this one."""
         alone = any(isinstance(side, Sym) and side.dots == 2 for side in (self.equation.left, self.equation.right))
         return alone and symbol not in self._said
+
+
+def _is_of_motion(powers: Mapping[Node, int], known: Vocabulary) -> bool:
+    """Whether a product is of a mass or an inertia and the square of a rate, as a kinetic energy is."""
+    masses = any(known.dimension(n) in (MASS, INERTIA) for base in powers for n in base.symbols)
+    return masses and any(
+        power == 2 and isinstance(base, Sym) and known.is_rate(base) and base not in known.parameters
+        for base, power in powers.items()
+    )
 
 
 def _terms_of(side: Node) -> tuple[Node, ...]:
