@@ -49,6 +49,8 @@ _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?)
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
+_SMALL_ONE = re.compile(r"small\s+([^\s:,=]+)\s*:(?=.*(?:ω|omega|τ|tau|\b[Tf]\b|\b[Tf]_))", re.S)
+"""``small θ_1: T_1 = …``."""
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -110,6 +112,8 @@ class Checker:
         Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
         how = (text, letters, hypothesis, correcting)
+        if (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0]))) and not self.vibration.alone and (alone := self._swinging(one[1], letters)):
+            return alone.check(*how)
         try:
             return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
@@ -117,6 +121,15 @@ class Checker:
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
                 return found
             raise
+
+    def _swinging(self, coordinate: str, letters: Declared | None) -> Checker | None:
+        """The same of the vibration of one of several coordinates, which swings for itself; None where it does not."""
+        meaning = self.symbols(letters).spelt(coordinate)
+        if meaning is None or meaning.kind != "coordinate" or len(self.sampler.names) < 2:
+            return None
+        other = copy(self)
+        other.vibration = Vibration(self.sampler, meaning.texts[0])
+        return other if other.vibration.count else None
 
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
