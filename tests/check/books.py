@@ -50,8 +50,6 @@ def _files(half: str) -> dict[str, Path]:
 FILES, UNSEEN = _files("books"), _files("books_unseen")
 
 NOT_FOUND = {
-    ("radar_tracks_rocket", "transverse"): "true only if v > 0: a drag of c v² resists what rises",
-    ("radar_tracks_rocket", "power"): "the same",
     ("trolley_hits_stop", "moments about the pin"): "says behind the equation that its rates are those after the impact",
     ("wheel_up_a_kerb", "least speed"): "is of the motion that just gets up, of which the start would have to be found",
     ("roller_off_a_drum", "slips off"): "says where something else is so",
