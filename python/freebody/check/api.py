@@ -116,7 +116,11 @@ class Checker:
         Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
         how = (text, letters, hypothesis, correcting)
-        if (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0]))) and not self.vibration.alone and (alone := self._swinging(one[1], letters)):
+        if (
+            (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0])))
+            and not self.vibration.alone
+            and (alone := self._swinging(one[1], letters))
+        ):
             return alone.check(*how)
         try:
             return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)

@@ -293,13 +293,16 @@ class FittedEdits:
             alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
             alike += [Add((a, c)) for a, b in combinations(lengths[:_MOST_LENGTHS], 2) for c in (Negative(b), b)]
-            own = [n for n in bases if n in said]
+            own = [n for n in (*bases, Sym("t")) if n in said]
             moving = [n for n in said if n in known.others]
-            if not any(isinstance(unsigned(side), Sym) for side in (equation.left, equation.right)):  # no answer
+            answers = [side for side in map(unsigned, (equation.left, equation.right)) if isinstance(side, Sym)]
+            if all(map(known.is_load, answers)):  # no answer, or that of a force
                 moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
             fixed = lambda n: n.symbols <= {*known.parameters}
             calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
+            brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
+            every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
             shapes = (shape for shape in every if not any(map(self._is_number, shape)))
             self._terms[equation] = Monomials(
                 self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *alike, *bases)), shapes, self.blur

@@ -108,7 +108,9 @@ class Likelihood:
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
-                return self._of_symbols(new)
+                return self._of_symbols(new) + _ODD * all(
+                    isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right)
+                )
             case "missing term" | "other term", _, new:
                 undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
                 odd = _BOUND * self._at_instant + _ODD * undoes
@@ -197,8 +199,11 @@ class Likelihood:
 
     def _of_term(self, kind: str, term: Node) -> float:
         strange = len([*self._strange(term, kind == "missing term")])
-        again = kind == "missing term" and self._is_there(term)
+        again = kind == "missing term" and (
+            self._is_there(term) or any(term in n.terms for n in self._parts if isinstance(n, Add))
+        )
         size = _NEW * strange + _ODD * again + self._mixture(term)
+        size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.letters for n in term.symbols - self._said)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)
 

@@ -87,7 +87,9 @@ class Vocabulary:
         sums = [Add((Num(1.0, "1"), share)) for n in shares for share in (n, Negative(n))]
         sums += [Add((Num(1.0, "1"), sign(Fn("cos", (angle,))))) for angle in self.angles for sign in (lambda n: n, Negative)]
         speeds = [n for n in self.letters if n in self.others and self.is_rate(n) and self.dimension(n) == _SPEED][:_MOST_SPEEDS]
-        sums += [Quotient(*pair) for pair in permutations(sorted(speeds, key=lambda n: n.name), 2)]  # of what rubs along its velocity
+        sums += [
+            Quotient(*pair) for pair in permutations(sorted(speeds, key=lambda n: n.name), 2)
+        ]  # of what rubs along its velocity
         return [*apart, *squares, *(_square(Add((a, Negative(b)))) for a, b in rates), *(Mul(pair) for pair in rates), *sums]
 
     # -- terms
