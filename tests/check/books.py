@@ -37,7 +37,7 @@ _CONSTANT = re.compile(r"(?:.*:)?\s*constant:(.+)", re.S)
 _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
 _TENDS = re.compile(r"→|->")
-_OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?![A-Za-z0-9_₀-₉])")
+_OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_₀-₉])")
 _NUMBERED = re.compile(r"\bomega_\d\b")
 """One of several natural frequencies, as a correction writes it."""
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)

@@ -203,7 +203,7 @@ class Likelihood:
             self._is_there(term) or any(term in n.terms for n in self._parts if isinstance(n, Add))
         )
         size = _NEW * strange + _ODD * again + self._mixture(term)
-        size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.letters for n in term.symbols - self._said)
+        size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self._said)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)
 
@@ -230,7 +230,7 @@ class Likelihood:
         if self._is_part_of_mass(term) or self._is_of_another(term):
             yield term
         rates = [n for n in term.symbols if known.is_rate(n)]
-        if missing and len(rates) > 1 and new and not all(Sym(n.name) in known.coordinates for n in rates):
+        if missing and not self._has_mass_times_acceleration and len(rates) > 1 and new and not all(Sym(n.name) in known.coordinates for n in rates):
             yield from [term] * 4  # energies have products of the rates of coordinates alone
 
     def _is_of_another(self, term: Node) -> bool:
@@ -258,6 +258,13 @@ class Likelihood:
     @cached_property
     def _loads(self) -> list[Sym]:
         return [n for n in self.vocabulary.parameters if self.vocabulary.dimension(n) in (FORCE, ENERGY)]
+
+    @cached_property
+    def _has_mass_times_acceleration(self) -> bool:
+        """Whether it is one of forces or moments, as its dimension and what it speaks of say."""
+        its = (dimension(term, self.vocabulary.dimensions) for term in self._expanded)
+        loads = any(self.vocabulary.is_load(n) for n in self._said if n not in self.vocabulary.parameters)
+        return loads and any(each is not None and each.mass for each in its)
 
     @cached_property
     def _has_load(self) -> bool:

@@ -133,10 +133,11 @@ def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
     """That with the smallest correction, first of stretches on which all letters of the statement take part, and nothing is taken from it:
     what it is of may not be there."""
 
-    def order(one: Verdict) -> tuple[bool, bool, float]:
-        idle = one.evidence is not None and 0.0 in one.evidence.letters.values()
-        gone = not one.mends or any(kind == "extra term" for kind, *_ in one.mends[0].edits)
-        return idle, gone, one.mends[0].size if one.mends else np.inf
+    def order(one: Verdict) -> tuple[bool, bool, bool, float]:
+        if not one.mends:
+            return True, True, True, np.inf
+        idle = one.evidence is not None and any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
+        return False, idle, any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
 
     return min(verdicts, key=order)
 
