@@ -199,14 +199,14 @@ class MotionSampler(AskedModel):
         place = self.first.q + reach * move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
-        given = self._adjustable(values, family)
-        return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, given))
+        free = self._adjustable(family)
+        return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, values, free))
 
-    def _adjustable(self, values: Mapping[str, float], family: Family) -> Mapping[str, float]:
+    def _adjustable(self, family: Family) -> list[str]:
         """The parameters of which one may have another value so that something vanishes: none with which loops close."""
         if family.held or family.numbers or not family.vanishing:
-            return {}
-        return {name: value for name, value in values.items() if not (self.loops and name in self._closing)}
+            return []
+        return [name for name in self.free_parameters if not (self.loops and name in self._closing)]
 
     @cached_property
     def _closing(self) -> set[str]:
@@ -237,7 +237,7 @@ class MotionSampler(AskedModel):
             return None, start
         rates = self._rates(rng, family)
         state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
-        return self._judging(arranged(self, conditions, state, rates, family, values)), start
+        return self._judging(arranged(self, conditions, state, rates, family, values, values)), start
 
     def _judging(self, state: State) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""
@@ -282,8 +282,8 @@ class MotionSampler(AskedModel):
                 rates = {name: there[name] for name in rates}
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state = self.moved(own, q, rates, p=self.core.bind(values))
-            given = self._adjustable(values, family)
-            state = arranged(self, self._conditions(rng, family), state, rates, family, given)
+            free = self._adjustable(family)
+            state = arranged(self, self._conditions(rng, family), state, rates, family, values, free)
         if "before" in self.moment:
             return self._sampled(state)
         motion = self.run(state, max(late, 1e-6 / self.rate))
