@@ -230,7 +230,13 @@ class Likelihood:
         if self._is_part_of_mass(term) or self._is_of_another(term):
             yield term
         rates = [n for n in term.symbols if known.is_rate(n)]
-        if missing and not self._has_mass_times_acceleration and len(rates) > 1 and new and not all(Sym(n.name) in known.coordinates for n in rates):
+        if (
+            missing
+            and not self._has_mass_times_acceleration
+            and len(rates) > 1
+            and new
+            and not all(Sym(n.name) in known.coordinates for n in rates)
+        ):
             yield from [term] * 4  # energies have products of the rates of coordinates alone
 
     def _is_of_another(self, term: Node) -> bool:
