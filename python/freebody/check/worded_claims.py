@@ -118,15 +118,20 @@ def in_phase(
             continue
         if one.ok:
             one = replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
-            if not one.untested:
+            if not (one.untested and _is_idle(one)):
                 return one
         found.append(one)
     if not found:
         raise problem
-    found = [one for one in found if not one.untested] or found  # what is 0 there is spoken of elsewhere
+    found = [one for one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
     nearest = next((one for one in found if one.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None) or _least_wrong(found)
     how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
     return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
+
+
+def _is_idle(one: Verdict) -> bool:
+    """Whether a letter of a statement is 0 where it was judged: then it may not be meant of that stretch."""
+    return one.evidence is not None and any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
 
 
 def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
@@ -136,8 +141,7 @@ def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
     def order(one: Verdict) -> tuple[bool, bool, bool, float]:
         if not one.mends:
             return True, True, True, np.inf
-        idle = one.evidence is not None and any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
-        return False, idle, any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
+        return False, _is_idle(one), any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
 
     return min(verdicts, key=order)
 
