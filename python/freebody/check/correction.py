@@ -31,6 +31,7 @@ from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
 from .marks import Marks
 from .momentum_edits import momentum_edits
+from .powers import powers_of
 from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
 from .senses import one_sense
 from .slips import is_constraint, why
@@ -360,10 +361,10 @@ class _Search:
         return False
 
     def _is_elsewhere(self, edit: Edit) -> bool:
-        """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round; or what
-        accelerates is added, which says no less."""
+        """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round; or twice
+        what accelerates is added, which stands for that."""
         if edit.kind == "missing term" and edit.new is not None:
-            return self._accelerates(edit.new) and self._accelerates(self.equation)
+            return abs(powers_of(edit.new)[0]) == 2 and self._accelerates(edit.new) and self._accelerates(self.equation)
         if edit.old is None or not self._accelerates(self.equation):
             return False
         of_motion, has_number = self._accelerates(edit.old), any(isinstance(n, Num) for n in walk(edit.old))

@@ -296,7 +296,7 @@ class FittedEdits:
             own = [n for n in (*bases, Sym("t")) if n in said]
             moving = [n for n in said if n in known.others]
             answers = [side for side in map(unsigned, (equation.left, equation.right)) if isinstance(side, Sym)]
-            if all(map(known.is_load, answers)):  # no answer, or that of a force
+            if all(known.dimension(n) == FORCE for n in answers):  # no answer, or that of a force
                 moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
             fixed = lambda n: n.symbols <= {*known.parameters}
             calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
