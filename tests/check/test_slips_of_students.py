@@ -378,12 +378,6 @@ SLIPS = {
         "while it falls: T r − μ ρ (M g + T) = I φ''",
         "left out",
     ),
-    "an inertia times a bracket": (
-        "flywheel_bearing_test",
-        "φ'' = g [m (r − μ ρ) − M μ ρ]/I",
-        "φ'' = g [m (r − μ ρ) − M μ ρ]/[I + m r (r − μ ρ)]",
-        "a part of the inertia",
-    ),
     "energy of what turns, beside work": (
         "flywheel_bearing_test",
         "while it falls: m g y = ½ m v² + μ ρ (M g + T) y/r",

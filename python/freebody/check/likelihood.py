@@ -269,8 +269,8 @@ class Likelihood:
     def _has_mass_times_acceleration(self) -> bool:
         """Whether it is one of forces or moments, as its dimension and what it speaks of say."""
         its = (dimension(term, self.vocabulary.dimensions) for term in self._expanded)
-        loads = any(self.vocabulary.is_load(n) for n in self._said if n not in self.vocabulary.parameters)
-        return loads and any(each is not None and each.mass for each in its)
+        of_balance = self._said - {*self.vocabulary.parameters} - self.vocabulary.energies
+        return any(map(self.vocabulary.is_load, of_balance)) and any(each is not None and each.mass for each in its)
 
     @cached_property
     def _has_load(self) -> bool:
