@@ -37,7 +37,7 @@ _CONSTANT = re.compile(r"(?:.*:)?\s*constant:(.+)", re.S)
 _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
 _TENDS = re.compile(r"→|->")
-_OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?![A-Za-z0-9_₀-₉])")
+_OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_₀-₉])")
 _NUMBERED = re.compile(r"\bomega_\d\b")
 """One of several natural frequencies, as a correction writes it."""
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
@@ -50,8 +50,6 @@ def _files(half: str) -> dict[str, Path]:
 FILES, UNSEEN = _files("books"), _files("books_unseen")
 
 NOT_FOUND = {
-    ("radar_tracks_rocket", "transverse"): "true only if v > 0: a drag of c v² resists what rises",
-    ("radar_tracks_rocket", "power"): "the same",
     ("trolley_hits_stop", "moments about the pin"): "says behind the equation that its rates are those after the impact",
     ("wheel_up_a_kerb", "least speed"): "is of the motion that just gets up, of which the start would have to be found",
     ("roller_off_a_drum", "slips off"): "says where something else is so",

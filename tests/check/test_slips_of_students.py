@@ -354,6 +354,76 @@ SLIPS = {
         "J θ'' = −K θ − ½ m g L cos θ − N L",
         "sense",
     ),
+    "a first speed": (
+        "band_brake_on_winch",
+        "½ (J + m R²) θ'² = m g R θ − (T_1 − T_2) r θ",
+        "½ (J + m R²)(θ'² − ω0²) = m g R θ − (T_1 − T_2) r θ",
+        "left out",
+    ),
+    "2 below a root that has no value everywhere": (
+        "pulley_on_slack_rope",
+        "released from rest: v = √(g (y_0 − y))",
+        "released from rest: v = √(2 g (y_0 − y))",
+        "a number",
+    ),
+    "the impulse of a weight": (
+        "standing_jump",
+        "until the legs are straight: m2 z' = F t",
+        "until the legs are straight: m2 z' = (F − m2 g) t",
+        "a weight",
+    ),
+    "on the first stretch": (
+        "flywheel_bearing_test",
+        "while it falls: T r − μ ρ M g = I φ''",
+        "while it falls: T r − μ ρ (M g + T) = I φ''",
+        "left out",
+    ),
+    "energy of what turns, beside work": (
+        "flywheel_bearing_test",
+        "while it falls: m g y = ½ m v² + μ ρ (M g + T) y/r",
+        "while it falls: m g y = ½ (m + I/r²) v² + μ ρ (M g + T) y/r",
+        "left out",
+    ),
+    "one acceleration for an angular one": ("snatch_block_winch", "T − S r = J x''", "T − S r = J φ''", ""),
+    "centripetal beside what is drawn evenly": ("skater_draws_in_arms", "−F = m r''", "−F = m (r'' − r θ'²)", "centripetal"),
+    "where a spring is slack": (
+        "mangonel",
+        "κ θ − (½ M + m) g L cos θ = (⅓ M + m) L² θ''",
+        "κ (γ − θ) − (½ M + m) g L cos θ = (⅓ M + m) L² θ''",
+        "another quantity",
+    ),
+    "friction along a velocity": (
+        "rear_wheels_lock",
+        "m (v' + a θ'²) = −μ N",
+        "m (v' + a θ'²) = −μ N v/V",
+        "a factor is forgotten",
+    ),
+    "sine and cosine of two terms": (
+        "watt_sun_planet",
+        "I θ'' = X c sin θ − Y c cos θ + ½ m_1 g c sin θ",
+        "I θ'' = X c cos θ − Y c sin θ + ½ m_1 g c sin θ",
+        "throughout",
+    ),
+    "the product of two rates": ("chaplygin_sleigh", "N = m c θ''", "N = m (u θ' + c θ'')", "left out"),
+    "the sign of one of two that turn alike": (
+        "cycloid_reducer",
+        "T − F R + k ψ' = (I + m e²) θ'' + J_d φ'' − J_2 ψ''",
+        "T − F R + k ψ' = (I + m e²) θ'' − J_d φ'' − J_2 ψ''",
+        "the other sense",
+    ),
+    "where it jams": ("drawer_off_centre", "if a = 0: e = d/μ", "if a = 0: e = d/(2 μ)", ""),
+    "a plain pendulum for a compound one": (
+        "con_rod_timed",
+        "for small θ_2: ω_n² = g/(L − c)",
+        "for small θ_2: ω_n² = m g (L − c)/(I + m (L − c)²)",
+        "left out",
+    ),
+    "a spring between two masses": (
+        "dropped_package",
+        "during the fall: ω = √(k/m)",
+        "during the fall: ω = √(k (m + M)/(m M))",
+        "left out",
+    ),
 }
 
 

@@ -11,6 +11,8 @@ from functools import cached_property
 from time import thread_time
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
@@ -19,7 +21,7 @@ from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
-from .assumptions import free_parameter
+from .assumptions import family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
@@ -49,6 +51,10 @@ _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?)
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
+_ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
+_SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
+_SMALL_ONE = re.compile(r"small\s+([^\s:,=]+)\s*:(?=.*(?:ω|omega|τ|tau|\b[Tf]\b|\b[Tf]_))", re.S)
+"""``small θ_1: T_1 = …``."""
 Declared = Mapping[str, str | Sequence[str | float]]
 """Own symbols, each an expression of the model language, components of a vector or a phrase; see ``Symbols``."""
 
@@ -110,6 +116,12 @@ class Checker:
         Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
         how = (text, letters, hypothesis, correcting)
+        if (
+            (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0])))
+            and not self.vibration.alone
+            and (alone := self._swinging(one[1], letters))
+        ):
+            return alone.check(*how)
         try:
             return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)
         except StatementError as error:
@@ -117,6 +129,21 @@ class Checker:
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
                 return found
             raise
+
+    def _keeps(self, senses: str, letters: Declared | None) -> bool:
+        """Whether rates have such senses on the model's own motion, as what rises has on its way."""
+        run = self.own_motion
+        rates = [run.evaluate(text, run.t) for text in family(senses, self, letters or {}).above]
+        return all(rate.any() and np.all(rate >= -_ROUND_OFF * np.abs(rate).max()) for rate in rates)
+
+    def _swinging(self, coordinate: str, letters: Declared | None) -> Checker | None:
+        """The same of the vibration of one of several coordinates, which swings for itself; None where it does not."""
+        meaning = self.symbols(letters).spelt(coordinate)
+        if meaning is None or meaning.kind != "coordinate" or len(self.sampler.names) < 2:
+            return None
+        other = copy(self)
+        other.vibration = Vibration(self.sampler, meaning.texts[0])
+        return other if other.vibration.count else None
 
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
@@ -163,6 +190,8 @@ class Checker:
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
+            if verdict.kind is Kind.TRUE_IF and _SENSES.fullmatch(words := verdict.assumption) and self._keeps(words, letters):
+                verdict = replace(verdict, kind=Kind.TRUE, reason=f"holds where {words}, as in the whole motion of the model")
             label, colon, _ = plain.partition(":")
             if colon and len(verdict.mends) > 1:
                 verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)

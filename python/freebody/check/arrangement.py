@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -31,25 +31,30 @@ def arranged(
     state: State,
     rates: Mapping[str, float],
     family: Family,
-    values: Mapping[str, float] = {},
+    values: Mapping[str, float],
+    adjustable: Collection[str],
 ) -> State:
     """The nearest state at which ``conditions`` are 0, with rates other than those given unless it is at rest; where it cannot be so, with
-    another of the ``values`` of parameters. Raises ``NoMotion`` and ``MotionError``."""
+    another of the ``values`` of those parameters that are ``adjustable``. Raises ``NoMotion`` and ``MotionError``."""
     kept: list[str] = []
     for text in conditions:
         if not model.vanishes(text, state):
             try:
                 state = _vanished(model, text, state, [] if family.at_rest else list(rates), kept)
-            except (NoMotion, MotionError):
-                if (found := _fitted(model, text, state, values)) is None:
+            except (NoMotion, MotionError) as error:
+                if model.loops and isinstance(error, MotionError):
+                    raise  # another place may do
+                if (found := _fitted(model, text, state, values, adjustable)) is None:
                     raise
                 state = found
         kept += [text] if text in family.vanishing else []  # what is small need not stay just so
     return state
 
 
-def _fitted(model: MotionSampler, text: str, state: State, values: Mapping[str, float]) -> State | None:
-    """The same state with another value of one parameter, of its sign, at which an expression is 0; first that which matters most."""
+def _fitted(
+    model: MotionSampler, text: str, state: State, values: Mapping[str, float], adjustable: Collection[str]
+) -> State | None:
+    """The same state with another value of one ``adjustable`` parameter, of its sign, at which an expression is 0; first that which matters most."""
     size = model.size_of(text, state)
 
     def at(name: str, x: float) -> tuple[State, float]:
@@ -60,7 +65,7 @@ def _fitted(model: MotionSampler, text: str, state: State, values: Mapping[str, 
         return (at(name, x * (1 + _STEP))[1] - at(name, x * (1 - _STEP))[1]) / (2 * _STEP * x)
 
     for name in sorted(
-        (name for name in values if values[name]), key=lambda name: -abs(slope(name, values[name]) * values[name])
+        (name for name in adjustable if values[name]), key=lambda name: -abs(slope(name, values[name]) * values[name])
     ):
         x = values[name]
         for _ in range(_NEWTON):

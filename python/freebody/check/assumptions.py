@@ -24,7 +24,7 @@ from .case import Case
 from .families import Family, NoMotion
 from .figures import figures, rounding
 from .language.statements import Equation, symbols_in, terms
-from .residual import HOLDS, OFTEN, REACH, SLIGHT, residual, unreached
+from .residual import HOLDS, OFTEN, REACH, SLIGHT, magnitude, residual, unreached
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -52,6 +52,7 @@ _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
+FROM_REST = f"{FROM_START} at rest"
 OWN_NUMBERS = "these numbers of the model"
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
@@ -66,6 +67,7 @@ _PART = 0.85  # of the budget, so that there is time for the balance that comes 
 _AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
 _TINY = 1e-7  # rad, or so much of a typical length, at which what is left of a true linear equation is little beside its terms, and round-off, too
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
+_NOTHING = 1e-9  # of its parts, below which a term is 0
 _HELD = 1e-9  # of the rates that can be given at will, below which a coordinate has none
 _SLOPE = 0.1  # by which a thousandfold step towards a limit has to shrink the residual at least
 
@@ -82,9 +84,12 @@ def assumption(case: Case, equation: Equation) -> tuple[str, ...]:
     return (words,) if words else ()
 
 
-def leaves_out(words: str, mended: bool, lacks: bool) -> bool:
-    """Whether an assumption takes motion, gravity or a part of the model away, so that it excuses nothing: a term was left out. Where
-    one edit has ``mended`` an equation, a limit and the start excuse nothing, either; nor small angles what ``lacks`` a term."""
+def leaves_out(words: str, mended: bool, lacks: bool, starts_at_rest: bool) -> bool:
+    """Whether an assumption takes motion, also that of the start, gravity or a part of the model away, so that it excuses nothing: a term
+    was left out. Where one edit has ``mended`` an equation, a limit and the start excuse nothing, either; nor small angles what
+    ``lacks`` a term."""
+    if words == FROM_REST and not starts_at_rest:
+        return True
     taken = words.startswith(("at rest", "without gravity")) or re.fullmatch(r"\S+ = 0( \(no friction\))?", words) is not None
     return taken or (mended and ("→" in words or words == "at the start")) or (lacks and words.startswith("small"))
 
@@ -185,6 +190,10 @@ def of_family(case: Case, equation: Equation, family: Family, count: int = _STAT
         found = residual(equation, values)
     except (NoMotion, StatementError, ModelError, MotionError):
         return False
+    if family.at_start and not any(
+        np.abs(sampled(term, values)).max() > _NOTHING * magnitude(term, values).max() for term in terms(equation)
+    ):
+        return False  # what has changed since the start is 0 there
     as_printed = family.numbers and bool(figures(equation))
     near = np.all(np.abs(found.sides.residual) <= rounding(equation, values)) if as_printed else found.holds_but_for_few
     often, reach = (_SOME, SLIGHT) if family.since else (OFTEN, REACH)
@@ -216,7 +225,7 @@ def _assumptions(case: Case) -> Iterator[list[tuple[str, Family]]]:
     yield [("at the start, with these numbers of the model", replace(own, at_start=True))]
     if not (given.at_rest or given.at_start or given.small):
         yield [(FROM_START, replace(given, since="start"))]
-        yield [("motions from the start of this model at rest", replace(given, since="rest"))]
+        yield [(FROM_REST, replace(given, since="rest"))]
 
 
 def mattering(case: Case) -> list[str]:
@@ -245,7 +254,7 @@ def _limits(case: Case) -> Iterator[tuple[str, int]]:
         if not given.since and free[name] != 0 and name not in dict(given.held):
             its = _of(case, name)
             yield from ((name, 1),) if its != INERTIA and not (its == LENGTH and turns) else ()
-            yield from ((name, -1),) if not _is_size(case, name) else ()
+            yield from ((name, -1),) if not _is_size(case, name) and name not in case.sampler.frictions else ()
 
 
 def _limit(case: Case, equation: Equation) -> str:

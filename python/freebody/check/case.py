@@ -91,6 +91,12 @@ class StatementSymbols:
         other.figures = True
         return other
 
+    def of_start(self) -> StatementSymbols:
+        """The same of motions from the start, of which its numbers may be spoken, too."""
+        other = StatementSymbols(self.symbols, self.program, self.sampler, of_instant=True)
+        other.figures = self.figures
+        return other
+
     def solved(self, symbol: Sym) -> bool:
         """Whether it is what the equations of an instant are solved for: an acceleration or an unknown force."""
         one = self.symbols.meanings.get(symbol.name)

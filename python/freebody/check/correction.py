@@ -31,6 +31,7 @@ from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
 from .marks import Marks
 from .momentum_edits import momentum_edits
+from .powers import powers_of
 from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
 from .senses import one_sense
 from .slips import is_constraint, why
@@ -162,7 +163,7 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
     ((given, words), *_) = families
     if given.since or given.at_rest or given.at_start or given.small or given.scaled:
         return []
-    since = replace(given, since="start")
+    since, case = replace(given, since="start"), replace(case, meaning=case.meaning.of_start(), known={})
     return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.together), part))
 
 
@@ -236,19 +237,23 @@ class _Search:
 
     def pairs(self) -> Iterator[_Found]:
         """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
-        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
         every = list(self.within(chain(*(of(self.equation, self.vocabulary) for of in (edits, forgotten_factors)))))
+        yield from self._both([edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN])
+        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
         near = self._nearest(every, _BEST)
-        plain = [edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN]
-        for first, second in chain(combinations(near, 2), combinations(plain, 2)):
+        yield from self._both(near)
+        for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
+            found = self._promising(self._fitted(first.after))
+            yield from (_Found((first, edit)) for edit in found if (first.kind, edit.kind) not in _REPLACED)
+
+    def _both(self, found: Sequence[Edit]) -> Iterator[_Found]:
+        """Two edits of other places."""
+        for first, second in combinations(found, 2):
             replaced = (first.kind, second.kind) in _REPLACED
             if second.old is not None and (second.new is not None or second.kind == "extra term") and not replaced:
                 both = exchange(first.after, second.old, second.new or Num(0.0, "0"))
                 made = [replace(second, after=both)] if both is not first.after else []
                 yield from (_Found((first, edit)) for edit in self._promising(made))
-        for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
-            found = self._promising(self._fitted(first.after))
-            yield from (_Found((first, edit)) for edit in found if (first.kind, edit.kind) not in _REPLACED)
 
     def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
         """The edits after which the least is left."""
@@ -334,7 +339,7 @@ class _Search:
             return ()
         return (first.kind, id(first.old))
 
-    def _oddness(self, found: _Found) -> tuple[bool, int, float]:
+    def _oddness(self, found: _Found) -> tuple[bool, int, int, float]:
         """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
         nothing was said, long, and large."""
         sides = [unsigned(side) for side in (self.equation.left, self.equation.right)]
@@ -343,7 +348,7 @@ class _Search:
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
         solved = any(edit.old in alone and edit.old is not None for edit in found.edits) or self._is_no_answer(found.after)
-        return solved or any(map(self._is_elsewhere, found.edits)), len(new & {n.name for n in strange}), length
+        return solved or any(map(self._is_elsewhere, found.edits)), len(new & {n.name for n in strange}), len(new), length
 
     def _is_no_answer(self, after: Equation) -> bool:
         """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""
@@ -356,7 +361,10 @@ class _Search:
         return False
 
     def _is_elsewhere(self, edit: Edit) -> bool:
-        """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round."""
+        """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round; or twice
+        what accelerates is added, which stands for that."""
+        if edit.kind == "missing term" and edit.new is not None:
+            return abs(powers_of(edit.new)[0]) == 2 and self._accelerates(edit.new) and self._accelerates(self.equation)
         if edit.old is None or not self._accelerates(self.equation):
             return False
         of_motion, has_number = self._accelerates(edit.old), any(isinstance(n, Num) for n in walk(edit.old))

@@ -68,7 +68,10 @@ class DerivativeEdits:
     def _of_products(self) -> Iterator[Edit]:
         """Terms of which a derivative is a factor, as that of a product of which only one factor was differentiated; and half of what is
         lacking then, as Lagrange's equation of an inertia that changes has it."""
+        differentiated = [node for node, _ in self._differentiated]
         for side in (self.equation.left, self.equation.right):
+            if any(part is node for part in walk(side) for node in differentiated):
+                continue  # there all of it was
             parts = side.terms if isinstance(side, Add) else (side,)
             lost = list(chain(*map(self._of_other_factors, parts)))
             for term in (*lost, *([Add(tuple(lost))] if len(lost) > 1 else []), *(Quotient(term, _TWO) for term in lost)):
@@ -84,8 +87,10 @@ class DerivativeEdits:
                     yield from (written(sign * number, powers) for sign, each in lost for number, powers in [powers_of(each)])
 
     def is_within(self, edit: Edit) -> bool:
-        """Whether an edit is of a part that came from differentiating."""
+        """Whether an edit is of a part that came from differentiating, or an acceleration beside what is differentiated."""
         own = edit.old if edit.shown is None else None
+        if edit.kind == "missing term" and edit.shown is None and edit.new is not None and self._differentiated:
+            return any(n.dots == 2 for n in edit.new.symbols)
         return any(part is own for node, _ in self._differentiated for part in walk(node))
 
     @cached_property

@@ -52,6 +52,8 @@ _HALF = 0.05
 """By how much it is less likely that a mass is half of what it is than that it is there twice."""
 _ELSEWHERE = 0.4
 """By how much an angle is less likely to be measured from a body of which nothing was said."""
+_MOST_CALLS = 6
+"""Sines and cosines of an angle, of which two are exchanged."""
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 """Whole numbers that are mistaken for each other."""
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
@@ -313,13 +315,17 @@ def _products(equation: Equation) -> Iterator[Edit]:
 
 
 def _functions(equation: Equation) -> Iterator[Edit]:
-    """Sine and cosine of an angle exchanged wherever they stand, where they do more than once."""
+    """Sine and cosine of an angle exchanged wherever they stand, where they do more than once, or those of two terms."""
     calls = [n for n in walk(equation) if isinstance(n, Fn) and n.name in _OTHER]
     for angle in dict.fromkeys(n.args for n in calls):
         found = [n for n in calls if n.args == angle]
         if len(found) > 1:
             changes = {n: Fn(_OTHER[n.name], angle) for n in found}
             yield _everywhere(equation, changes, f"`sin` and `cos` of `{spell(angle[0])}` exchanged")
+        for one, two in combinations(found, 2) if 2 < len(found) <= _MOST_CALLS else ():
+            if one.name != two.name:
+                after = exchange(exchange(equation, one, changes[one]), two, changes[two])
+                yield Edit("convention", None, None, after, words=f"`{spell(one)}` and `{spell(two)}` exchanged")
 
 
 def _powers(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:

@@ -113,7 +113,8 @@ class FittedEdits:
         match node:
             case Sym() | Fn() if required.value.ndim == needed.ndim == 1:
                 turns = dimension(node, self.vocabulary.dimensions) == INERTIA  # one about another point
-                yield from ((Sym(n.name, n.dots, span=span), 0.0 if turns else 0.3) for n in alike(rows) if n != node)
+                size = lambda n: 0.0 if turns else 0.1 if _is_linear_for_angular(node, n) else 0.3
+                yield from ((Sym(n.name, n.dots, span=span), size(n)) for n in alike(rows) if n != node)
             case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == needed.ndim == 1:
                 yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in alike(rows**2) if n != base)
         yield from self._of_sums_of_two.edits(required)
@@ -287,18 +288,21 @@ class FittedEdits:
         if equation not in self._terms:
             known, said = self.vocabulary, symbols_in(equation)
             sizes = known.sizes
-            sums = [n for n in walk(equation) if isinstance(n, Add) and {unsigned(term) for term in n.terms} <= {*sizes}]
+            sums = [n for n in walk(equation) if isinstance(n, Add) and n.symbols <= {*sizes, *known.parameters}]
             lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
             alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
             alike += [Add((a, c)) for a, b in combinations(lengths[:_MOST_LENGTHS], 2) for c in (Negative(b), b)]
-            own = [n for n in bases if n in said]
+            own = [n for n in (*bases, Sym("t")) if n in said]
             moving = [n for n in said if n in known.others]
-            if not any(isinstance(unsigned(side), Sym) for side in (equation.left, equation.right)):  # no answer
+            answers = [side for side in map(unsigned, (equation.left, equation.right)) if isinstance(side, Sym)]
+            if all(known.dimension(n) == FORCE for n in answers):  # no answer, or that of a force
                 moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
             fixed = lambda n: n.symbols <= {*known.parameters}
             calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
+            brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
+            every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
             shapes = (shape for shape in every if not any(map(self._is_number, shape)))
             self._terms[equation] = Monomials(
                 self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *alike, *bases)), shapes, self.blur
@@ -408,6 +412,11 @@ class FittedEdits:
         for i in range(max(map(len, parts), default=0)):
             rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
         return rows
+
+
+def _is_linear_for_angular(old: Node, new: Sym) -> bool:
+    """Whether one rate or acceleration stands for another of quite another kind: I x'' for I θ''."""
+    return isinstance(old, Sym) and old.dots == new.dots > 0
 
 
 def _linear(term: Node) -> Node:

@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, TIME
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, addends, is_zero, unsigned, walk
@@ -108,7 +108,9 @@ class Likelihood:
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
-                return self._of_symbols(new)
+                return self._of_symbols(new) + _ODD * all(
+                    isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right)
+                )
             case "missing term" | "other term", _, new:
                 undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
                 odd = _BOUND * self._at_instant + _ODD * undoes
@@ -141,7 +143,7 @@ class Likelihood:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
         other = next((side for side in self._sides if side is not unsigned(term)), None)
         alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
-        solved = alone or (isinstance(term, Sym) and term in self._sides)
+        solved = alone or (isinstance(unsigned(term), Sym) and unsigned(term) in self._sides)
         inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
         its = dimension(term, self.vocabulary.dimensions)
         inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
@@ -197,8 +199,11 @@ class Likelihood:
 
     def _of_term(self, kind: str, term: Node) -> float:
         strange = len([*self._strange(term, kind == "missing term")])
-        again = kind == "missing term" and self._is_there(term)
+        again = kind == "missing term" and (
+            self._is_there(term) or any(term in n.terms for n in self._parts if isinstance(n, Add))
+        )
         size = _NEW * strange + _ODD * again + self._mixture(term)
+        size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self._said)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)
 
@@ -225,7 +230,13 @@ class Likelihood:
         if self._is_part_of_mass(term) or self._is_of_another(term):
             yield term
         rates = [n for n in term.symbols if known.is_rate(n)]
-        if missing and len(rates) > 1 and new and not all(Sym(n.name) in known.coordinates for n in rates):
+        if (
+            missing
+            and not self._has_mass_times_acceleration
+            and len(rates) > 1
+            and new
+            and not all(Sym(n.name) in known.coordinates for n in rates)
+        ):
             yield from [term] * 4  # energies have products of the rates of coordinates alone
 
     def _is_of_another(self, term: Node) -> bool:
@@ -253,6 +264,13 @@ class Likelihood:
     @cached_property
     def _loads(self) -> list[Sym]:
         return [n for n in self.vocabulary.parameters if self.vocabulary.dimension(n) in (FORCE, ENERGY)]
+
+    @cached_property
+    def _has_mass_times_acceleration(self) -> bool:
+        """Whether it is one of forces or moments, as its dimension and what it speaks of say."""
+        its = (dimension(term, self.vocabulary.dimensions) for term in self._expanded)
+        of_balance = self._said - {*self.vocabulary.parameters} - self.vocabulary.energies
+        return any(map(self.vocabulary.is_load, of_balance)) and any(each is not None and each.mass for each in its)
 
     @cached_property
     def _has_load(self) -> bool:
@@ -289,10 +307,21 @@ class Likelihood:
         said = [n for n in self._said if n not in known.parameters]
         driven = any(known.is_load(n) or (n in known.others and known.dimension(n) is None) for n in said)  # the load of a motor
         if not loads or self._is_balance or driven:
-            return 0.0
+            return _MIXED * (driven and self._has_energy and any(map(self._is_acceleration, loads)))
         if not any(map(known.is_rate, self._said)) or any(n in known.coordinates and not n.dots for n in term.symbols):
             return math.inf if any(n.dots == 2 for n in loads) and any(map(known.is_rate, self._said)) else 0.0
         return _MIXED if all(n in known.letters for n in loads) else math.inf
+
+    def _is_acceleration(self, symbol: Sym) -> bool:
+        return self.vocabulary.dimension(symbol) in (_ACCELERATION, NUMBER_ONLY.times(TIME, -2))
+
+    @cached_property
+    def _has_energy(self) -> bool:
+        """Whether it speaks of kinetic energies, and of no acceleration."""
+        known = self.vocabulary
+        if any(self._is_acceleration(n) for n in self._said if n not in known.parameters):
+            return False
+        return any(abs(number) < 1 and _is_of_motion(powers, known) for number, powers in map(powers_of, self._expanded))
 
     @cached_property
     def _is_balance(self) -> bool:
@@ -327,12 +356,14 @@ class Likelihood:
         return abs(number) == 1 and len(factors) == len(powers) and (alone or len(masses) == len(moves) == len(factors) / 2 == 1)
 
     def _is_centripetal(self, term: Node) -> bool:
-        """Whether the square of a rate stands in it beside the same as the second derivative in the equation."""
+        """Whether the square of a rate stands in it beside the same as the second derivative in the equation, or times a distance beside
+        the second derivative of that."""
         squared = [n.base for n in walk(term) if isinstance(n, Pow) and isinstance(n.base, Sym) and n.base.dots == 1]
         if len(squared) != 1:
             return False
         sizes = {n for n in term.symbols if not n.dots}
-        return any(sizes <= part.symbols for part in self._expanded if Sym(squared[0].name, 2) in part.symbols)
+        partners = ((sizes, Sym(squared[0].name, 2)), *((sizes - {n}, Sym(n.name, 2)) for n in sizes))
+        return any(own <= part.symbols for own, symbol in partners for part in self._expanded if symbol in part.symbols)
 
     @cached_property
     def _expanded(self) -> list[Node]:
@@ -342,6 +373,15 @@ class Likelihood:
         """Whether the equation says what one acceleration is, and nothing of this one."""
         alone = any(isinstance(side, Sym) and side.dots == 2 for side in (self.equation.left, self.equation.right))
         return alone and symbol not in self._said
+
+
+def _is_of_motion(powers: Mapping[Node, int], known: Vocabulary) -> bool:
+    """Whether a product is of a mass or an inertia and the square of a rate, as a kinetic energy is."""
+    masses = any(known.dimension(n) in (MASS, INERTIA) for base in powers for n in base.symbols)
+    return masses and any(
+        power == 2 and isinstance(base, Sym) and known.is_rate(base) and base not in known.parameters
+        for base, power in powers.items()
+    )
 
 
 def _terms_of(side: Node) -> tuple[Node, ...]:

@@ -42,19 +42,20 @@ class Marks:
             (defines or self._at_start) and found and found.worst < HOLDS
         ):  # what a parameter is, or a force at one instant, may be asked
             places, found = self._free, self._residual(equation, self._free)
-        if found is None or not np.isfinite(found.ratio).all() or found.worst < HOLDS:
+        there = np.isfinite(found.ratio).all(axis=1) if found else np.zeros(0, dtype=bool)  # not every root has a value
+        if found is None or not there.any() or np.all(np.abs(found.ratio[there]) < HOLDS):
             return None
         left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
         linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
         solved = next(
-            (each for each in linear if each is not None and np.abs(each).max() > _NOTHING), None
+            (each for each in linear if each is not None and np.abs(each[there]).max() > _NOTHING), None
         )  # m (…) = 0 says m = 0
         if solved is None and left.shape[1] > 1:
             solved = (left / left[np.arange(len(left)), np.abs(left).argmax(axis=1)][:, None]).ravel()
         if solved is None:
-            ratio = found.ratio.ravel()
+            ratio = np.nan_to_num(found.ratio.ravel())
             solved = ratio * np.sign(ratio[np.argmax(np.abs(ratio))])
-        return tuple(np.round(solved, 7).tolist())
+        return tuple(np.round(np.nan_to_num(solved), 7).tolist())
 
     @cached_property
     def _pivots(self) -> list[str]:
@@ -71,4 +72,5 @@ class Marks:
         if base.shape[1] != 1 or once is None or twice is None:
             return None
         slope, bend = once.sides.residual - base, twice.sides.residual - 2 * once.sides.residual + base
-        return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend) < 1e-7 * np.abs(slope)) else None
+        there = np.isfinite(base)
+        return places[key] - (base / slope)[:, 0] if np.all(np.abs(bend[there]) < 1e-7 * np.abs(slope[there])) else None

@@ -46,6 +46,7 @@ _EXACT = 1e-13  # tolerance of runs whose course matters
 _SHARE, _MOST, _FEWER = 0.1, 0.4, 16
 """Of the time for a statement: when fewer samples are enough, and when no more are looked for."""
 _SHORT_LOOP = 4  # coordinates, up to which a loop is taken far
+_OTHER = 1.01  # times a parameter: another value, by which it shows whether loops close with it
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
@@ -198,8 +199,28 @@ class MotionSampler(AskedModel):
         place = self.first.q + reach * move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
-        given = {} if family.held or family.numbers or self.loops else values
-        return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, given))
+        free = self._adjustable(family)
+        return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, values, free))
+
+    def _adjustable(self, family: Family) -> list[str]:
+        """The parameters of which one may have another value so that something vanishes: none with which loops close."""
+        if family.held or family.numbers or not family.vanishing:
+            return []
+        return [name for name in self.free_parameters if not (self.loops and name in self._closing)]
+
+    @cached_property
+    def _closing(self) -> set[str]:
+        """The parameters with which loops close: with another value of one the model cannot stay at its place."""
+        own, values = self.own, self.free_parameters
+
+        def moves(name: str) -> bool:
+            try:
+                there, _ = self.core.assemble(self.core.bind({name: _OTHER * values[name]}), own.t, guess=self._named(own.q))
+            except (MotionError, ModelError):
+                return True
+            return bool(np.abs((there.q - own.q) / self.sizes).max() > NOTHING)
+
+        return {*filter(moves, values)}
 
     def _rolled_on(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> tuple[State | None, State]:
         """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
@@ -216,7 +237,7 @@ class MotionSampler(AskedModel):
             return None, start
         rates = self._rates(rng, family)
         state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
-        return self._judging(arranged(self, conditions, state, rates, family, values)), start
+        return self._judging(arranged(self, conditions, state, rates, family, values, values)), start
 
     def _judging(self, state: State) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""
@@ -261,8 +282,8 @@ class MotionSampler(AskedModel):
                 rates = {name: there[name] for name in rates}
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
             state = self.moved(own, q, rates, p=self.core.bind(values))
-            given = {} if family.held or family.numbers or self.loops else values
-            state = arranged(self, self._conditions(rng, family), state, rates, family, given)
+            free = self._adjustable(family)
+            state = arranged(self, self._conditions(rng, family), state, rates, family, values, free)
         if "before" in self.moment:
             return self._sampled(state)
         motion = self.run(state, max(late, 1e-6 / self.rate))

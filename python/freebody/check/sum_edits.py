@@ -8,7 +8,7 @@ from itertools import permutations
 
 import numpy as np
 
-from freebody.symbolic.dimensions import LENGTH, Dimension
+from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, Dimension
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Sym, unsigned
 
@@ -48,7 +48,7 @@ class SumEdits:
             a, b = pairs[place]
             its, fixed = self.vocabulary.dimension(own), [n in self.vocabulary.parameters for n in (a, unsigned(b))]
             if (own in (a, unsigned(b)) or (its == LENGTH and all(fixed))) and (
-                its == LENGTH or all(fixed) or not any(fixed)
+                its in (LENGTH, NUMBER_ONLY) or all(fixed) or not any(fixed)
             ):  # no g + ÿ
                 found = Add((a, b), span=node.span)
                 size = 0.2 if own in self.vocabulary.parameters else 0.0 if isinstance(node, Mul) else 0.1

@@ -8,10 +8,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import permutations
 from typing import Any
 
+from freebody.core import GROUND
 from freebody.model.names import spell
 
 _LETTER = re.compile(r"[^\W\d_]\w?")
 _COUNTER = ", along k"
+_PARALLEL = ("slider", "parallel", "weld")
+"""Joints whose two bodies do not turn beside each other."""
 ENERGIES = {**dict.fromkeys(("T", "K", "KE"), "kinetic()"), **dict.fromkeys(("V", "U", "PE"), "potential()"), "E": "energy()"}
 """What they mean where no line of the statement makes them something else."""
 _RATES = {"rate": "accel", "omega": "alpha"}
@@ -23,7 +26,7 @@ Points = Mapping[str, tuple[str, str]]
 def usual(spec: Mapping[str, Any], metadata: Mapping[str, Any], declared: Mapping[str, str]) -> dict[str, str]:
     """Letters with what they mean in a model, as a declaration; only those that can mean but one thing. ``declared`` are expressions of
     a person's own symbols: ω is the rate of turning to the α that is one of them."""
-    points, rigid = _points(spec, declared), [body["name"] for body in spec["bodies"] if not body["particle"]]
+    points, rigid = _points(spec, declared), _turning(spec, metadata)
     turns = spell(metadata["coordinates"][0]["name"]) if len(metadata["coordinates"]) == 1 else ""
     found = [*_partners(declared), *_of_points(points, turns), *_of_hinge(spec, rigid)]
     found += [(f"ΣF_{axis}", f"force on all along {axis}") for axis in "xy"]
@@ -45,10 +48,20 @@ def senses(spec: Mapping[str, Any], metadata: Mapping[str, Any], usual: Mapping[
     angles = [c["name"] for c in metadata["coordinates"] if c["dimension"] == "rad"]
     if angles and all(signs.get(name) == -1 for name in angles):
         return {name: said.replace(_COUNTER, ", along -k") for name, said in usual.items() if said.endswith(_COUNTER)}
-    rigid = [body["name"] for body in spec["bodies"] if not body["particle"]]
+    rigid = _turning(spec, metadata)
     if len(rigid) != 1 or angles:
         return {}
     return {symbol: f"-{read}({spell(rigid[0])})" for symbol, read in (("ω", "omega"), ("α", "alpha"))}
+
+
+def _turning(spec: Mapping[str, Any], metadata: Mapping[str, Any]) -> list[str]:
+    """The rigid bodies, without those that joints always keep parallel to the ground."""
+    switched = str(spec["events"])
+    pairs = [{j["first"], j["second"]} for j in metadata["joints"] if j["type"] in _PARALLEL and j["name"] not in switched]
+    still = {GROUND}
+    for _ in pairs:
+        still |= {body for pair in pairs if still & pair for body in pair}
+    return [body["name"] for body in spec["bodies"] if not body["particle"] and body["name"] not in still]
 
 
 def _partners(declared: Mapping[str, str]) -> Iterator[tuple[str, str]]:

@@ -252,7 +252,8 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
         motions = "of this model" if case.hypothesis == ALL else "of which it is said"
         alone = len(blind) == 1  # it says that this is 0, and so it is
         return Verdict(Kind.TRUE, text, f"every term is 0 in every motion {motions}", untested=() if alone else tuple(blind))
-    if residual(equation, case.elsewhere(values)).worst < HOLDS:
+    bound = case.hypothesis.vanishing and {n.key for n in symbols_in(equation)} <= case.meaning.given()  # by what vanishes
+    if not bound and residual(equation, case.elsewhere(values)).worst < HOLDS:
         return Verdict(Kind.TRUE, text, "the two sides are the same by themselves: it says nothing of the motion")
     which = "from the start of this model " if case.hypothesis.since else ""
     share = f"{max(found.worst, 1e-16):.0e} of its terms"
@@ -288,7 +289,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
         return Verdict(Kind.TRUE_IF, text, f"true only for {small}", small, evidence=seen)
     assumed = () if slip else assumption(case, equation)
     words = "; or: ".join(assumed)
-    if assumed and not leaves_out(assumed[0], bool(single), lacks):
+    if assumed and not leaves_out(assumed[0], bool(single), lacks, not case.sampler.own.u.any()):
         return Verdict(Kind.TRUE_IF, text, f"true only if: {words}", assumed[0], fixes, seen)
     if not fixes and (small := tiny(case, equation)):
         given, beside = small

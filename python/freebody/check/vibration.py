@@ -38,6 +38,12 @@ _QUANTITIES = {
         "τ_d": "damped period",
     },
 }
+_WITH_INDEX = {
+    f"{letter}_{i}": what
+    for i in range(1, _MOST + 1)
+    for letter, what in (("ω", "natural frequency"), ("T", "period"), ("τ", "period"), ("f", "frequency"))
+}
+"""What has an index where of several coordinates one swings alone."""
 _STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
 _NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
 _WELDS = 1e3  # of the largest natural frequency: rates at which dampers make motions fade, above which they are as good as rigid
@@ -70,16 +76,18 @@ class OfVibration(Meaning):
 
 
 class Vibration:
-    """That of a sampler's model, about the place of rest next to the start that it swings about."""
+    """That of a sampler's model, about the place of rest next to the start that it swings about; or of that coordinate ``alone`` which
+    swings for itself, whatever the others do."""
 
-    def __init__(self, sampler: MotionSampler) -> None:
-        self.sampler, self.parameters = sampler, tuple(sampler.free_parameters)
+    def __init__(self, sampler: MotionSampler, alone: str = "") -> None:
+        self.sampler, self.parameters, self.alone = sampler, tuple(sampler.free_parameters), alone
         self._known: dict[bytes, dict[str, float]] = {}
 
     def meanings(self, asked: Iterable[str]) -> dict[str, OfVibration]:
         """What those of the ``asked`` names mean that are used for it; nothing where the model has no such vibration."""
         named = {folded(name): name for name in asked}
-        found = {named[folded(name)]: what for name, what in _QUANTITIES.items() if folded(name) in named}
+        known = _QUANTITIES | (_WITH_INDEX if self.alone else {})
+        found = {named[folded(name)]: what for name, what in known.items() if folded(name) in named}
         per_second, second = NUMBER_ONLY.times(TIME, -1), NUMBER_ONLY.times(TIME, 1)
         dimensions: dict[str, Dimension] = {"period": second, "damped period": second, "damping ratio": NUMBER_ONLY}
         return {
@@ -116,9 +124,9 @@ class Vibration:
         """Where that is, in words."""
         core, rest = self.sampler.core, self.rest
         free = state_space(core, rest).free
-        if len(free) > 1:
+        if len(free) > 1 and not self.alone:
             return f"the place of rest at {', '.join(free)} = {', '.join(f'{q + 0.0:g}' for q in self._places(free))} (SI)"
-        (name,) = free
+        name = self.alone or free[0]
         k, is_angle = (
             self.sampler.names.index(name),
             name in {c["name"] for c in self.sampler.coordinates if c["dimension"] == "rad"},
@@ -208,6 +216,8 @@ class Vibration:
 
     def _found(self, row: Array) -> dict[str, float]:
         a = self._linear(row)
+        if a is not None and self.alone:
+            a = self._part(a)
         if a is not None and len(a) > 2:
             return _of_several(_squares(a))
         with np.errstate(all="ignore"):
@@ -217,6 +227,17 @@ class Vibration:
             out = {"natural frequency": natural, "damping ratio": damping, "damped frequency": damped}
             out |= {"frequency": natural / (2 * np.pi), "frequency, damped": damped / (2 * np.pi)}
             return {**out, "period": 2 * np.pi / natural, "damped period": 2 * np.pi / damped}
+
+    def _part(self, a: Array) -> Array | None:
+        """The rows of linear equations that are of one coordinate alone; None where others have to do with it, or it does not swing."""
+        free = state_space(self.sampler.core, self.rest).free
+        if self.alone not in free or len(a) != 2 * len(free):
+            return None
+        own = [free.index(self.alone), free.index(self.alone) + len(free)]
+        part, others = a[np.ix_(own, own)], np.delete(a[own[1]], own)
+        sizes = np.delete(np.tile(self.sampler.sizes[[self.sampler.names.index(name) for name in free]], 2), own)
+        scale = np.abs(part[1]).max() * self.sampler.sizes[self.sampler.names.index(self.alone)]
+        return part if np.all(np.abs(others) * sizes <= _NOTHING * scale) and _swings(part) else None
 
     def _linear(self, row: Array) -> Array | None:
         """The matrix of the linear equations at rest with other parameters."""

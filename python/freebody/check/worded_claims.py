@@ -92,7 +92,10 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     found = in_phase(checker, declared, Phase(False, tuple(happens), False), words, statement, [at_first])
     if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
         raise problem
-    return found
+    if found.ok or at_first.mends or not checker.correcting:
+        return found
+    first = checker.at_first().check(statement, declared)
+    return _least_wrong([replace(first, notes=(*first.notes, found.notes[-1])), found])
 
 
 def in_phase(
@@ -114,15 +117,33 @@ def in_phase(
             problem = error
             continue
         if one.ok:
-            return replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
+            one = replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
+            if not (one.untested and _is_idle(one)):
+                return one
         found.append(one)
     if not found:
         raise problem
-    gone = lambda verdict: any(kind == "extra term" for kind, *_ in verdict.mends[0].edits)  # what it is of may not be there
-    open_ = next((verdict for verdict in found if verdict.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None)
-    nearest = open_ or min(found, key=lambda one: (gone(one), one.mends[0].size) if one.mends else (True, np.inf))
+    found = [one for one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
+    nearest = next((one for one in found if one.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None) or _least_wrong(found)
     how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
-    return replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
+    return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
+
+
+def _is_idle(one: Verdict) -> bool:
+    """Whether a letter of a statement is 0 where it was judged: then it may not be meant of that stretch."""
+    return one.evidence is not None and any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
+
+
+def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
+    """That with the smallest correction, first of stretches on which all letters of the statement take part, and nothing is taken from it:
+    what it is of may not be there."""
+
+    def order(one: Verdict) -> tuple[bool, bool, bool, float]:
+        if not one.mends:
+            return True, True, True, np.inf
+        return False, _is_idle(one), any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
+
+    return min(verdicts, key=order)
 
 
 def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
