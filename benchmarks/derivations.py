@@ -56,7 +56,7 @@ def derivation(mechanism: fb.Mechanism) -> tuple[float, int]:
 def main() -> None:
     """Print the table."""
     derivation(chain(2, closed=False))
-    table = Table("bars", "chain", "time [s]", "allowed [s]", "lines", "lines/bar")
+    table = Table("bars", "chain", "time, s", "allowed, s", "lines", "lines/bar")
     for number in map(int, sys.argv[1:] or SIZES):
         for closed in (False, True):
             seconds, lines = derivation(chain(number, closed=closed))

@@ -23,7 +23,7 @@ BARS = (10, 100, 1000, 10_000)
 WINDOWS = (10, 40, 100, 1000)
 SOLVED = 100
 """Windows up to which a ladder is solved here, too: what its loops determine of the reactions takes dense ranks."""
-STEPS = ("read [s]", "understood [s]", "compiled [s]", "assembled [s]", "solved [s]")
+STEPS = ("read, s", "understood, s", "compiled, s", "assembled, s", "solved, s")
 MOTION = 20.0  # s
 PATIENCE = 5.0  # s, of turns
 TURNS = 5
@@ -100,7 +100,7 @@ def moved(text: str) -> float:
 
 def main() -> None:
     sizes = [int(size) for size in sys.argv[1:]]
-    table = Table("model", "size", *STEPS, "in all [s]", "printed, a body [µs]", "moved [s]")
+    table = Table("model", "size", *STEPS, "in all, s", "printed, a body, µs", "moved, s")
     seconds(repeated(2))  # what is imported on the way
     cases = [("chain, repeated", n, n, repeated(n), True) for n in sizes or BARS]
     cases += [("chain, written out", n, n, written_out(n), True) for n in sizes or BARS]
