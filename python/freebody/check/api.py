@@ -33,7 +33,7 @@ from .language.glyphs import CONDITION
 from .language.statements import Program, symbols_in
 from .laws import without_laws
 from .motion_sampler import MotionSampler
-from .phases import alike, kind_of, phase
+from .phases import NOT_FIRST, alike, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .senses import is_root
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
 
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
+_BLOW = re.compile(r"impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
@@ -217,8 +218,7 @@ class Checker:
 
     def _also_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
         """The verdict about what holds as the model is at first, where some of it is 0: wrong where it does not hold after something switches."""
-        run = self.own_motion
-        for name in dict.fromkeys(f"{c.kind} {part}" for c in run.changes if c.t > run.t[0] for part in c.of):
+        for name in self.switches:
             with suppress(ModelProblem, StatementError):
                 later = self.beside("after", name, {}).check(text, letters)
                 if later.kind is Kind.WRONG:
@@ -263,6 +263,8 @@ class Checker:
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
+        if found := NOT_FIRST.search(said):
+            raise ModelProblem(f"of what happens several times only the first is judged, not the {found[0]}", "write `at 0.3 s: …`, or say when it is")
         words, when = re.findall(r"\w+", said), phase(self, said)
         named = lambda known: [name for name in known if any(name == word or alike(name, word) for word in words)]
         for found in (named(events), when.changes if when else (), named(parts)):
@@ -274,12 +276,18 @@ class Checker:
         times = [event.t for event in run.events]
         later = [change for change in run.changes if change.t > run.t[0] and change.t not in times]
         impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
-        if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):
+        if len(impacts) == 1 and _BLOW.search(said):
             return next(iter(impacts))
         if len(events) == 1 and not later:  # nothing else can be meant
             return next(iter(events))
         what = ", ".join({**events, **parts}) or "nothing does"
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
+
+    @property
+    def switches(self) -> tuple[str, ...]:
+        """What switches on the model's own run after its start, by its kind and part."""
+        run = self.own_motion
+        return tuple(dict.fromkeys(f"{change.kind} {part}" for change in run.changes if change.t > run.t[0] for part in change.of))
 
     @cached_property
     def only_impact(self) -> str | None:
@@ -295,7 +303,7 @@ class Checker:
         there: ``the lowest point``, ``the clutch grips``."""
         said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
         found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or alike(e["name"], word) for word in said)]
-        found = found or (self.sampler.spec["events"] if _ENDS.search(words) else [])
+        found = found or (self.sampler.spec["events"] if _ENDS.search(words) and kind_of(words) != "reversal" else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
 
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:

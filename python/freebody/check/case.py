@@ -35,7 +35,7 @@ _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _ENERGY = re.compile(r"(?:kinetic|potential|energy)\(")
 _BEYOND = re.compile(
-    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|friction_work|centre_[xy])\("
+    r"\b(rate|accel|vx|vy|speed|curvature|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|friction_work|centre_[xy])\("
     rf"|\.({_FORCES}|friction|force|value|power|work)\b"
 )
 """What reads more than the configuration."""

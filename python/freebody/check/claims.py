@@ -34,7 +34,7 @@ from .motion_sampler import touching
 from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled
+from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled, on_later_stretch
 from .wording import as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
@@ -92,6 +92,8 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    if given.above and verdict.kind is Kind.UNDECIDABLE and (found := on_later_stretch(checker, declared, condition, statement)):
+        return found
     places = _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
     if event := next((event for words in places if (event := checker.event_called(words))), None):
         there = timed_claims.at(checker, declared, event, statement)
