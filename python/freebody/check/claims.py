@@ -181,6 +181,21 @@ def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Ver
     return _constant(checker, declared, spell(equation.left))
 
 
+def _between(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict:
+    """From a moment 1 to a moment 2, ``J (ω₂ − ω₁) = M (t₂ − t₁)``: the first is the start, the second any time; letters with these
+    indices of the model or the person are what they are."""
+    known = checker.symbols(declared)
+
+    def at_moment(found: re.Match[str]) -> str:
+        letter, index = found[2], "1" if found[4] in "1₁" else "2"
+        meant = f"_{index}" if known.spelt(f"{letter}_{index}") else ""
+        return f"{found[1] or ''}{letter}{meant}{found[3]}{found[5]}{'(0)' if index == '1' and not meant else ''}"
+
+    since = replace(checker.hypothesis, since=checker.hypothesis.since or "start")
+    verdict = checker.check(_INDEXED.sub(at_moment, statement), declared, since)
+    return replace(verdict, notes=(*verdict.notes, f"`{label}` is read as from the start to any time."))
+
+
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """True under a hypothesis, and broken by an example without it."""
     under = _if(checker, declared, condition, statement)
@@ -408,6 +423,13 @@ _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
 _CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?\w+)?)")
+_STATE = r"(?:(?:the\s+)?(?:time|instant|moment|state|position|place|point)s?\s+)?\$?(?:t\s*=\s*)?(?:t_?)?\{?"
+_BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|and)\s+{_STATE}[2₂]\}}?\$?)\s*"
+"""``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
+_INDEXED = re.compile(
+    r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)"
+)
+"""A letter with its dots and the index of a moment."""
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",
@@ -420,6 +442,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
     (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
+    (re.compile(rf"{_BETWEEN}:(.+)", re.S), _between),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),
