@@ -21,7 +21,7 @@ from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
-from .assumptions import family, free_parameter
+from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
@@ -38,6 +38,7 @@ from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .senses import is_root
 from .symbols import DOUBTFUL, Symbols
+from .timed_claims import holds_on_run
 from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
 
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
+_ROOT = re.compile(r"√|sqrt")
 _BLOW = re.compile(r"impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
@@ -193,6 +195,9 @@ class Checker:
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
             if verdict.kind is Kind.TRUE_IF and _SENSES.fullmatch(words := verdict.assumption) and self._keeps(words, letters):
                 verdict = replace(verdict, kind=Kind.TRUE, reason=f"holds where {words}, as in the whole motion of the model")
+            rooted = verdict.ok and not found and checker.hypothesis == ALL and verdict.assumption == FROM_START
+            if rooted and _ROOT.search(plain) and not holds_on_run(checker, letters or {}, with_condition_first(plain)):
+                verdict = replace(verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root")
             label, colon, _ = plain.partition(":")
             if colon and len(verdict.mends) > 1:
                 verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)

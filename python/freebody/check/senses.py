@@ -11,7 +11,6 @@ import numpy as np
 from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .language.statements import Equation
-from .residual import HOLDS
 
 if TYPE_CHECKING:
     from .case import Case
@@ -44,9 +43,8 @@ def holds_with_either_root(case: Case, equation: Equation) -> bool:
     roots = [n for n in walk(equation) if isinstance(n, Fn) and n.name == "sqrt"]
     if len(roots) != 1:
         return False
-    ways = (equation, exchange(equation, roots[0], Negative(roots[0])))
-    ratios = [np.abs(case.residual(each).ratio).max(axis=1) for each in ways]
-    return bool(np.all(np.fmin(*ratios) < HOLDS))
+    one, other = (case.residual(each) for each in (equation, exchange(equation, roots[0], Negative(roots[0]))))
+    return replace(one, ratio=np.fmin(np.abs(one.ratio), np.abs(other.ratio))).holds_but_for_few
 
 
 def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[Family, str] | None:
