@@ -197,7 +197,9 @@ class Checker:
                 verdict = replace(verdict, kind=Kind.TRUE, reason=f"holds where {words}, as in the whole motion of the model")
             rooted = verdict.ok and not found and checker.hypothesis == ALL and verdict.assumption == FROM_START
             if rooted and _ROOT.search(plain) and not holds_on_run(checker, letters or {}, with_condition_first(plain)):
-                verdict = replace(verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root")
+                verdict = replace(
+                    verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root"
+                )
             label, colon, _ = plain.partition(":")
             if colon and len(verdict.mends) > 1:
                 verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)
@@ -269,7 +271,10 @@ class Checker:
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
         if found := NOT_FIRST.search(said):
-            raise ModelProblem(f"of what happens several times only the first is judged, not the {found[0]}", "write `at 0.3 s: …`, or say when it is")
+            raise ModelProblem(
+                f"of what happens several times only the first is judged, not the {found[0]}",
+                "write `at 0.3 s: …`, or say when it is",
+            )
         words, when = re.findall(r"\w+", said), phase(self, said)
         named = lambda known: [name for name in known if any(name == word or alike(name, word) for word in words)]
         for found in (named(events), when.changes if when else (), named(parts)):
@@ -292,7 +297,9 @@ class Checker:
     def switches(self) -> tuple[str, ...]:
         """What switches on the model's own run after its start, by its kind and part."""
         run = self.own_motion
-        return tuple(dict.fromkeys(f"{change.kind} {part}" for change in run.changes if change.t > run.t[0] for part in change.of))
+        return tuple(
+            dict.fromkeys(f"{change.kind} {part}" for change in run.changes if change.t > run.t[0] for part in change.of)
+        )
 
     @cached_property
     def only_impact(self) -> str | None:

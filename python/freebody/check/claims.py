@@ -426,9 +426,7 @@ _CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?
 _STATE = r"(?:(?:the\s+)?(?:time|instant|moment|state|position|place|point)s?\s+)?\$?(?:t\s*=\s*)?(?:t_?)?\{?"
 _BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|and)\s+{_STATE}[2₂]\}}?\$?)\s*"
 """``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
-_INDEXED = re.compile(
-    r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)"
-)
+_INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)")
 """A letter with its dots and the index of a moment."""
 _WHOLE = {
     "limit": "limit: … as p -> 0",

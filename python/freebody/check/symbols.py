@@ -44,6 +44,7 @@ _WITHOUT = {
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_OF_ANGLE = re.compile(r"\b(?:sin|cos)\(s\)")
 _FUNCTIONS = ("sqrt", "sin", "cos", "tan", "pi")
 """Of parameters, what does not change."""
 _SHORT = {"Fx": "x", "Fy": "y"}
@@ -218,6 +219,8 @@ class Symbols:
         out = {name: Meaning(kind, (spell(name),), dimension) for name, kind, dimension in values}
         for coordinate in self.metadata["coordinates"]:
             name = coordinate["name"]
+            if not coordinate["dimension"] and coordinate["joint"] in self._round and (own := out.get(name)):
+                out[name] = replace(own, dimension=ANGLE)
             out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
             owner, _, stem = name.rpartition(".")
             if owner:
@@ -232,6 +235,12 @@ class Symbols:
         for name, meaning in self._reactions().items():
             out.setdefault(name, meaning)
         return out
+
+    @cached_property
+    def _round(self) -> set[str]:
+        """Joints along curves whose own coordinate is an angle, as that of a circle is."""
+        angular = {curve["name"] for curve in self.spec["curves"] if _OF_ANGLE.search(f"{curve['x']} {curve['y']}")}
+        return {joint["name"] for joint in self.spec["joints"] if str(joint["with"].get("along")) in angular}
 
     def _measure_gauges(self) -> None:
         """Gauges have the dimension of their expression, where that has one."""
