@@ -27,7 +27,7 @@ from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, Family, NoMotion
 from .frequency_claims import OMEGA
-from .inner_forces import without_inner_forces
+from .inner_forces import inner_forces
 from .language.dimensions import misfit
 from .language.glyphs import CONDITION
 from .language.statements import Program, symbols_in
@@ -79,6 +79,7 @@ class Checker:
         self.vibration = Vibration(self.sampler)
         self.hypothesis = ALL
         self.correcting, self.is_at_first = True, False
+        self.inner: frozenset[str] = frozenset()  # what acts between the bodies of a balance
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
@@ -102,7 +103,7 @@ class Checker:
         Raises ``StatementError`` and ``ModelProblem``."""
         given = hypothesis or self.hypothesis
         known = self.symbols(letters)
-        known.vibration = self.vibration_of(given)
+        known.vibration, known.inner = self.vibration_of(given), self.inner
         began = thread_time()
         program = known.read(text, units, tight)
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
@@ -190,6 +191,8 @@ class Checker:
         checker.budget = Budget(self.seconds, begins=thread_time())
         plain, passed = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
         try:
+            label, colon, _ = plain.partition(":")
+            checker.inner |= inner_forces(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
@@ -200,9 +203,6 @@ class Checker:
                 verdict = replace(
                     verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root"
                 )
-            label, colon, _ = plain.partition(":")
-            if colon and len(verdict.mends) > 1:
-                verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)
             plainly_said = verdict.ok and not found and checker.hypothesis == ALL
             if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
                 verdict = self._also_later(verdict, text, letters)

@@ -165,6 +165,7 @@ class StatementSymbols:
         known = dict.fromkeys([*self.used, *map(Sym, self.symbols.of_kind("declared", "gauge"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
+        others = [n for n in others if n in self.used or not any(_owners(text) & self.symbols.inner for text in self.texts(n))]
         groups = (parameters, coordinates, others, vectors)
         plain = [{n: self._dimension(n) for n in group} for group in groups]
         named = [n for n in others if n in self.used or n.name in self.symbols.own]
@@ -351,3 +352,8 @@ def _meant(texts: Iterable[str]) -> tuple[str, ...]:
 def _named(name: str, text: str) -> bool:
     """Whether a name stands in an expression or a list of them."""
     return re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", text) is not None
+
+
+def _owners(text: str) -> set[str]:
+    """The joints and forces of which an expression reads something."""
+    return {owner.strip("'") for owner in re.findall(r"('[^']+'|[^\W\d]\w*)\.", text)}
