@@ -344,13 +344,18 @@ class FittedEdits:
             turning, of_turning = wheels(equation, self.vocabulary, self.values)
             if self._of(equation) == FORCE:
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
-            said = np.array([sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)])
+            said = np.array(
+                [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
+            )
             for pair in self.within(spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
                     after = exchange(equation, required.node, more(required.node, *lost))
-                    again = any(np.isclose(np.abs(said), np.abs(size * rows[k])).all(axis=1).any() for k, size in zip(pair, sizes, strict=True))
+                    again = any(
+                        np.isclose(np.abs(said), np.abs(size * rows[k])).all(axis=1).any()
+                        for k, size in zip(pair, sizes, strict=True)
+                    )
                     cost = _TWO_TERMS + 0.02 * sum(map(depth, lost)) + _UNDONE * again
                     yield Edit("missing term", None, Add(tuple(lost)), after, cost)
 
