@@ -424,6 +424,19 @@ SLIPS = {
         "during the fall: ω = √(k (m + M)/(m M))",
         "left out",
     ),
+    "the sine or cosine of a place on a circle": ("vane_pump", "r ω = R ψ'", "r ω = R ψ' cos(ψ − θ)", "a factor is forgotten"),
+    "a number, not a letter that has become it in small motions": (
+        "beads_on_taut_wire",
+        "for small y1, y2: m a z'' + 2 S z = −a f",
+        "for small y1, y2: m a z'' + 3 S z = −a f",
+        "a number is wrong",
+    ),
+    "no inner force in a balance of all": (
+        "motocross_jump",
+        "all, ΣF_y: −(m + m_w) g = (m + m_w) y''",
+        "all, ΣF_y: −(m + m_w) g = (m + m_w) y'' + m d (φ'' cos φ − φ'² sin φ)",
+        "left out",
+    ),
 }
 
 

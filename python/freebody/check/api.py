@@ -21,23 +21,24 @@ from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
-from .assumptions import family, free_parameter
+from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, Family, NoMotion
 from .frequency_claims import OMEGA
-from .inner_forces import without_inner_forces
+from .inner_forces import inner_forces
 from .language.dimensions import misfit
 from .language.glyphs import CONDITION
 from .language.statements import Program, symbols_in
 from .laws import without_laws
 from .motion_sampler import MotionSampler
-from .phases import alike, kind_of, phase
+from .phases import NOT_FIRST, alike, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .senses import is_root
 from .symbols import DOUBTFUL, Symbols
+from .timed_claims import holds_on_run
 from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
@@ -48,6 +49,8 @@ if TYPE_CHECKING:
 
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
+_ROOT = re.compile(r"√|sqrt")
+_BLOW = re.compile(r"impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
@@ -76,6 +79,7 @@ class Checker:
         self.vibration = Vibration(self.sampler)
         self.hypothesis = ALL
         self.correcting, self.is_at_first = True, False
+        self.inner: frozenset[str] = frozenset()  # what acts between the bodies of a balance
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
@@ -99,7 +103,7 @@ class Checker:
         Raises ``StatementError`` and ``ModelProblem``."""
         given = hypothesis or self.hypothesis
         known = self.symbols(letters)
-        known.vibration = self.vibration_of(given)
+        known.vibration, known.inner = self.vibration_of(given), self.inner
         began = thread_time()
         program = known.read(text, units, tight)
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
@@ -187,14 +191,18 @@ class Checker:
         checker.budget = Budget(self.seconds, begins=thread_time())
         plain, passed = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
         try:
+            label, colon, _ = plain.partition(":")
+            checker.inner |= inner_forces(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
             if verdict.kind is Kind.TRUE_IF and _SENSES.fullmatch(words := verdict.assumption) and self._keeps(words, letters):
                 verdict = replace(verdict, kind=Kind.TRUE, reason=f"holds where {words}, as in the whole motion of the model")
-            label, colon, _ = plain.partition(":")
-            if colon and len(verdict.mends) > 1:
-                verdict = without_inner_forces(verdict, label, checker.symbols(letters), self.sampler.spec)
+            rooted = verdict.ok and not found and checker.hypothesis == ALL and verdict.assumption == FROM_START
+            if rooted and _ROOT.search(plain) and not holds_on_run(checker, letters or {}, with_condition_first(plain)):
+                verdict = replace(
+                    verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root"
+                )
             plainly_said = verdict.ok and not found and checker.hypothesis == ALL
             if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
                 verdict = self._also_later(verdict, text, letters)
@@ -217,8 +225,7 @@ class Checker:
 
     def _also_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
         """The verdict about what holds as the model is at first, where some of it is 0: wrong where it does not hold after something switches."""
-        run = self.own_motion
-        for name in dict.fromkeys(f"{c.kind} {part}" for c in run.changes if c.t > run.t[0] for part in c.of):
+        for name in self.switches:
             with suppress(ModelProblem, StatementError):
                 later = self.beside("after", name, {}).check(text, letters)
                 if later.kind is Kind.WRONG:
@@ -263,6 +270,11 @@ class Checker:
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
+        if found := NOT_FIRST.search(said):
+            raise ModelProblem(
+                f"of what happens several times only the first is judged, not the {found[0]}",
+                "write `at 0.3 s: …`, or say when it is",
+            )
         words, when = re.findall(r"\w+", said), phase(self, said)
         named = lambda known: [name for name in known if any(name == word or alike(name, word) for word in words)]
         for found in (named(events), when.changes if when else (), named(parts)):
@@ -274,12 +286,20 @@ class Checker:
         times = [event.t for event in run.events]
         later = [change for change in run.changes if change.t > run.t[0] and change.t not in times]
         impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
-        if len(impacts) == 1 and re.search("impact|collision|bounce|hit|strike", said):
+        if len(impacts) == 1 and _BLOW.search(said):
             return next(iter(impacts))
         if len(events) == 1 and not later:  # nothing else can be meant
             return next(iter(events))
         what = ", ".join({**events, **parts}) or "nothing does"
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
+
+    @property
+    def switches(self) -> tuple[str, ...]:
+        """What switches on the model's own run after its start, by its kind and part."""
+        run = self.own_motion
+        return tuple(
+            dict.fromkeys(f"{change.kind} {part}" for change in run.changes if change.t > run.t[0] for part in change.of)
+        )
 
     @cached_property
     def only_impact(self) -> str | None:
@@ -295,7 +315,7 @@ class Checker:
         there: ``the lowest point``, ``the clutch grips``."""
         said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
         found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or alike(e["name"], word) for word in said)]
-        found = found or (self.sampler.spec["events"] if _ENDS.search(words) else [])
+        found = found or (self.sampler.spec["events"] if _ENDS.search(words) and kind_of(words) != "reversal" else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
 
     def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:

@@ -73,7 +73,7 @@ def difference(said: Sequence[Term], true: Sequence[Term]) -> Difference:
 def _lacking(said: Sequence[Term], true: Sequence[Term]) -> Difference | None:
     """What is lacking where all terms together are made of those of the balance, as where a letter stands for a sum; else None."""
     rows, whole = np.array([value for _, value in true]).T, sum(value for _, value in said)
-    if rows.ndim != 2 or len(rows) < rows.shape[1]:
+    if rows.ndim != 2 or len(rows) < rows.shape[1] or not np.isfinite(whole).all():  # not every root has a value
         return None
     shares, *_ = np.linalg.lstsq(rows, whole, rcond=_SAME)
     if np.abs(rows @ shares - whole).max() > _SAME * np.abs(rows).max():

@@ -35,7 +35,7 @@ _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _ENERGY = re.compile(r"(?:kinetic|potential|energy)\(")
 _BEYOND = re.compile(
-    r"\b(rate|accel|vx|vy|speed|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|friction_work|centre_[xy])\("
+    r"\b(rate|accel|vx|vy|speed|curvature|omega|ax|ay|alpha|tension|kinetic|potential|energy|momentum_[xy]|angular_momentum|friction_work|centre_[xy])\("
     rf"|\.({_FORCES}|friction|force|value|power|work)\b"
 )
 """What reads more than the configuration."""
@@ -165,6 +165,7 @@ class StatementSymbols:
         known = dict.fromkeys([*self.used, *map(Sym, self.symbols.of_kind("declared", "gauge"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
+        others = [n for n in others if n in self.used or not any(_owners(text) & self.symbols.inner for text in self.texts(n))]
         groups = (parameters, coordinates, others, vectors)
         plain = [{n: self._dimension(n) for n in group} for group in groups]
         named = [n for n in others if n in self.used or n.name in self.symbols.own]
@@ -351,3 +352,8 @@ def _meant(texts: Iterable[str]) -> tuple[str, ...]:
 def _named(name: str, text: str) -> bool:
     """Whether a name stands in an expression or a list of them."""
     return re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", text) is not None
+
+
+def _owners(text: str) -> set[str]:
+    """The joints and forces of which an expression reads something."""
+    return {owner.strip("'") for owner in re.findall(r"('[^']+'|[^\W\d]\w*)\.", text)}

@@ -34,7 +34,7 @@ from .motion_sampler import touching
 from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
 from .verdict import Evidence, Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled
+from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled, on_later_stretch
 from .wording import as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
@@ -92,6 +92,8 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     verdict = checker.check(statement, declared, given)
     if verdict.ok:
         return replace(verdict, assumption=condition)
+    if given.above and verdict.kind is Kind.UNDECIDABLE and (found := on_later_stretch(checker, declared, condition, statement)):
+        return found
     places = _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
     if event := next((event for words in places if (event := checker.event_called(words))), None):
         there = timed_claims.at(checker, declared, event, statement)
@@ -177,6 +179,21 @@ def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Ver
         what = "a change stands beside what is none"
         raise ModelProblem(what, "write `Δ` before each term, or the work of a force by its name, like `motor.work`")
     return _constant(checker, declared, spell(equation.left))
+
+
+def _between(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict:
+    """From a moment 1 to a moment 2, ``J (ω₂ − ω₁) = M (t₂ − t₁)``: the first is the start, the second any time; letters with these
+    indices of the model or the person are what they are."""
+    known = checker.symbols(declared)
+
+    def at_moment(found: re.Match[str]) -> str:
+        letter, index = found[2], "1" if found[4] in "1₁" else "2"
+        meant = f"_{index}" if known.spelt(f"{letter}_{index}") else ""
+        return f"{found[1] or ''}{letter}{meant}{found[3]}{found[5]}{'(0)' if index == '1' and not meant else ''}"
+
+    since = replace(checker.hypothesis, since=checker.hypothesis.since or "start")
+    verdict = checker.check(_INDEXED.sub(at_moment, statement), declared, since)
+    return replace(verdict, notes=(*verdict.notes, f"`{label}` is read as from the start to any time."))
 
 
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
@@ -406,6 +423,11 @@ _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
 _CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?\w+)?)")
+_STATE = r"(?:(?:the\s+)?(?:time|instant|moment|state|position|place|point)s?\s+)?\$?(?:t\s*=\s*)?(?:t_?)?\{?"
+_BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|and)\s+{_STATE}[2₂]\}}?\$?)\s*"
+"""``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
+_INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)")
+"""A letter with its dots and the index of a moment."""
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",
@@ -418,6 +440,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
     (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
+    (re.compile(rf"{_BETWEEN}:(.+)", re.S), _between),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),

@@ -38,6 +38,7 @@ _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sig
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
+_UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
@@ -343,12 +344,20 @@ class FittedEdits:
             turning, of_turning = wheels(equation, self.vocabulary, self.values)
             if self._of(equation) == FORCE:
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
+            said = np.array(
+                [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
+            )
             for pair in self.within(spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
                     after = exchange(equation, required.node, more(required.node, *lost))
-                    yield Edit("missing term", None, Add(tuple(lost)), after, _TWO_TERMS + 0.02 * sum(map(depth, lost)))
+                    again = any(
+                        np.isclose(np.abs(said), np.abs(size * rows[k])).all(axis=1).any()
+                        for k, size in zip(pair, sizes, strict=True)
+                    )
+                    cost = _TWO_TERMS + 0.02 * sum(map(depth, lost)) + _UNDONE * again
+                    yield Edit("missing term", None, Add(tuple(lost)), after, cost)
 
     def _matching(self, equation: Equation, wanted: Array, less: Dimension = NUMBER_ONLY) -> Iterator[Node]:
         """Terms that are ``wanted`` but for a number, of the dimension of the equation over ``less``; vectors are a number times a

@@ -215,7 +215,7 @@ class Likelihood:
         for symbol in new:
             load = known.dimension(symbol) in (FORCE, ENERGY) and symbol not in known.letters
             arm = known.coordinates.get(symbol) == LENGTH and symbol in term.symbols
-            yield from [symbol] * (1 + load + arm)
+            yield from [symbol] * (1 + load + arm + 2 * self._is_another_name(symbol))
         quotients = [n for n in walk(term) if isinstance(n, Quotient)]
         below = {n for each in quotients for n in each.bottom.symbols}
         if missing and below and (new or not self._has_quotient):
@@ -238,6 +238,12 @@ class Likelihood:
             and not all(Sym(n.name) in known.coordinates for n in rates)
         ):
             yield from [term] * 4  # energies have products of the rates of coordinates alone
+
+    def _is_another_name(self, symbol: Sym) -> bool:
+        """Whether it has, on all true states, the value of one that was said, as the pull of a wire has in small motions."""
+        own = self.values.get(symbol.key)
+        said = (self.values[n.key] for n in self._said if n.key in self.values)
+        return own is not None and any(own.shape == each.shape and np.allclose(own, each, rtol=_SAME, atol=0) for each in said)
 
     def _is_of_another(self, term: Node) -> bool:
         """Whether it is of parameters alone, and of two or more of which nothing was said: in a balance, of which no side is an answer, a letter

@@ -332,11 +332,12 @@ class MotionSampler(AskedModel):
             start = motion.end
 
     def _first(self, text: str, motion: Trajectory, parts: Sequence[tuple[float, float]]) -> State | None:
-        """Where an expression is first 0 behind the beginning of a motion."""
+        """Where an expression is first 0 behind the beginning of a motion, which may be just where something switches."""
         for begins, ends in parts:
             t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], begins, ends)
-            if t is not None and self.vanishes(text, found := motion.state(t)):  # it has not jumped there
-                return found
+            for at in (t, ends):
+                if at is not None and self.vanishes(text, found := motion.state(at)):  # it has not jumped there
+                    return found
         return None
 
     def _sampled(self, found: State, through: bool = False) -> State | None:

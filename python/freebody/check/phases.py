@@ -28,6 +28,8 @@ _KINDS = {
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leaves?|(?:lifts?|comes?)\s+off|(?:has|have)\s+(?:left|parted|(?:lifted|come)\s+off)|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
     r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air",
+    "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point"
+    r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
@@ -45,6 +47,8 @@ _MOMENT = re.compile(
 _LASTED = re.compile(r"\b(?:has|have|had)\b")
 """``once it has left``: from then on."""
 _ALL = re.compile(r"\b(?:both|all|they)\b")
+NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
+"""Of what happens several times only the first is known."""
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -85,12 +89,16 @@ def phase(checker: Checker, words: str) -> Phase | None:
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
     at_first = _goes_on_at_first(kind, lasts, every, {name: limits[name].state for name in meant if name in limits}, run, meant)
+    if not lasts and NOT_FIRST.search(words):
+        return None
     is_moment = not lasts and not _LASTED.search(words) and (kind not in _STATES or _MOMENT.search(words) is not None)
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
 
 
 def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, str], run: Any, meant: Collection[str]) -> bool:
     """Whether something of a kind goes on where a run starts, of parts that are meant, those that have ``states``, there."""
+    if kind == "reversal":
+        return False
     if kind not in _STATES:
         apart = {state == "open" for state in states.values()} or {False}
         return lasts and (kind == "lift-off") in apart

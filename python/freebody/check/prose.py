@@ -23,7 +23,7 @@ _FROM_REST = re.compile(
 )
 _REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")
 """``(starts from rest at x = 0)``."""
-_REST_THERE = re.compile(r"(if the start is at rest)\s+(?:at|in|from)\s+\$?\\?[^\W\d]+_?\{?\d?[0₀]\}?\$?(?=\s*:)")
+_REST_THERE = re.compile(r"(if the start is at rest)\s+(?:at|in|from)\s+\$?\\?[^\W\d]+_?\{?\d?[0₀]\}?\$?(?=\s*[:,])")
 """``released from rest at θ_0:``, where it starts."""
 _THESE_NUMBERS = re.compile(
     r"\b(?:if\s+)?(?:with|for|using|at|from)\s+(?:the\s+|these\s+|our\s+|its\s+)?(?:given\s+|numerical\s+|above\s+)*"
@@ -48,6 +48,8 @@ _REMARK = re.compile(
 _IN_LATEX = re.compile(
     r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,'-]+[A-Za-z]+)*\s*[,.:]?\s*)\}(?!\s*[_^'])"
 )
+_OF_WHOM = re.compile(r"(?:\s*,|[\s~$\\,;(]*(?:\\Sigma|\\sum|[Σ∑]))[^=:\n]*:(?!=)|\s*:(?!=)")
+"""What stands behind the name of a part in a label, ``\\text{vane}, \\Sigma F_r:``."""
 _CONNECTIVES = {
     *(
         "and",
@@ -107,7 +109,7 @@ _WAY = re.compile(r"(?<=[\w)}²°])\s+(?:down|up|along|towards?|across)\s+the\s+
 _AT_ONCE = re.compile(r"\A\s*(in\s+(?:static\s+)?equilibrium|at\s+rest|initially)\s+(?=[^\s:,=]+\s*=)(?![^=]*:)")
 """``in equilibrium x = m g/k``."""
 _THEN = re.compile(r"(?m)^(\s*(?:if|when)\b[^:\n]*?),?\s+then\s+(?=[^:\n]*[=<>≈≤≥])")
-_JUST_IT = re.compile(r"\b((?:just|immediately)\s+(?:after|before))\s+(?:it|that|this)\b[:,]?\s+")
+_JUST_IT = re.compile(r"\b((?:just|immediately)\s+(?:after|before))\s+(?:it|that|this)\b(?!\s+[a-z]{2})[:,]?\s+")
 _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
 """A condition that begins a sentence."""
 _FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
@@ -208,5 +210,5 @@ def _is_unit(words: str) -> bool:
 def _of_latex(found: re.Match[str]) -> str:
     """Words that are set upright in LaTeX, if they are several or join what stands around them: ``\\text{while } C \\text{ rests}``."""
     words = re.findall("[A-Za-z]+", found[1])
-    several = len(words) > 1 or found[1][-1] in ",.: "
+    several = len(words) > 1 or found[1][-1] in ",.: " or _OF_WHOM.match(found.string, found.end())
     return f" {found[1]} " if several or {*words} <= _CONNECTIVES else found[0]

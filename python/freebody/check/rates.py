@@ -12,7 +12,7 @@ from .language.spelling import spell
 
 _RATES = ("rate({})", "accel({})", "rate(accel({}))")
 _NEXT = {"rate": "accel", "vx": "ax", "vy": "ay", "omega": "alpha"}
-_MOVING = {*_NEXT, "speed", "accel", "ax", "ay", "alpha"}
+_MOVING = {*_NEXT, "speed", "curvature", "accel", "ax", "ay", "alpha"}
 
 
 def derivative(text: str, dots: int) -> str:

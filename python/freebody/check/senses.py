@@ -6,7 +6,9 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from freebody.symbolic.tree import Fn, Mul, Node, Num, Pow, Quotient, Sym, walk
+import numpy as np
+
+from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .language.statements import Equation
 
@@ -34,6 +36,15 @@ def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
     pairs = ((equation.left, equation.right), (equation.right, equation.left))
     rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
     return _as_at_start(case, {n: case.meaning.read_from(n) for n in rates})
+
+
+def holds_with_either_root(case: Case, equation: Equation) -> bool:
+    """Whether it holds on every motion with one of the two signs of its only root, of which that on the motion from the start is meant."""
+    roots = [n for n in walk(equation) if isinstance(n, Fn) and n.name == "sqrt"]
+    if len(roots) != 1:
+        return False
+    one, other = (case.residual(each) for each in (equation, exchange(equation, roots[0], Negative(roots[0]))))
+    return replace(one, ratio=np.fmin(np.abs(one.ratio), np.abs(other.ratio))).holds_but_for_few
 
 
 def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[Family, str] | None:

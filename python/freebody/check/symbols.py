@@ -44,6 +44,7 @@ _WITHOUT = {
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_OF_ANGLE = re.compile(r"\b(?:sin|cos)\(s\)")
 _FUNCTIONS = ("sqrt", "sin", "cos", "tan", "pi")
 """Of parameters, what does not change."""
 _SHORT = {"Fx": "x", "Fy": "y"}
@@ -93,6 +94,7 @@ class Symbols:
         self.declared: set[str] = set()
         self.own = frozenset(declared or ())
         self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
+        self.inner: frozenset[str] = frozenset()  # joints and forces that have no place in a balance
         self.unjudged: set[str] = set()  # arrows behind what is no vector
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         self._measure_gauges()
@@ -218,6 +220,8 @@ class Symbols:
         out = {name: Meaning(kind, (spell(name),), dimension) for name, kind, dimension in values}
         for coordinate in self.metadata["coordinates"]:
             name = coordinate["name"]
+            if not coordinate["dimension"] and coordinate["joint"] in self._round and (own := out.get(name)):
+                out[name] = replace(own, dimension=ANGLE)
             out.setdefault(name, Meaning("coordinate", (spell(name),), LENGTH if coordinate["dimension"] == "m" else ANGLE))
             owner, _, stem = name.rpartition(".")
             if owner:
@@ -232,6 +236,12 @@ class Symbols:
         for name, meaning in self._reactions().items():
             out.setdefault(name, meaning)
         return out
+
+    @cached_property
+    def _round(self) -> set[str]:
+        """Joints along curves whose own coordinate is an angle, as that of a circle is."""
+        angular = {curve["name"] for curve in self.spec["curves"] if _OF_ANGLE.search(f"{curve['x']} {curve['y']}")}
+        return {joint["name"] for joint in self.spec["joints"] if str(joint["with"].get("along")) in angular}
 
     def _measure_gauges(self) -> None:
         """Gauges have the dimension of their expression, where that has one."""

@@ -19,7 +19,7 @@ from .families import AT_START, NoMotion, Samples
 from .figures import ROUND, corrected_figures, figures, rounding
 from .language.parser import parse
 from .language.statements import Equation
-from .residual import Sides, equation_sides
+from .residual import Sides, equation_sides, residual
 from .stated import Correction
 from .user_symbols import OF_START
 from .verdict import Evidence, Kind, Verdict
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 _KNOWN = (
     1e-6  # part of its sides to which a run knows an equation without figures, where agreeing as closely as that says something
 )
+_TIMES = 60
 _ALIKE = 1e-7  # spread of what is the same in several runs, relative: what the integrator leaves
 
 
@@ -56,6 +57,14 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
             reason = f"at {moment} (t = {t:.6g} s) {_figures(sides)}" + (": off in the last digit" if last else "")
             return Verdict(Kind.WRONG, statement, reason, mends=mends, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"at {moment} (t = {t:.6g} s) {_figures(sides)}, as printed")
+
+
+def holds_on_run(checker: Checker, declared: Declared, statement: str) -> bool:
+    """Whether equations hold all along the model's own run, to its first switch."""
+    case, run = checker.case(statement, declared), checker.own_motion
+    ends = min((change.t for change in run.changes if change.t > run.t[0]), default=float(run.outcome.t))
+    values = case.meaning.values(_OnRun(run, np.linspace(run.t[0], ends, _TIMES)[1:-1], checker, run.evaluate))
+    return all(np.nanmax(np.abs(residual(equation, values).ratio)) < _KNOWN**0.5 for equation in case.equations)
 
 
 def _symbolically(checker: Checker, declared: Declared, event: str, statement: str) -> tuple[Correction, ...]:

@@ -29,7 +29,7 @@ from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import SAMPLES
 from .nearest import nearest
 from .residual import FAILS, HOLDS, OFTEN, Residual, Sides, equation_sides, jacobian, residual, sizes, unreached
-from .senses import of_root, one_sense
+from .senses import holds_with_either_root, of_root, one_sense
 from .stated import Correction
 
 if TYPE_CHECKING:
@@ -319,7 +319,7 @@ def _of_one_sense(case: Case, equation: Equation) -> Verdict | None:
 def _from_start(case: Case, equation: Equation) -> Verdict | None:
     """That it is true of motions from the start of the model, also through what switches on them, where its letters are of these; where that
     is at rest and everything moves from there, so that a term which is left out is 0; where what it says is 0 never changes; or where a
-    size in it has the sign that it has on these. Else None."""
+    size or a root in it has the sign that it has on these. Else None."""
     given, figure = case.hypothesis, says_a_figure(equation)
     if replace(given, vanishing=(), held=(), numbers=False, zeros=True) != ALL or (figure and not given.vanishing):
         return None
@@ -329,7 +329,7 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     if not (
         known
         or _never_changes(case, equation)
-        or (_has_sizes(case, equation) and of_family(case, equation, since, _GLANCE))
+        or ((_has_sizes(case, equation) or holds_with_either_root(case, equation)) and of_family(case, equation, since, _GLANCE))
         or glance()
     ):
         return None

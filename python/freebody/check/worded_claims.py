@@ -16,7 +16,7 @@ from freebody.symbolic.errors import StatementError
 from . import timed_claims
 from .assumptions import WORDS
 from .families import BEFORE, SINCE_START
-from .phases import Phase, kind_of, phase
+from .phases import NOT_FIRST, Phase, kind_of, phase
 from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
 from .wording import LASTS
@@ -51,6 +51,8 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
         return in_phase(checker, declared, found, words, statement)
+    if not lasts and kind_of(words) == "reversal" and not NOT_FIRST.search(words) and len(checker.sampler.names) == 1:
+        return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
     if not lasts and _OVER.search(words):
         with suppress(ModelProblem):
             return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
@@ -76,7 +78,7 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         raise problem
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
-    if (stretch or (placed and others)) and not verdict.ok:
+    if (stretch or (placed and others)) and not verdict.ok and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
@@ -96,6 +98,18 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
         return found
     first = checker.at_first().check(statement, declared)
     return _least_wrong([replace(first, notes=(*first.notes, found.notes[-1])), found])
+
+
+def on_later_stretch(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict | None:
+    """Under a hypothesis of which there are no motions as the model is at first, as of what slides back: after what switches."""
+    if checker.sampler.moment:
+        return None
+    for name in checker.switches:
+        with suppress(ModelProblem, StatementError):
+            found = in_phase(checker, declared, Phase(False, (name,), False), condition, f"if {condition}: {statement}")
+            if found.kind is not Kind.UNDECIDABLE:
+                return found
+    return None
 
 
 def in_phase(
@@ -173,6 +187,8 @@ _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
 _PLACED = re.compile(r"(?:with|once)\b|.+\b(?:on|in|against) the\b")
 """``with the lump on the rim``: words that may be of a later stretch."""
+_FIRST_OF_ALL = re.compile(r"\bfirst\s+(?:half[\s-])?(?:swing|stroke|stage|phase|part|stretch|period)")
+"""``during the first swing``: no later stretch is meant."""
 _ONE_PART = re.compile(
     r"\b(?:small|slow|steady|constant|rest|back|up|down|left|right|ris|fall|return|forward|impact|blow|impulse|collision|shock|hit)"
 )

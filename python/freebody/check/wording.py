@@ -100,11 +100,12 @@ _START = re.compile(
 )
 _STEADY = re.compile(r"(?:(?:in|for|at)\s+)?(?:the\s+)?steady(?:[\s-]+state)?(?:\s+(?:motion|vibration|response|state))?")
 _CONSTANT = re.compile(
-    r"(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
-    r"(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\bis (?:constant|conserved)\b\.?)"
+    r"(?:(?:the\s+)?(?:(?:total|angular|linear|mechanical)\s+)*(?:sum|quantity|momentum|energy)\s+(?=[^\s=]))?(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
+    r"(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\b(?:is|are|stays?|remains?|keeps) (?:constant|conserved|unchanged|the same)\b\.?|\bdo(?:es)? not change\b\.?)"
     r"(?=\s*[→←↑↓↺↻]?\s*$|\s+where\b|\s+with\b)"
 )
-"""``E = T + V = const``, ``p is conserved``."""
+"""``E = T + V = const``, ``p is conserved``, ``H stays the same``."""
+_UNCHANGING = re.compile("cons|same|chang")
 _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
 """``Energy: T + V = const``."""
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
@@ -165,7 +166,7 @@ def with_condition_first(text: str) -> str:
         return f"when {found[1]}: {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
         said = f"{found[2]}: {found[1]}"
-    return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if "cons" in said else said
+    return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if _UNCHANGING.search(said) else said
 
 
 def as_claim(text: str) -> str:
