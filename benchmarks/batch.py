@@ -83,9 +83,7 @@ def main() -> None:
     apart = abs(ours() - by_hand(angles)).max()
     turns = np.array([(timed(lambda: by_hand(angles)), timed(ours)) for _ in range(ROUNDS)])
     ratios = turns[:, 0] / turns[:, 1]
-    table = Table(
-        "", "time, s", "evaluation, ns", title=f"{MEMBERS} double pendulums, {STEPS} steps of RK4, {THREADS} threads"
-    )
+    table = Table("", "time, s", "evaluation, ns", title=f"{MEMBERS} double pendulums, {STEPS} steps of RK4, {THREADS} threads")
     for name, seconds in zip(("Numba, by hand", "freebody"), turns.T, strict=True):
         table.add_row(name, f"{median(seconds):.2f}", f"{median(seconds) / (4 * STEPS * MEMBERS) * THREADS * 1e9:.1f}")
     Console().print(table)
