@@ -41,9 +41,7 @@ def arranged(
         if not model.vanishes(text, state):
             try:
                 state = _vanished(model, text, state, [] if family.at_rest else list(rates), kept)
-            except (NoMotion, MotionError) as error:
-                if model.loops and isinstance(error, MotionError):
-                    raise  # another place may do
+            except (NoMotion, MotionError):
                 if (found := _fitted(model, text, state, values, adjustable)) is None:
                     raise
                 state = found
