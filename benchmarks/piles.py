@@ -17,11 +17,11 @@ from rich.table import Table
 
 import freebody as fb
 
-SPACING = 0.32
+SPACING = 0.32  # m, of the bodies at the start
 
 
 def pile(bodies: int, seed: int) -> fb.Mechanism:
-    """Boxes and disks of 12 to 24 cm over a floor, in rows as wide as the box that they fall into."""
+    """Boxes and disks of 12 to 20 cm over a floor, in rows as wide as the box that they fall into."""
     random = np.random.default_rng([bodies, seed])
     columns = ceil(sqrt(bodies))
     half = SPACING * columns / 2
@@ -79,7 +79,8 @@ def main() -> None:
         shown = (f"{median(took):.1f}", f"{max(took):.1f}", f"{median(changes):.0f}", f"{max(off):.0e}")
         table.add_row(str(bodies), f"{complete} of {asked.seeds}", *shown)
     Console().print(table)
-    print(*ended, sep="\n")
+    if ended:
+        print(*ended, sep="\n")
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ pub struct Dense {
     pub(super) g: Matrix,
     b: Matrix,
     pub(super) saddle: Islands,
-    /// The same equations, where only their solution was asked for, every motion has inertia and no row depends on others.
+    /// The same equations, where only their solution was asked for, every motion has inertia and it is clear which rows depend on others.
     condensed: Condensed,
     /// And where they are few.
     quasidefinite: Quasidefinite,
@@ -59,13 +59,25 @@ struct Factored {
 }
 
 impl Dense {
-    /// Solves the equations factored last, into `found`.
-    pub(super) fn solve_into(&mut self, f: &[f64], r: &[f64], found: &mut Solution, memory: &mut IslandMemory) {
+    /// Solves the equations factored last, into `found`; where rows contradict others they are factored again, in the form that meets
+    /// all as nearly as possible.
+    pub(super) fn solve_into(
+        &mut self,
+        f: &[f64],
+        r: &[f64],
+        found: &mut Solution,
+        memory: &mut IslandMemory,
+    ) -> Result<(), SaddleError> {
         match self.form {
             Form::Quasidefinite => self.quasidefinite.solve_into(f, r, found),
             Form::Condensed => self.condensed.solve_into(f, r, found),
             Form::Islands => self.saddle.solve_into(f, r, found, memory),
         }
+        if self.form == Form::Condensed && found.inconsistency > 0.0 {
+            self.factor_scaled(self.condensed.has_own_forces())?;
+            self.saddle.solve_into(f, r, found, memory);
+        }
+        Ok(())
     }
 
     /// The multipliers that balance themselves in the equations factored last, m × d; the largest entry of each column is 1.
@@ -154,12 +166,8 @@ impl Workspace<'_> {
         self.factor_for(wanted, Force::ActuatorDirection)?;
         asked.clear();
         asked.extend(self.rows.iter().map(|row| -row.bias));
-        self.dense.solve_into(force, asked, found, islands);
-        if self.dense.form == Form::Condensed && found.inconsistency > 0.0 {
-            let own = self.rows.iter().any(|row| row.force.is_some());
-            self.dense.factor_scaled(own).map_err(|error| self.explain(error))?;
-            self.dense.solve_into(force, asked, found, islands);
-        }
+        let solved = self.dense.solve_into(force, asked, found, islands);
+        solved.map_err(|error| self.explain(error))?;
         self.solved.nu_dot.copy_from_slice(&found.a);
         self.solved.lambda.clone_from(&found.lambda);
         self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
@@ -173,7 +181,8 @@ impl Workspace<'_> {
         self.dense.g.mul_vec_into(&self.solved.nu_dot, gap);
         gap.iter_mut().zip(&*asked).for_each(|(gap, asked)| *gap = asked - *gap);
         self.check_consistent(asked, gap)?;
-        self.dense.solve_into(force, gap, found, islands);
+        let refined = self.dense.solve_into(force, gap, found, islands);
+        refined.map_err(|error| self.explain(error))?;
         self.solved.nu_dot.iter_mut().zip(&found.a).for_each(|(x, d)| *x += d);
         self.solved.lambda.iter_mut().zip(&found.lambda).for_each(|(x, d)| *x += d);
         self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);

@@ -203,8 +203,10 @@ impl Workspace<'_> {
         let Memory { force, found, islands, .. } = &mut **self.memory.get_or_insert_default();
         force.clear();
         force.resize(self.m.freedom(), 0.0);
-        self.dense.solve_into(force, &asked, found, islands);
-        Ok(found.a.clone())
+        match self.dense.solve_into(force, &asked, found, islands) {
+            Ok(()) => Ok(found.a.clone()),
+            Err(_) => Ok(self.least_motion(&self.rows, &asked)),
+        }
     }
 
     /// The least motion, in scaled coordinates, that changes `rows` by `asked` as nearly as possible.

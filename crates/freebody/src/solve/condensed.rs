@@ -52,6 +52,11 @@ impl Condensed {
         self.condense() && self.eliminate() && self.is_determinate()
     }
 
+    /// Whether the multipliers act along others than G.
+    pub fn has_own_forces(&self) -> bool {
+        self.has_own_forces
+    }
+
     fn factor_mass(&mut self, mass: &Matrix) -> bool {
         let n = mass.rows();
         self.lower.clone_from(mass);

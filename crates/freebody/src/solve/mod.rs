@@ -1,8 +1,8 @@
 //! Linear algebra of one instant of a mechanism: M a − Bᵀ λ = f, G a = r.
 //!
 //! [`Saddle`] is the dense solver, exact about rank and about directions without inertia; it suits mechanisms of up to
-//! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart. Where every motion has inertia and no row
-//! depends on others [`Condensed`] is quicker, and [`Quasidefinite`] where they are few. [`Pattern`] and
+//! some forty unknowns, and [`Islands`] applies it to each part of equations that fall apart. Where every motion has inertia and it is
+//! clear which rows depend on others [`Condensed`] is quicker, and [`Quasidefinite`] where they are few and none does. [`Pattern`] and
 //! [`Factor`] solve the symmetric case for thousands of bodies, at a cost that grows with the fill. The rest is what
 //! they stand on.
 

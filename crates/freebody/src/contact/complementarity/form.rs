@@ -74,8 +74,8 @@ fn variables(block: &LcpBlock) -> Vec<Variable> {
     (0..block.len()).flat_map(of).collect()
 }
 
-/// λT/λN of a contact that slides.
-fn drag(law: BlockFriction) -> f64 {
+/// λT/λN of a contact that slides; 0 of others.
+pub(super) fn drag(law: BlockFriction) -> f64 {
     match law {
         BlockFriction::Law(FrictionLaw::Sliding { sense, kinetic }) | BlockFriction::Starting(sense, kinetic) => {
             -sense * kinetic

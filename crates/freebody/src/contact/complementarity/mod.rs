@@ -11,7 +11,7 @@
 //! ([`Verdict::Indeterminate`]), or none ([`Verdict::Inconsistent`]); the last two are Painlevé's. [`strike`] poses the
 //! same problem for velocities and impulses, and [`jam`] tells how a motion goes on that friction lets not.
 //!
-//! Pivoting (`lemke.rs`, on the form in `form.rs`) proposes who carries; `modes.rs` solves the linear
+//! Pivoting (`lemke.rs`, on the form in `form.rs`), or relaxation where it finds nothing, proposes who carries; `modes.rs` solves the linear
 //! equations of that proposal, holds them against the conditions above, and enumerates all proposals
 //! where pivoting fails or uniqueness is asked for.
 

@@ -116,7 +116,7 @@ fn bounded(block: &LcpBlock) -> Outcome {
     Outcome::Nothing
 }
 
-/// What pivoting alone finds.
+/// What pivoting finds, and relaxation where it finds nothing; not all modes are tried.
 pub(super) fn pivot(block: &LcpBlock, tolerance: f64) -> Outcome {
     for (path, apart) in (0..PATHS).flat_map(|path| APART.map(|apart| (path, apart))) {
         match propose(block, apart, path) {

@@ -1,16 +1,17 @@
 //! Which contacts carry, by relaxation: the forces of one contact after the other are brought to what its law asks for.
 
+use super::form::drag;
 use super::lcp_block::{BlockFriction, LcpBlock};
 use super::modes::{Mode, Tangent};
 use super::FrictionLaw;
 
-/// Sweeps after which the forces are looked at, again and again until they are as often as this in all.
+/// How many sweeps are made, one lot after the other, before the modes that the forces have then are tried.
 const SWEEPS: [usize; 4] = [50, 200, 800, 3200];
 /// Part of the largest force that is none, and of a bound of friction within which it is reached.
 const NONE: f64 = 1e-6;
 
 /// Modes as relaxation approaches them (Gauss–Seidel; Jourdan, Alart & Jean, *Comput. Methods Appl. Mech. Eng.* 155, 1998). It finds its
-/// way where many contacts slide, and pivoting ends in rays; where it does not converge its modes are none.
+/// way where many contacts slide, and pivoting ends in rays; where forces grow without bound it ends.
 pub(super) fn relaxed(block: &LcpBlock) -> impl Iterator<Item = Vec<Mode>> + '_ {
     let mut force = vec![0.0; 2 * block.len()];
     SWEEPS.into_iter().map_while(move |sweeps| {
@@ -25,12 +26,7 @@ fn relax(block: &LcpBlock, i: usize, force: &mut [f64]) {
     let moved = |row: usize, force: &[f64]| {
         block.free[row] + block.g.row(row).iter().zip(force).map(|(g, f)| g * f).sum::<f64>()
     };
-    let drag = match block.friction[i] {
-        BlockFriction::Law(FrictionLaw::Sliding { sense, kinetic }) | BlockFriction::Starting(sense, kinetic) => {
-            -sense * kinetic
-        }
-        BlockFriction::Law(_) => 0.0,
-    };
+    let drag = drag(block.friction[i]);
     let response = block.g[(i, i)] + drag * block.g[(i, n + i)];
     if response > 0.0 {
         force[i] = (force[i] - moved(i, force) / response).max(block.least_normal[i]);
