@@ -199,6 +199,8 @@ def _proportional(one: Equation, other: Equation, places: Mapping[str, Array]) -
     if first.shape != second.shape:
         return False
     there = np.isfinite(first + second).all(axis=1)  # not every root has a value
+    if not there.any():
+        return False
     first, second = first[there], second[there]
-    factor = np.sum(first * second) / np.sum(second**2) if there.any() else np.nan
+    factor = np.sum(first * second) / np.sum(second**2)
     return bool(np.allclose(first, factor * second, rtol=1e-7, atol=1e-9 * np.abs(first).max()))

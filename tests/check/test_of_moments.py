@@ -6,6 +6,7 @@ import pytest
 
 from freebody.check import Checker, Kind
 from freebody.mechanism import Mechanism
+from freebody.symbolic.errors import StatementError
 
 T, W = Kind.TRUE, Kind.WRONG
 BAR = """
@@ -33,6 +34,17 @@ forces: {buffer: {type: spring, along: x - c, stiffness: k, engaged: false}}
 initial: {x: 0, rates: {x: 1}}
 events: {reached: {when: x - c, then: {engage: buffer}}}
 """
+BALL = """
+parameters: {m: 0.5 kg, h: 2 m, e: 0.8, V: 1.5 m/s, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {floor: {through: O, angle: 0}}}
+bodies: {ball: {shape: particle, mass: m}}
+joints: {free: {type: free, of: [ground.O, ball.centre], coordinates: [x, y]}}
+contacts: {floor: {of: [ball, ground.floor], restitution: e}}
+initial: {y: h, rates: {x: V, y: 0}}
+"""
+LETTERS = {"v_1": "-vy(ball.G) @ before floor", "v_2": "vy(ball.G) @ floor", "d": "x @ floor", "s": "x @ 0.1 s"}
+"""Of moments of the motion, each with a mechanics that holds for them in closed form."""
 HELD = "(m l^2/3 + M r^2) θ'' = -(m l/2 + M r) g cos θ"
 FREE = "r'' = r θ'^2 - g sin θ"
 STATED = [
@@ -68,6 +80,37 @@ def test_a_statement_is_of_the_moment_that_is_asked_for(model: str, statement: s
     assert bool(verdict.moment) == (bool(asked) or model is not SPRING)
     if kind is T:
         assert mechanism.check(statement, **asked).ok
+
+
+OF_LETTERS = [
+    ("v_1^2 = 2 g h", T),
+    ("v_1^2 = g h", W),
+    ("v_2 = e v_1", T),
+    ("v_2 = v_1/e", W),
+    ("d = V √(2 h/g)", T),
+    ("s = 0.1 V", T),
+    ("s = 0.2 V", W),
+    ("½ m v_1² = m g h", T),
+    ("the impulse of the floor: m (v_1 + v_2) = m v_1 (1 + e)", T),
+    ("after the bounce: y' ^2 = v_2^2 - 2 g y", T),
+    ("after the bounce: y'^2 = v_1^2 - 2 g y", W),
+    ("before the bounce: y'^2 = v_1^2 - 2 g y", T),
+    ("at 0.5 s: y' = -v_1", W),
+    ("at 0.1 s: x = s", T),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("statement", "kind"), OF_LETTERS)
+def test_a_letter_names_what_is_at_a_moment_of_the_motion(statement: str, kind: Kind) -> None:
+    mechanism = Mechanism.loads(f"freebody: 1\n{BALL}run: {{until: 1.2 s}}\n")
+    verdict = Checker(mechanism, LETTERS).check(statement, correcting=False)
+    assert verdict.kind is kind, str(verdict)
+
+
+def test_a_letter_of_a_moment_that_there_is_not_is_refused() -> None:
+    mechanism = Mechanism.loads(f"freebody: 1\n{BALL}run: {{until: 1.2 s}}\n")
+    with pytest.raises(StatementError, match="nothing that happens"):
+        Checker(mechanism, {"v": "vy(ball.G) @ before roof"}).check("v = 0")
 
 
 @pytest.mark.parametrize("asked", [{"after": "nothing"}, {"at": -1}, {"at": 0.1, "before": "reached"}])

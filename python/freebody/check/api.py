@@ -25,7 +25,7 @@ from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
-from .families import ALL, Family, NoMotion
+from .families import ALL, BEFORE, Family, NoMotion
 from .frequency_claims import OMEGA
 from .inner_forces import inner_forces
 from .language.dimensions import misfit
@@ -108,7 +108,8 @@ class Checker:
         program = known.read(text, units, tight)
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
         meaning = StatementSymbols(known, program, self.sampler, given.at_start)
-        given = replace(given, since="start") if meaning.needs_past and not given.since else given
+        if meaning.needs_past and not given.since:
+            given = replace(given, since=BEFORE if meaning.names_moments and self.sampler.moment else "start")
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
 
     def check(

@@ -28,7 +28,7 @@ from .language.statements import Equation, Program, inlined, symbols_in
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
 from .symbols import Symbols
-from .user_symbols import LARGEST, LEAST, Meaning
+from .user_symbols import LARGEST, LEAST, MOMENT, Meaning
 from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
@@ -116,6 +116,11 @@ class StatementSymbols:
         """Whether it reads works, or where a motion started, which a state has only as one of a motion from the start."""
         read = [self._one(n) for n in self.required]
         return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
+
+    @property
+    def names_moments(self) -> bool:
+        """Whether it reads what something is at moments of the motion from the start, which may be before the moment of the model."""
+        return any(MOMENT in text for n in self.required for text in self._one(n).texts)
 
     @property
     def takes_long(self) -> bool:

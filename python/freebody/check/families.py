@@ -12,8 +12,9 @@ from freebody.core import CompiledModel, State
 from freebody.model.names import unquote
 from freebody.run.records import Array, quote
 
-from .integrals import extreme, summed
-from .user_symbols import LARGEST, LEAST, LOAD, OF_START, SUMMED
+from .integrals import summed
+from .moments import Moments
+from .user_symbols import LOAD, OF_START, SUMMED
 
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 
@@ -86,8 +87,8 @@ class Samples:
         """Expressions, loads and what is asked of the start, in one state."""
         state, start = self.states[k], self.starts[k] if self.starts else None
         since = state.t - start.t if start else 0.0
-        of_start = {text: at_start(text, self.core, start, since) for text in texts if OF_START.search(text)} if start else {}
-        read = {text: of_start.get(text, text) for text in texts}
+        asked = Moments(self.core, start, since) if start else None
+        read = {text: asked.in_numbers(text) if asked else text for text in texts}
         plain = [t for t, of in read.items() if not (of.startswith((LOAD, SUMMED)) or OF_START.search(of) or "(nan)" in of)]
         found = self.core.evaluate([read[text] for text in plain], state)
         if len(plain) == len(texts):
@@ -117,17 +118,6 @@ class Samples:
             for name in rows[0]:
                 self.weighed[name] = np.array([row[name].mass for row in rows]), np.array([row[name].inertia for row in rows])
         return self.weighed
-
-
-def at_start(text: str, core: CompiledModel, start: State, since: float = 0.0) -> str:
-    """An expression with numbers for what is asked of the start of the motion, which is ``since`` seconds ago."""
-
-    def value(of: str) -> float:
-        if of.startswith((f"{LARGEST}: ", f"{LEAST}: ")):
-            return extreme(of, core, start, since) if since else float("nan")
-        return float(core.evaluate([of], start)[0])
-
-    return OF_START.sub(lambda found: f"({value(found[1])!r})", text)
 
 
 # -- reactions that the balances leave open

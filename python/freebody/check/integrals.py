@@ -102,8 +102,8 @@ def summed(text: str, core: CompiledModel, start: State, state: State) -> float:
 
 
 def extreme(text: str, core: CompiledModel, start: State, typical: float) -> float:
-    """The largest value on the motion from a start, or the least, before anything switches; NaN where it goes on to grow. ``typical``: a time
-    of the motion, in s."""
+    """The largest value on the motion from a start, or the least, before anything switches at which it does not go on to grow; NaN where it
+    does so at the end. ``typical``: a time of the motion, in s."""
     word, of = text.split(": ", 1)
     sign = 1.0 if word == LARGEST else -1.0
     for doubled in range(2, _DOUBLED):
@@ -123,7 +123,8 @@ def extreme(text: str, core: CompiledModel, start: State, typical: float) -> flo
             if most >= highest - _SAME * np.ptp(values):
                 return sign * most
         if ends < motion.end.t:
-            break
+            grows = ends > start.t and values[-1] == values.max()
+            return extreme(text, core, motion.state(ends), typical) if grows else float("nan")
     return float("nan")
 
 

@@ -202,7 +202,10 @@ class Likelihood:
         again = kind == "missing term" and (
             self._is_there(term) or any(term in n.terms for n in self._parts if isinstance(n, Add))
         )
-        size = _NEW * strange + _ODD * again + self._mixture(term)
+        answered = kind == "missing term" and not term.symbols.isdisjoint(
+            self._sides
+        )  # what it is solved for is not on both sides
+        size = _NEW * strange + _ODD * (again + answered) + self._mixture(term)
         size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self._said)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)

@@ -23,7 +23,8 @@ from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated
 from .asked_model import AskedModel
 from .budget import Budget
-from .families import ALL, BEFORE, Family, NoMotion, Samples, at_start
+from .families import ALL, BEFORE, Family, NoMotion, Samples
+from .moments import Moments
 from .sides import changes_side
 from .steady import steady_state
 from .stretches import first_zero, stretches
@@ -140,11 +141,7 @@ class MotionSampler(AskedModel):
             found = self.started(values) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
         start = self.started(values) if family.since == BEFORE else start
-        lost = [
-            text
-            for text in family.vanishing
-            if found and not self.vanishes(at_start(text, self.core, start) if start else text, found)
-        ]
+        lost = [text for text in family.vanishing if found and not self.vanishes(self._of_now(text, start), found)]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
         if lost or not found or any(value <= 0 for value in self._read(family.above, found, start)):
@@ -153,7 +150,11 @@ class MotionSampler(AskedModel):
 
     def _read(self, texts: Sequence[str], state: State, start: State | None) -> list[float]:
         """Expressions in a state, with what is asked of the start of its motion."""
-        return self.core.evaluate([at_start(text, self.core, start) if start else text for text in texts], state).tolist()
+        return self.core.evaluate([self._of_now(text, start) for text in texts], state).tolist()
+
+    def _of_now(self, text: str, start: State | None) -> str:
+        """An expression with numbers for what is asked of other moments of a motion from a start."""
+        return Moments(self.core, start).in_numbers(text) if start else text
 
     def vanishes(self, text: str, state: State) -> bool:
         """Whether an expression is 0 there."""
@@ -296,7 +297,7 @@ class MotionSampler(AskedModel):
             self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
         began = self.started(values) if family.since == BEFORE else start
-        conditions = [at_start(text, self.core, began) for text in family.vanishing]
+        conditions = [self._of_now(text, began) for text in family.vanishing]
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
         first = conditions
         for motion, goes_on in self._followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):

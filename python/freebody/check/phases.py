@@ -24,6 +24,7 @@ _KINDS = {
     "taut": "taut|tight|stretched|straight",
     "slack": "slack|loose",
     "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|land(?:s|ed)"
+    r"|blow|impact|collision|shock"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|(?<![\w ])on the \w+"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leaves?|(?:lifts?|comes?)\s+off|(?:has|have)\s+(?:left|parted|(?:lifted|come)\s+off)|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"

@@ -276,10 +276,16 @@ class Symbols:
         particles = frozenset(b["name"] for b in self.metadata["bodies"] if b.get("particle"))
         joints = {j["name"]: (j["first"], j["second"]) for j in self.metadata["joints"]}
         try:
-            read = Reader(self.measured, joints, bodies, particles).read
+            read = Reader(self.measured, joints, bodies, particles, self._happenings).read
             self.put(name, read(" ".join(said.split()) if isinstance(said, str) else said))
         except ModelProblem as problem:
             raise ModelProblem(f"symbol `{name}`: {problem.what}", problem.hint) from None
+
+    @property
+    def _happenings(self) -> list[str]:
+        """The events of the model, and its parts that may change how it moves."""
+        parts = (part["name"] for kind in ("events", "contacts", "strings", "joints", "forces") for part in self.spec[kind])
+        return [*dict.fromkeys(parts)]
 
     def _declare_as_stated(self, name: str, said: str | Sequence[str | float], problem: ModelProblem) -> None:
         """A symbol by an expression in which something is asked of the start: ``2 v_0/g``."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
@@ -9,8 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from freebody.core.compiled import BEFORE as JUST_BEFORE
 from freebody.model.errors import ModelProblem
+from freebody.model.start import quantity
 from freebody.run.digits import SAFETY
+from freebody.run.moments import time_of
 from freebody.run.records import Array
 from freebody.symbolic.evaluate import sampled
 
@@ -21,7 +25,7 @@ from .language.parser import parse
 from .language.statements import Equation
 from .residual import Sides, equation_sides, residual
 from .stated import Correction
-from .user_symbols import OF_START
+from .user_symbols import MOMENT, OF_START
 from .verdict import Evidence, Kind, Verdict
 
 if TYPE_CHECKING:
@@ -159,9 +163,21 @@ class _OnRun:
         return {text: np.full(len(self.times), own[of]) if of in own else self.read(of, self.times) for text, of in read.items()}
 
     def _with_start(self, text: str) -> str:
-        """An expression with numbers for what is asked of the start of the run."""
-        begins = np.array([self.run.edges[0]])
-        return OF_START.sub(lambda found: f"({float(self.read(found[1], begins)[0])!r})", text)
+        """An expression with numbers for what is asked of the start of the run, and of its moments."""
+
+        def value(found: re.Match[str]) -> str:
+            of, _, moment = found[1].partition(MOMENT)
+            return f"({float(self.read(of, np.array([self._time(moment)]))[0])!r})"
+
+        return OF_START.sub(value, text)
+
+    def _time(self, moment: str) -> float:
+        """When a moment is; that of the start without one."""
+        name = moment.removeprefix(JUST_BEFORE)
+        if not name or name[0].isdigit():
+            return quantity("a moment", name, "s") if name else float(self.run.edges[0])
+        t = time_of(self.run, name)
+        return float(np.nextafter(t, -np.inf)) if name != moment else t
 
     def masses(self) -> dict[str, tuple[Array, Array]]:
         """As of the model's own numbers."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from freebody.core.compiled import BEFORE
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell, suggestion
 from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
@@ -41,7 +42,7 @@ class Meaning:
     def needed(self, dots: int) -> list[str]:
         """The expressions from which its derivative of that order is read. Raises ``ModelProblem``."""
         if self.kind in ("initial", "integral"):
-            return [OF_START.sub(lambda found: f"⟦{derivative(found[1], dots)}⟧", text) for text in self.texts]
+            return [OF_START.sub(lambda found: f"⟦{_rate_of(found[1], dots)}⟧", text) for text in self.texts]
         return [derivative(text, dots) for text in self.texts]
 
     def value(self, dots: int, values: Values, masses: Masses) -> Array:
@@ -86,6 +87,7 @@ class RadiusOfGyration(OfBodies):
 
 
 _KINDS = {"position": ("x", LENGTH), "velocity": ("vx", LENGTH.times(TIME, -1)), "acceleration": ("ax", LENGTH.times(TIME, -2))}
+_AT_MOMENT = re.compile(r"(.+?)\s*@\s*(.+)")
 _POINT = r"(\S+)"
 _PLACE = re.compile(rf"(position|velocity|acceleration) of {_POINT}(?: (?:from|relative to) {_POINT})?")
 _DIRECTION = re.compile(rf"(direction|normal) from {_POINT} to {_POINT}")
@@ -99,7 +101,9 @@ INITIAL = "at the start: "
 LARGEST, LEAST = "the largest", "the least"
 """How one begins of what a quantity has along the motion from the start."""
 OF_START = re.compile("⟦(.+?)⟧")
-"""A part of a text whose value where the motion starts is asked."""
+"""A part of a text whose value where the motion starts is asked, or at a moment that stands behind it."""
+MOMENT = " @ "
+"""What stands between an expression and the moment of the motion at which its value is asked."""
 SUMMED = "summed up: "
 """How a text begins of an integral along the motion: what is summed up, over what, from where."""
 LOAD = "load "
@@ -109,12 +113,13 @@ LOAD = "load "
 @dataclass(frozen=True)
 class Reader:
     """Reads declarations. ``measured`` gives the text in SI and the dimension of an expression; ``joints`` the first and second
-    body of each; ``particles`` the bodies without rotation."""
+    body of each; ``particles`` the bodies without rotation, ``happenings`` the events and what may change on a motion."""
 
     measured: Callable[[str], tuple[str, Dimension | None]]
     joints: Mapping[str, tuple[str, str]]
     bodies: Sequence[str]
     particles: frozenset[str]
+    happenings: Sequence[str]
 
     def read(self, said: str | Sequence[str | float]) -> Meaning:
         """The meaning of an expression, a list of two or three components, or a phrase. Raises ``ModelProblem``."""
@@ -130,6 +135,9 @@ class Reader:
             if phrase.startswith(f"{word}: "):
                 text, dimension = self.measured(phrase.removeprefix(f"{word}: "))
                 return Meaning("initial", (f"⟦{word}: {text}⟧",), dimension)
+        if asked := _AT_MOMENT.fullmatch(phrase):
+            text, dimension = self.measured(asked[1])
+            return Meaning("initial", (f"⟦{text}{self.at_moment(asked[2])}⟧",), dimension)
         if phrase.startswith(LOAD):
             return Meaning("reaction", (phrase,), FORCE)
         phrases = {_PLACE: self.place, _DIRECTION: self.direction, _JOINT: self.reaction}
@@ -139,6 +147,16 @@ class Reader:
                 return reading(*found.groups())
         text, dimension = self.measured(said)
         return Meaning("declared", (text,), dimension)
+
+    def at_moment(self, said: str) -> str:
+        """How a text goes on that is asked at a moment: ``start``, a time, what happens, or just ``before`` that. Raises ``ModelProblem``."""
+        name = said.removeprefix("after ").removeprefix(BEFORE)
+        if name == "start":
+            return ""
+        if not (name in self.happenings or name[0].isdigit()):
+            known = ", ".join(self.happenings) or "nothing does"
+            raise ModelProblem(f"`{name}` is nothing that happens on a motion of this model", f"what may happen: {known}")
+        return f"{MOMENT}{said.removeprefix('after ')}"
 
     def components(self, said: Sequence[str | float]) -> Meaning:
         """A vector of two components along i and j, or three."""
@@ -235,6 +253,12 @@ class Reader:
             if name not in self.bodies:
                 raise ModelProblem(f"there is no body `{name}`", suggestion(name, self.bodies))
         return tuple(names)
+
+
+def _rate_of(asked: str, dots: int) -> str:
+    """The derivative of what is asked of a moment, at that."""
+    text, at, moment = asked.partition(MOMENT)
+    return derivative(text, dots) + at + moment
 
 
 def _parts(text: str) -> list[str]:

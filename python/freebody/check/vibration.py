@@ -4,17 +4,17 @@ frequencies."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array, ModelError, MotionError, State
+from freebody.core import Array, CompiledModel, ModelError, MotionError, State
 from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
 from freebody.stability.equilibria import equilibria, newton_step, rest_near
-from freebody.stability.state_space import SingularConfiguration, state_space
+from freebody.stability.state_space import SingularConfiguration, StateSpace, state_space
 from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
 
@@ -105,7 +105,7 @@ class Vibration:
         """The numbers of those natural vibrations in which expressions of several coordinates stay 0, as they are at rest. Raises
         ``NoMotion`` where there is none."""
         core, rest, every = self.sampler.core, self.rest, list(range(1, self.count + 1))
-        space, size = state_space(core, rest), self.sampler.sizes
+        space, size = _space(core, rest), self.sampler.sizes
         slopes = core.derivatives(list(relations), rest)[:, 1 : 1 + len(size)] * size if relations else np.zeros((0, 0))
         slopes = slopes[np.sum(np.abs(slopes) > _NOTHING, axis=1) > 1]
         if not len(slopes) or len(space.free) != len(size):
@@ -123,7 +123,7 @@ class Vibration:
     def place(self) -> str:
         """Where that is, in words."""
         core, rest = self.sampler.core, self.rest
-        free = state_space(core, rest).free
+        free = _space(core, rest).free
         if len(free) > 1 and not self.alone:
             return f"the place of rest at {', '.join(free)} = {', '.join(f'{q + 0.0:g}' for q in self._places(free))} (SI)"
         name = self.alone or free[0]
@@ -158,7 +158,7 @@ class Vibration:
             return self._at_rest_on_drive(state)
         if (rest := rest_near(core, state)) is not None:
             return rest
-        a, other = (state_space(core, each).a for each in (state, sampler.moved(state, state.q + _APART * sampler.sizes, {})))
+        a, other = (_space(core, each).a for each in (state, sampler.moved(state, state.q + _APART * sampler.sizes, {})))
         return state if a.shape == other.shape and np.abs(a - other).max() <= _NOTHING * np.abs(a).max() else None
 
     def _at_rest_on_drive(self, state: State) -> State | None:
@@ -168,7 +168,7 @@ class Vibration:
             change, *_ = newton_step(core, state)
             state = self._steady(state.at(state.q + change))
             if np.abs(change / sampler.sizes).max() < _FOUND:
-                first, *others = (state_space(core, self._steady(state, late)).a for late in (0.0, *_LATE))
+                first, *others = (_space(core, self._steady(state, late)).a for late in (0.0, *_LATE))
                 same = all(np.abs(a - first).max() <= _NOTHING * np.abs(first).max() for a in others)
                 return state if same else None
         return None
@@ -194,12 +194,12 @@ class Vibration:
             if core.metadata["states"] or sampler.is_held:
                 return None
             first = self._placed(sampler.own if self._later else sampler.first)
-            free = state_space(core, first).free
+            free = _space(core, first).free
             if not free:
                 return None
             if len(free) > 1 or self._later or self._is_turned:
                 rest = self._at_rest(first)
-                return rest if rest and _swings(state_space(core, rest).a) else None
+                return rest if rest and _swings(_space(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
             found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
@@ -230,7 +230,7 @@ class Vibration:
 
     def _part(self, a: Array) -> Array | None:
         """The rows of linear equations that are of one coordinate alone; None where others have to do with it, or it does not swing."""
-        free = state_space(self.sampler.core, self.rest).free
+        free = _space(self.sampler.core, self.rest).free
         if self.alone not in free or len(a) != 2 * len(free):
             return None
         own = [free.index(self.alone), free.index(self.alone) + len(free)]
@@ -247,7 +247,7 @@ class Vibration:
                 there = self._at_rest(self._placed(self.sampler.at_moment_with(values)))
             except (MotionError, ModelError, ModelProblem, SingularConfiguration):
                 return None
-            return a if there and _swings(a := state_space(core, there).a) else None
+            return a if there and _swings(a := _space(core, there).a) else None
         p = core.bind(values)
         for stages in (1, _STAGES):
             state = rest
@@ -260,7 +260,7 @@ class Vibration:
                     state = None
                 if state is None:
                     break
-            if state is not None and _swings(a := state_space(core, state).a) and self._is_reached(values, state):
+            if state is not None and _swings(a := _space(core, state).a) and self._is_reached(values, state):
                 return a
         return None
 
@@ -270,6 +270,13 @@ class Vibration:
             return not self.sampler.loops or self.sampler.joined(self.sampler.started(values), rest)
         except (MotionError, ModelProblem):
             return False
+
+
+def _space(core: CompiledModel, state: State) -> StateSpace:
+    """The linear equations of perturbations of a state in which what is locked stays where it is."""
+    space = state_space(core, state)
+    kept = [i for i, name in enumerate(space.states) if name not in space.coordinates or space.a[i].any()]
+    return replace(space, states=tuple(space.states[i] for i in kept), a=space.a[np.ix_(kept, kept)])
 
 
 def _swings(a: Array) -> bool:

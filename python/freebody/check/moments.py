@@ -1,0 +1,58 @@
+"""What is asked of other moments of a motion than now: of its start, of what happens on it, of where something is largest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from freebody.core import CompiledModel, State
+from freebody.core.compiled import BEFORE
+from freebody.model.start import quantity
+
+from .integrals import extreme
+from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
+
+_EXACT = 1e-13  # tolerance of the motion on which something is waited for
+_DOUBLED, _STEPS = 14, 5000  # how often it is followed twice as long, and how many steps that may take
+
+
+@dataclass
+class Moments:
+    """The moments of the motion from a start, which is ``since`` seconds ago; each is looked for once."""
+
+    core: CompiledModel
+    start: State
+    since: float = 0.0
+    known: dict[str, State | None] = field(default_factory=dict)
+
+    def in_numbers(self, text: str) -> str:
+        """An expression with numbers for what is asked of other moments; NaN for one to which the motion does not come."""
+        return OF_START.sub(lambda found: f"({self._value(found[1])!r})", text)
+
+    def _value(self, of: str) -> float:
+        if of.startswith((f"{LARGEST}: ", f"{LEAST}: ")):
+            return extreme(of, self.core, self.start, self.since) if self.since else float("nan")
+        text, _, moment = of.partition(MOMENT)
+        if moment not in self.known:
+            self.known[moment] = self._state(moment) if moment else self.start
+        there = self.known[moment]
+        return float(self.core.evaluate([text], there)[0]) if there else float("nan")
+
+    def _state(self, moment: str) -> State | None:
+        """The state at a time, or just before or after the first of what happens under a name."""
+        core, start, name = self.core, self.start, moment.removeprefix(BEFORE)
+        until, span = None, 1 / core.free_bodies(start).usual_rate(core.metadata["coordinates"], start.u)
+        if name[0].isdigit():
+            until = quantity("a moment", name, "s")
+            span = until - start.t
+        for doubled in range(_DOUBLED):
+            motion = core.simulate(start, start.t + span * 2**doubled, rtol=_EXACT, max_steps=_STEPS)
+            happened = [(event.t, event.name) for event in motion.events]
+            happened += [(change.t, part) for change in motion.changes for part in change.of]
+            times = [t for t, what in happened if what == name] if until is None else [until]
+            if times and min(times) <= motion.end.t:
+                return motion.state(float(np.nextafter(min(times), -np.inf)) if moment != name else min(times))
+            if until is not None or motion.end.t < start.t + span * 2**doubled:
+                break
+        return None
