@@ -42,7 +42,7 @@ from .timed_claims import holds_on_run
 from .usual_names import ENERGIES
 from .verdict import Kind, Verdict, judged, of_wrong_dimensions
 from .vibration import Vibration
-from .wording import as_claim, with_condition_first
+from .wording import BLOW, as_claim, with_condition_first
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
 _ROOT = re.compile(r"√|sqrt")
-_BLOW = re.compile(r"impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump")
+_BLOW = re.compile(BLOW)
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
@@ -308,8 +308,8 @@ class Checker:
         if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
             return None
         run = self.own_motion
-        parts = {tuple(change.of[:1]) for change in run.changes if change.t > run.t[0] and change.kind == "impact"}
-        return next(iter(parts))[0] if len(parts) == 1 else None
+        parts = {change.of[0].partition(".")[0] for change in run.changes if change.t > run.t[0] and change.kind == "impact"}
+        return next(iter(parts)) if len(parts) == 1 else None
 
     def event_called(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,8 +21,10 @@ NOTHING = 1e-11  # of what an expression changes by within the model's sizes: wh
 _DONE = 1e-14  # of the same: where Newton's method has nothing left to do
 _MANY_TIMES = 1e3  # a parameter that is to make an expression vanish is at most so much larger than it was drawn
 _NEWTON = 30  # steps of it
+_AGAIN = 2  # times that what is to vanish is arranged anew: to second order one moves another
+_HALVES = 6  # times that a step is halved
 _FELT = 1e-6  # of what an expression changes by within the model's sizes: below it what is to stay does so by itself
-_STEP = 1e-6  # of central differences, relative to the size of a coordinate
+_STEP = 1e-6  # of central differences, relative to a parameter
 
 
 def arranged(
@@ -37,15 +39,16 @@ def arranged(
     """The nearest state at which ``conditions`` are 0, with rates other than those given unless it is at rest; where it cannot be so, with
     another of the ``values`` of those parameters that are ``adjustable``. Raises ``NoMotion`` and ``MotionError``."""
     kept: list[str] = []
-    for text in conditions:
+    for text in (*conditions, *family.vanishing * _AGAIN):
         if not model.vanishes(text, state):
             try:
-                state = _vanished(model, text, state, [] if family.at_rest else list(rates), kept)
+                others = [each for each in kept if each != text]
+                state = _vanished(model, text, state, list(rates), others, not family.at_rest)
             except (NoMotion, MotionError):
                 if (found := _fitted(model, text, state, values, adjustable)) is None:
                     raise
                 state = found
-        kept += [text] if text in family.vanishing else []  # what is small need not stay just so
+        kept += [text] if text in family.vanishing and text not in kept else []  # what is small need not stay just so
     return state
 
 
@@ -77,42 +80,92 @@ def _fitted(
     return None
 
 
-def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str], kept: Sequence[str]) -> State:
-    """The nearest rates, or where they are not in it the nearest place, at which an expression is 0 and those ``kept`` are what they were;
-    ``free`` are the rates that can be given. Raises ``NoMotion`` and ``MotionError``."""
-    which = [model.names.index(name) for name in free]
-
-    def values(q: Array, rates: Array) -> Array:
-        there = model.moved(state, q, dict(zip(free, rates.tolist(), strict=True)))
-        return model.core.evaluate([text, *kept], there)
-
-    def way(of: Callable[[Array], Array], at: Array, units: Array, step: float = 1.0) -> Array:
-        """The direction in which the expression changes most while those that are kept stay, in ``units``."""
-        if not at.size:
-            return at
-        first, *others = _slopes(of, at, step * units) * units
-        felt = [row for row, size in zip(others, sizes[1:], strict=True) if np.abs(row).max(initial=0.0) > _FELT * size]
-        return first - np.transpose(felt) @ np.linalg.lstsq(np.transpose(felt), first, rcond=None)[0] if felt else first
-
-    q, u, sizes = state.q, state.u[which], [model.size_of(each, state) for each in (text, *kept)]
-    speeds, least = model.rate * model.sizes[which], NOTHING * sizes[0]
-    by_rates = np.abs(way(partial(values, q), u, speeds)).max(initial=0.0) > least
+def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str], kept: Sequence[str], by_rates: bool) -> State:
+    """The nearest rates if it may be ``by_rates``, or where they are not in it the nearest place, at which an expression is 0 and those ``kept``
+    are what they were; ``free`` are the rates that can be given. Raises ``NoMotion`` and ``MotionError``."""
+    kinds = (_Rates, _Place) if by_rates else (_Place,)
+    ways = [kind(model, state, (text, *kept), free) for kind in kinds]
+    way = next((way for way in ways if way.change(state) is not None), None)
     for _ in range(_NEWTON):
-        if abs(left := values(q, u)[0]) <= _DONE * sizes[0]:
+        if way and way.left(state) <= _DONE:
             break
-        units = speeds if by_rates else model.sizes
-        along = way(partial(values, q), u, speeds) if by_rates else way(partial(values, rates=u), q, units, _STEP)
-        if not np.abs(along).max(initial=0.0) > least:
+        if way is None or (change := way.change(state)) is None:
             why = "it depends on nothing that is free in" if model.free_rates.size else "no freedom is left in"
             raise NoMotion(f"`{stated(text)}` cannot be arranged: {why} this mechanism")
-        change = units * along * left / (along @ along)
-        q, u = (q, u - change) if by_rates else (q - change, u)
-    return model.moved(state, q, dict(zip(free, u.tolist(), strict=True)))
+        state = way.towards(state, change)
+    return state
 
 
-def _slopes(of: Callable[[Array], Array], at: Array, steps: Array) -> Array:
-    """Derivatives of several numbers, a row each, by central differences."""
-    return np.array([(of(at + step) - of(at - step)) / (2 * step.sum()) for step in np.diag(steps)]).T
+class _Rates:
+    """By which rates the first of some expressions becomes 0, while the others are kept."""
+
+    step = 1.0  # of central differences, in units
+
+    def __init__(self, model: MotionSampler, state: State, texts: Sequence[str], free: Sequence[str]) -> None:
+        self.model, self.texts, self.free = model, texts, free
+        self.which = [model.names.index(name) for name in free]
+        self.units = model.rate * model.sizes[self.which]
+        self.sizes = np.array([model.size_of(each, state) for each in self.texts])
+
+    def at(self, state: State) -> Array:
+        """What is to be changed, in its units."""
+        return state.u[self.which] / self.units
+
+    def reached(self, state: State, x: Array) -> State:
+        """The state with another of it."""
+        return self.model.moved(state, state.q, dict(zip(self.free, (x * self.units).tolist(), strict=True)))
+
+    def moves(self, state: State) -> Array:
+        """What moves with it, by which is measured how near it stays."""
+        return self.at(state)
+
+    def left(self, state: State) -> float:
+        """How far the expression is from 0, of what it changes by."""
+        return abs(float(self.model.core.evaluate(self.texts[:1], state)[0])) / self.sizes[0]
+
+    def change(self, state: State) -> Array | None:
+        """The least change by which the expression is 0 to first order; None where nothing changes it."""
+        x = self.at(state)
+        if not x.size:
+            return None
+
+        def read(there: Array) -> Array:
+            found = self.reached(state, there)
+            return np.concatenate([self.model.core.evaluate(self.texts, found) / self.sizes, self.moves(found)])
+
+        slopes = np.array([(read(x + step) - read(x - step)) / (2 * self.step) for step in np.diag(np.full(len(x), self.step))]).T
+        (first, *others), moved = np.split(slopes, [len(self.texts)])
+        rows = np.array([first, *(row for row in others if np.abs(row).max() > _FELT)])
+        near = np.linalg.pinv(moved.T @ moved) @ rows.T
+        wanted = -self.model.core.evaluate(self.texts[:1], state)[0] / self.sizes[0] * np.eye(len(rows))[0]
+        change = near @ np.linalg.pinv(rows @ near) @ wanted
+        reaches = np.abs(first).max() > NOTHING and np.allclose(rows @ change, wanted, rtol=_FELT, atol=_FELT * abs(wanted[0]))
+        return change if reaches else None
+
+    def towards(self, state: State, change: Array) -> State:
+        """The state so much farther on, or half as far where loops do not come there. Raises ``MotionError``."""
+        for _ in range(_HALVES):
+            with suppress(MotionError):
+                return self.reached(state, self.at(state) + change)
+            change = change / 2
+        return self.reached(state, self.at(state) + change)
+
+
+class _Place(_Rates):
+    """By which place it becomes 0, with the same rates: of the coordinates that say where loops are."""
+
+    step = 1e-6
+
+    def at(self, state: State) -> Array:
+        return state.q[self.model.places] / self.model.sizes[self.model.places]
+
+    def reached(self, state: State, x: Array) -> State:
+        q = state.q.copy()
+        q[self.model.places] = x * self.model.sizes[self.model.places]
+        return self.model.moved(state, q, dict(zip(self.free, state.u[self.which].tolist(), strict=True)))
+
+    def moves(self, state: State) -> Array:
+        return state.q / self.model.sizes
 
 
 def stated(text: str) -> str:

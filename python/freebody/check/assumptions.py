@@ -21,7 +21,7 @@ from freebody.symbolic.evaluate import Array, is_zero, sampled
 from freebody.symbolic.tree import Fn, Pow, Sym, walk
 
 from .case import Case
-from .families import Family, NoMotion
+from .families import BEFORE, Family, NoMotion
 from .figures import figures, rounding
 from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, OFTEN, REACH, SLIGHT, magnitude, residual, unreached
@@ -50,6 +50,7 @@ WORDS: dict[str, dict[str, Any]] = {
 """Hypotheses that are said in words alone."""
 _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
+_OTHER_THAN = re.compile(r"([^=<>≤≥≠]+)(?:≠|\\neq?(?![a-z])|!=)([^=<>≤≥≠]+)")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
 FROM_REST = f"{FROM_START} at rest"
@@ -148,9 +149,25 @@ def _to_first_order(case: Case, equation: Equation) -> str:
     return ""
 
 
-def first_order(case: Case, equation: Equation, family: Family) -> bool:
-    """Whether what is left is of higher order than each term, as what is small grows smaller. Raises ``NoMotion``."""
-    larger = wider(family)
+def small_from_start(case: Case, size: float = _TINY) -> Case:
+    """The statement of the motions from the start with which the numbers of that are small."""
+    given, names = case.hypothesis, case.meaning.of_start_alone
+    since = given.since or (BEFORE if case.sampler.moment else "start")
+    scaled = (*given.scaled, *((name, size) for name in names))
+    return replace(case, hypothesis=replace(given, small=(), since=since, scaled=scaled), known={})
+
+
+def first_order_from_start(case: Case, equation: Equation) -> bool | None:
+    """Whether it is true to first order on those; None where it does not speak of the start, or there are none."""
+    near, far = (small_from_start(case, size).hypothesis for size in (SMALL, 10 * SMALL))
+    with suppress(NoMotion, StatementError, ModelError, MotionError):
+        return first_order(case, equation, near, far) if case.meaning.speaks_of_start(equation) else None
+    return None
+
+
+def first_order(case: Case, equation: Equation, family: Family, larger: Family | None = None) -> bool:
+    """Whether what is left is of higher order than each term, as what is small grows smaller, from ``larger`` on. Raises ``NoMotion``."""
+    larger = larger or wider(family)
 
     def beside_terms(values: Mapping[str, Array]) -> float:
         """What is left of the equation beside the least of its terms, in the median."""
@@ -315,6 +332,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         return replace(given, held=(*given.held, *((name, 0.0) for name in lost)))
     if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(.+)", part):
         return _with_limit(given, found[1], found[2], checker, declared)
+    if found := _OTHER_THAN.fullmatch(part):
+        return replace(given, above=(*given.above, f"abs({_meant(f'({found[1]}) - ({found[2]})', checker, declared)}) - {SMALL}"))
     if found := _ABOVE.fullmatch(part):
         more, less = (found[1], found[3]) if found[2] in _MORE else (found[3], found[1])
         return replace(given, above=(*given.above, _meant(f"({more}) - ({less})", checker, declared)))

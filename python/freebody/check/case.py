@@ -133,8 +133,13 @@ class StatementSymbols:
         """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
         said = [text for n in symbols_in(equation) for text in self.texts(Sym(n.name))]
         words = {word for text in said for word in _WORD.findall(text)}
-        of_start = (name for name in self.sampler.free_parameters if name in words and name not in self.sampler.gravities)
-        return "t" in said or any(not _named(name, self.mechanics) for name in of_start)
+        return "t" in said or not words.isdisjoint(self.of_start_alone)
+
+    @cached_property
+    def of_start_alone(self) -> list[str]:
+        """Free parameters that say where and how fast the model starts, and nothing else."""
+        free, gravities = self.sampler.free_parameters, self.sampler.gravities
+        return [name for name in free if name not in gravities and not _named(name, self.mechanics)]
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""

@@ -20,12 +20,24 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import FROM_START, family, first_order, says_zero, tiny, vanishes, wider
+from .assumptions import (
+    FROM_START,
+    SMALL,
+    WORDS,
+    family,
+    first_order,
+    first_order_from_start,
+    says_zero,
+    small_from_start,
+    tiny,
+    vanishes,
+    wider,
+)
 from .case import Case
 from .condition_edits import other_conditions
 from .constants import constant_corrections
 from .correction import MOST, SECOND, corrections
-from .families import ALL, SINCE_START, Samples
+from .families import ALL, SINCE_START, NoMotion, Samples
 from .frequency_claims import frequencies
 from .language.parser import parse_expression
 from .language.spelling import spell
@@ -33,9 +45,11 @@ from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import touching
 from .phases import phase
 from .residual import HOLDS, jacobian, magnitude, residual
+from .stated import Correction
+from .two_moments import BETWEEN, across_impact, between, changes
 from .verdict import Evidence, Kind, Verdict, evidence
 from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled, on_later_stretch
-from .wording import as_claim, named, with_condition_first
+from .wording import BLOW, as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -54,6 +68,10 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     if (found := _JUST.match(claim)) and (happening := checker.only_impact):
         claim = f"{found[1]} {happening}:{claim[found.end() :]}"
     claim = as_claim(claim)
+    if (found := _AT_BLOW.match(claim)) and (
+        verdict := across_impact(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
+    ):
+        return verdict
     for pattern, judge in _FORMS:
         if found := pattern.fullmatch(claim):
             said = ((part or "").strip() for part in found.groups())
@@ -167,35 +185,6 @@ def _is_of_places(case: Case) -> bool:
     return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
 
 
-def _changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
-    """``ΔT + ΔV = 0``: a sum that stays the same, each term of it a change."""
-    alone = _CHANGED.fullmatch(left.strip()) and not _CHANGE.search(right) and right.strip() != "0"
-    if alone or "∫" in left + right or r"\int" in left + right:
-        since = (_CHANGED.sub(r"(\1 - \1(0))", side) for side in (left, right))
-        return checker.check(" = ".join(since), declared)
-    case = _reading(checker, declared, f"({_CHANGE.sub('', left)}) - ({_CHANGE.sub('', right)})")
-    (equation,), changes = case.equations, _CHANGE.findall(left + right)
-    if len(terms(equation)) != len(changes):
-        what = "a change stands beside what is none"
-        raise ModelProblem(what, "write `Δ` before each term, or the work of a force by its name, like `motor.work`")
-    return _constant(checker, declared, spell(equation.left))
-
-
-def _between(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict:
-    """From a moment 1 to a moment 2, ``J (ω₂ − ω₁) = M (t₂ − t₁)``: the first is the start, the second any time; letters with these
-    indices of the model or the person are what they are."""
-    known = checker.symbols(declared)
-
-    def at_moment(found: re.Match[str]) -> str:
-        letter, index = found[2], "1" if found[4] in "1₁" else "2"
-        meant = f"_{index}" if known.spelt(f"{letter}_{index}") else ""
-        return f"{found[1] or ''}{letter}{meant}{found[3]}{found[5]}{'(0)' if index == '1' and not meant else ''}"
-
-    since = replace(checker.hypothesis, since=checker.hypothesis.since or "start")
-    verdict = checker.check(_INDEXED.sub(at_moment, statement), declared, since)
-    return replace(verdict, notes=(*verdict.notes, f"`{label}` is read as from the start to any time."))
-
-
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:
     """True under a hypothesis, and broken by an example without it."""
     under = _if(checker, declared, condition, statement)
@@ -210,6 +199,9 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
 
 def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
     """In a limit: what is left shrinks with the parameter, or vanishes."""
+    *others, words = sorted((part.strip() for part in limits.split(",")), key=lambda part: IN_WORDS.fullmatch(part) is not None)
+    if others and IN_WORDS.fullmatch(words) and words not in WORDS and (found := phase(checker, words)):
+        return in_phase(checker, declared, found, words, f"limit: {statement} as {', '.join(others)}")
     given = family(limits, checker, declared)
     case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
@@ -239,12 +231,26 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
     for equation in case.equations:
         if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
             continue
-        if not first_order(case, equation, case.hypothesis):
-            found = residual(equation, case.values())
-            mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and (near := tiny(case, equation)) else ()
-            seen = evidence(found, case.values())
+        from_start = first_order_from_start(case, equation)
+        if not (from_start or _first_order(case, equation, from_start is None)):
+            near = tiny(case, equation) if from_start is None else ("", small_from_start(case))
+            mends: tuple[Correction, ...] = ()
+            with suppress(NoMotion):
+                mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and near else ()
+            values = (case if from_start is None else small_from_start(case, SMALL)).values()
+            seen = evidence(residual(equation, values), values)
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
+
+
+def _first_order(case: Case, equation: Equation, needed: bool) -> bool:
+    """Whether it is true to first order in small motions of any kind. Raises ``NoMotion`` where that is ``needed`` and there are none."""
+    try:
+        return first_order(case, equation, case.hypothesis)
+    except NoMotion:
+        if needed:
+            raise
+        return False
 
 
 def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
@@ -259,7 +265,9 @@ def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
         if len(runs) >= _ENOUGH and worst > _CLEARLY and not case.correcting:
             break
         try:
-            along, change = _along(checker, sample, until_change=bool(case.hypothesis.since or checker.sampler.moment))
+            along, change = _along(
+                checker, sample, until_change=bool(case.hypothesis.since or checker.sampler.moment or checker.is_at_first)
+            )
         except MotionError as error:  # with these numbers what switches on it cannot be carried through
             broken = error
             continue
@@ -412,6 +420,8 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
+_AT_BLOW = re.compile(rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*)\s*:")
+"""``impact:``, ``at the stroke:``."""
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")
 """What comes to 0 on a motion from the start, as a speed where something stops."""
 _PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")
@@ -420,14 +430,6 @@ _TO_ZERO = re.compile(r"\s*=\s*0(?![.\d])")
 _BESIDE_WORDS = " ↑↓→←↺↻+()"
 """What stands beside the words of a label: in which sense is counted."""
 _NAME = re.compile(r"\s*([^\s:=]+)\s*:?=\s*([^=:]+)")
-_CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
-"""The change of something since the start."""
-_CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?\w+)?)")
-_STATE = r"(?:(?:the\s+)?(?:time|instant|moment|state|position|place|point)s?\s+)?\$?(?:t\s*=\s*)?(?:t_?)?\{?"
-_BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|and)\s+{_STATE}[2₂]\}}?\$?)\s*"
-"""``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
-_INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)")
-"""A letter with its dots and the index of a moment."""
 _WHOLE = {
     "limit": "limit: … as p -> 0",
     "follows": "follows: … from …",
@@ -440,7 +442,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
     (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), frequencies),
     (re.compile(r"constant:(.+)", re.S), _constant),
-    (re.compile(rf"{_BETWEEN}:(.+)", re.S), _between),
+    (re.compile(rf"{BETWEEN}:(.+)", re.S), between),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),
@@ -449,7 +451,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
     (re.compile(r"at (.+?):(.+)", re.S), _at),
     (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), beside_event),
-    (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), _changes),
+    (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), changes),
     (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),
 )
 """Forms of claims, each with what judges it."""

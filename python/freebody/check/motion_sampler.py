@@ -115,10 +115,15 @@ class MotionSampler(AskedModel):
             for failed in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
                 if thread_time() - began > _MOST * seconds:
                     break
-                with suppress(MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
+                try:
                     if (made := self._made(rng, self._parameters(rng, family), family, _NEARER**failed)) is not None:
                         found.append(made)
                         break
+                except NoMotion:
+                    if not found and failed >= _ENOUGH:  # else it may be so with these numbers alone
+                        raise
+                except (MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
+                    pass
         if not found and count >= _PATIENCE:
             self._without.add((family, fresh))
         far = family.late or (family.since and family.vanishing)
@@ -134,7 +139,7 @@ class MotionSampler(AskedModel):
         if (family.since or driven) and not family.at_start:
             found, start = self._since_start(rng, values, family)
         elif self.restricted:
-            found = self._near_moment(rng, values, family)
+            found = self._near_moment(rng, values, family, reach)
         elif self.rolls_in_loop and not family.at_start:
             found, start = self._rolled_on(rng, values, family)
         else:
@@ -269,15 +274,17 @@ class MotionSampler(AskedModel):
         chosen = sorted(order[independent(self.free_rates[order])].tolist())
         return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
-    def _near_moment(self, rng: np.random.Generator, values: Mapping[str, float], family: Family) -> State | None:
+    def _near_moment(self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float) -> State | None:
         """A state of the same mode with random numbers, mostly at a random place with random rates, at which what is closed stays so;
         else a little after the moment, as long as nothing switches."""
         late = 0.0
         if family.at_start:
             state = self._at_moment(self.started(values))
         else:
-            own, random = self._at_moment(self.started(values)) if self._puts_in_place else self.own, rng.random() < _ELSEWHERE
-            q = own.q + _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
+            random = rng.random() < _ELSEWHERE
+            with_them = self._puts_in_place or reach < 1  # strings may be as long as they are at the start
+            own = self._at_moment(self.started(values)) if with_them else self.own
+            q = own.q + reach * _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
             rates, there = self._rates(rng, family), self._named(own.u)
             if not (random or family.at_rest):
                 rates = {name: there[name] for name in rates}

@@ -27,7 +27,7 @@ _KINDS = {
     r"|blow|impact|collision|shock"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|(?<![\w ])on the \w+"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
-    "lift-off": r"leaves?|(?:lifts?|comes?)\s+off|(?:has|have)\s+(?:left|parted|(?:lifted|come)\s+off)|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
+    "lift-off": r"leaves?|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
     r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",

@@ -284,8 +284,9 @@ class Symbols:
     @property
     def _happenings(self) -> list[str]:
         """The events of the model, and its parts that may change how it moves."""
-        parts = (part["name"] for kind in ("events", "contacts", "strings", "joints", "forces") for part in self.spec[kind])
-        return [*dict.fromkeys(parts)]
+        kinds = ("events", "contacts", "strings", "stops", "joints", "forces")
+        names = [part["name"] for kind in kinds for part in self.spec[kind]]
+        return [*dict.fromkeys(each for name in names for each in (name, name.partition(".")[0]))]
 
     def _declare_as_stated(self, name: str, said: str | Sequence[str | float], problem: ModelProblem) -> None:
         """A symbol by an expression in which something is asked of the start: ``2 v_0/g``."""

@@ -10,9 +10,10 @@ from .language.glyphs import CONDITION
 _INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long as|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
-_BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|while|during|until)\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
+_WHILE = r"while|during|until|between(?=\s+(?:\w+\s+)?\w+s\s*[:,])"
+_BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|{_WHILE})\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|while|during|until|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|while|during|until|small)\b[^:;\n]*:(?!=))"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|{_WHILE}|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|{_WHILE}|small)\b[^:;\n]*:(?!=))"
     rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
 """``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
@@ -21,7 +22,8 @@ _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
 _FREQUENCIES = re.compile(
     r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)"
 )
-LASTS = re.compile(r"(?:while|until|during|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
+BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump"
+LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
 _WORDS = re.compile(r"[\w\s'-]+")
 _WITHOUT = re.compile(
@@ -59,7 +61,7 @@ _GIVEN_IN_WORDS = re.compile(
 )
 """``engine off, no damping (Q = 0, c = 0):``."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
-_SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^=]*:(?!=))")
+_SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
 _OF_WHAT = re.compile(
     rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
 )
@@ -106,6 +108,11 @@ _CONSTANT = re.compile(
 )
 """``E = T + V = const``, ``p is conserved``, ``H stays the same``."""
 _UNCHANGING = re.compile("cons|same|chang")
+_CONSTANT_WHEN = re.compile(
+    rf"\s*(?:(?!(?:{CONDITION})\b)[A-Za-z][\w\s'-]*,\s*)?constant\s*((?:{_STARTS}|{_WHILE})\s[^=:;\n]*)?:(?!=)\s*(.+)",
+    re.S,
+)
+"""``constant after the catch: …``, ``energy, constant: …``."""
 _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
 """``Energy: T + V = const``."""
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
@@ -145,6 +152,8 @@ def with_condition_first(text: str) -> str:
     said = _NOTHING.sub(r"\1:", _FRACTION.sub(r"d/dt(\1)", _DERIVATIVE.sub(r"d\1/dt\1(\2)", said)))
     if said.startswith("limit:"):
         return said
+    if found := _CONSTANT_WHEN.fullmatch(said):
+        said = f"{found[1].strip()}: constant: {found[2]}" if found[1] else f"constant: {found[2]}"
     if found := _PLUS_CONSTANT.fullmatch(said):
         return f"constant: {found[1]} {'-' if found[2] == '+' else '+'} ({found[3]})"
     if found := _CONSTANT_FIRST.fullmatch(said):
@@ -197,8 +206,10 @@ def _conditional(word: str, words: str, statement: str) -> str:
     said = _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1, \2" if named else r"\2", words)))
     if word == "at" and said == "start":
         return f"at start: {statement}"  # of the model's own run, as ``at end``
-    first, *others = _PARTS.split(said)
     labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch, _QUANTITY.fullmatch
+    whole, *rest = said.split(",")
+    rest = [part for part in rest if not _OF_WHAT.fullmatch(part)]
+    first, *others = (part for each in (whole, *rest) for part in _PARTS.split(each))
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
     if (kept := [part for part in parts if part.strip() not in ("constant", "conserved")]) and len(kept) < len(parts):
         parts, statement = kept, f"constant: {statement}"
@@ -276,7 +287,7 @@ def _condition(part: str) -> str:
         return f"{found[1]}, from the start"
     if found := _THROUGHOUT.fullmatch(said):  # so are its rates
         return f"{found[1]} = {found[2]}, ({found[1]})' = ({found[2]})'"
-    return "at rest" if said == "rest" else said
+    return "at rest" if re.fullmatch(r"(?:at )?rest(?: in (?:the|its) [\w ]*frame)?", said) else said
 
 
 def named(name: str, said: str) -> tuple[str, str]:

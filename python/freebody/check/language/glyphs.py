@@ -91,7 +91,7 @@ _UPRIGHT = {Kind.LOW: Kind.DIGIT, Kind.RAISED: Kind.WORD}
 _BLANKS = re.compile(r"\s*")
 _COMMENT = re.compile(r"(?<!\\)(?:#|%(?<!\d%)(?<!\d %))[^\n]*")
 CONDITION = (
-    r"at|as|when|once|if|in|for|with|after|before|initially|just|immediately|right(?=\s+(?:after|before|at|when)\b)|until|while|during|lim|given|assuming|provided"
+    r"at|as|between|when|once|if|in|for|with|after|before|initially|just|immediately|right(?=\s+(?:after|before|at|when)\b)|until|while|during|lim|given|assuming|provided"
     r"|neglecting|without|suppose|starting|released|from rest"
 )
 """Words with which no label begins: what stands there says of which motions it is."""
