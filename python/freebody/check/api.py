@@ -109,7 +109,7 @@ class Checker:
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
         meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         if meaning.needs_past and not given.since:
-            given = replace(given, since=BEFORE if meaning.names_moments and self.sampler.moment else "start")
+            given = replace(given, since=BEFORE if meaning.names_moments else "start")
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
 
     def check(
@@ -303,13 +303,17 @@ class Checker:
         )
 
     @cached_property
+    def impacts(self) -> set[str]:
+        """The parts at which there are impacts on the model's own run."""
+        return {change.of[0].partition(".")[0] for change in self.own_motion.changes if change.kind == "impact"}
+
+    @cached_property
     def only_impact(self) -> str | None:
         """What the impacts on the model's own run are at, where it is one part, and nothing happens at its start."""
         if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
             return None
-        run = self.own_motion
-        parts = {change.of[0].partition(".")[0] for change in run.changes if change.t > run.t[0] and change.kind == "impact"}
-        return next(iter(parts)) if len(parts) == 1 else None
+        starts = any(change.t == self.own_motion.t[0] and change.kind == "impact" for change in self.own_motion.changes)
+        return next(iter(self.impacts)) if len(self.impacts) == 1 and not starts else None
 
     def event_called(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state

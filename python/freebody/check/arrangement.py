@@ -105,7 +105,7 @@ class _Rates:
         self.model, self.texts, self.free = model, texts, free
         self.which = [model.names.index(name) for name in free]
         self.units = model.rate * model.sizes[self.which]
-        self.sizes = np.array([model.size_of(each, state) for each in self.texts])
+        self.sizes = np.array([model.size_of(each, state) or 1.0 for each in self.texts])
 
     def at(self, state: State) -> Array:
         """What is to be changed, in its units."""

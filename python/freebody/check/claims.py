@@ -420,7 +420,7 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-_AT_BLOW = re.compile(rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*)\s*:")
+_AT_BLOW = re.compile(rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*)\s*(?:,[^=<>:;\n]*)?:")
 """``impact:``, ``at the stroke:``."""
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")
 """What comes to 0 on a motion from the start, as a speed where something stops."""

@@ -51,6 +51,8 @@ class Moments:
             happened = [(event.t, event.name) for event in motion.events]
             happened += [(change.t, part) for change in motion.changes for part in change.of]
             times = [t for t, what in happened if name in (what, what.partition(".")[0])] if until is None else [until]
+            if times and moment != name and min(times) == start.t:
+                return start
             if times and min(times) <= motion.end.t:
                 return motion.state(float(np.nextafter(min(times), -np.inf)) if moment != name else min(times))
             if until is not None or motion.end.t < start.t + span * 2**doubled:

@@ -50,8 +50,9 @@ def between(checker: Checker, declared: Declared, label: str, statement: str) ->
 def across_impact(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict | None:
     """``stroke: Δ[J θ' + I φ'] = 0``, ``impact: v_2 = -e v_1``: just before and just after the only thing that there are impacts at; None
     where no letter is of these moments."""
-    if (re.match(r"\s*(?:Δ|\\Delta)|.*[12₁₂]", statement, re.S) is None) or not (happening := checker.only_impact):
+    if re.search(r"Δ|\\Delta|[12₁₂]", statement) is None or len(parts := checker.impacts) != 1:
         return None
+    (happening,) = parts
     known, letters = checker.symbols(declared), dict[str, str]()
 
     def beside(said: str, name: str, index: str) -> str:
@@ -59,20 +60,20 @@ def across_impact(checker: Checker, declared: Declared, label: str, statement: s
         return f"{name}_{index}"
 
     def change(found: re.Match[str]) -> str:
-        name = f"S{len(letters)}"
+        name = f"S{chr(97 + len(letters) // 2)}"
         return f"({beside(found[1] or found[2], name, '2')} - {beside(found[1] or found[2], name, '1')})"
 
     def at_moment(found: re.Match[str]) -> str:
-        letter, index = found[2], "1" if found[4] in "1₁" else "2"
-        if known.spelt(f"{letter}_{index}"):
+        letter, index = f"{found[2]}{f'_{found[4]}' * bool(found[4])}", "1" if found[5] in "1₁" else "2"
+        if known.spelt(f"{letter}{'' if found[4] else '_'}{index}"):
             return found[0]
-        primes = found[3] + found[5] + "}" * ((found[1] or "").count("{") - found[3].count("}"))
+        primes = found[3] + found[6] + "}" * ((found[1] or "").count("{") - found[3].count("}"))
         dotted = f"{found[1] or ''}{letter}{primes}"
         name = re.sub(r"\\(?:var)?", "", letter) + "dot" * (re.search("dot|'", dotted) is not None)
         return f" {beside(dotted, name, index)} "
 
     with suppress(StatementError, ModelProblem):
-        said = _INDEXED.sub(at_moment, _DELTA.sub(change, statement))
+        said = _DELTA.sub(change, _AT_SIDE.sub(at_moment, statement))
         if letters:
             verdict = checker.check(said, {**declared, **letters}, correcting=checker.correcting)
             read = f"`{label}` is read as the impact at {happening}, 1 as just before it and 2 as just after it."
@@ -91,3 +92,5 @@ BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|a
 """``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
 _INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)")
 """A letter with its dots and the index of a moment."""
+_AT_SIDE = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([A-Za-z]*)([12₁₂])(?![A-Za-z0-9{])\}?('*)")
+"""The same, where it may have another index before that: ``v_{y1}``."""

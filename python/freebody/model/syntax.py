@@ -34,8 +34,14 @@ class Expression:
 
     def show(self, tree: Node) -> str:
         """A part as it is written."""
-        start, end = tree.span
-        return self.text.encode()[start:end].decode(errors="replace")
+        (start, end), text = tree.span, self.text.encode()
+        while text.count(b")", start, end) > text.count(
+            b"(", start, end
+        ):  # a product begins behind the bracket of its first factor
+            start = text.rindex(b"(", 0, start)
+        while text.count(b"(", start, end) > text.count(b")", start, end):
+            end = text.index(b")", end) + 1
+        return text[start:end].decode(errors="replace")
 
 
 def parse(text: str, known: Callable[[str], bool] | None = None, in_full: Callable[[str], str] = str) -> Expression:
