@@ -86,13 +86,15 @@ def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str]
     kinds = (_Rates, _Place) if by_rates else (_Place,)
     ways = [kind(model, state, (text, *kept), free) for kind in kinds]
     way = next((way for way in ways if way.change(state) is not None), None)
+    if way is None:
+        why = "it depends on nothing that is free in" if model.free_rates.size else "no freedom is left in"
+        raise NoMotion(f"`{stated(text)}` cannot be arranged: {why} this mechanism")
     for _ in range(_NEWTON):
-        if way and way.left(state) <= _DONE:
+        if way.left(state) <= _DONE or (change := way.change(state)) is None:
             break
-        if way is None or (change := way.change(state)) is None:
-            why = "it depends on nothing that is free in" if model.free_rates.size else "no freedom is left in"
-            raise NoMotion(f"`{stated(text)}` cannot be arranged: {why} this mechanism")
         state = way.towards(state, change)
+    if way.left(state) > NOTHING:
+        raise NoMotion(f"`{stated(text)}` cannot be arranged: nothing near is so")
     return state
 
 
@@ -152,20 +154,18 @@ class _Rates:
 
 
 class _Place(_Rates):
-    """By which place it becomes 0, with the same rates: of the coordinates that say where loops are."""
+    """By which place it becomes 0, with the same rates."""
 
     step = 1e-6
 
     def at(self, state: State) -> Array:
-        return state.q[self.model.places] / self.model.sizes[self.model.places]
+        return state.q / self.model.sizes
 
     def reached(self, state: State, x: Array) -> State:
-        q = state.q.copy()
-        q[self.model.places] = x * self.model.sizes[self.model.places]
-        return self.model.moved(state, q, dict(zip(self.free, state.u[self.which].tolist(), strict=True)))
+        rates = dict(zip(self.free, state.u[self.which].tolist(), strict=True))
+        return self.model.moved(state, x * self.model.sizes, rates)
 
-    def moves(self, state: State) -> Array:
-        return state.q / self.model.sizes
+    moves = at
 
 
 def stated(text: str) -> str:
