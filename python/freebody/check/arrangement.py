@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -21,6 +21,7 @@ NOTHING = 1e-11  # of what an expression changes by within the model's sizes: wh
 _DONE = 1e-14  # of the same: where Newton's method has nothing left to do
 _MANY_TIMES = 1e3  # a parameter that is to make an expression vanish is at most so much larger than it was drawn
 _NEWTON = 30  # steps of it
+_PATIENCE = 6  # of these, after which each has to halve what is left
 _AGAIN = 2  # times that what is to vanish is arranged anew: to second order one moves another
 _HALVES = 6  # times that a step is halved
 _FELT = 1e-6  # of what an expression changes by within the model's sizes: below it what is to stay does so by itself
@@ -89,11 +90,14 @@ def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str]
     if way is None:
         why = "it depends on nothing that is free in" if model.free_rates.size else "no freedom is left in"
         raise NoMotion(f"`{stated(text)}` cannot be arranged: {why} this mechanism")
-    for _ in range(_NEWTON):
-        if way.left(state) <= _DONE or (change := way.change(state)) is None:
+    left = [way.left(state)]
+    for step in range(_NEWTON):
+        crawls = step >= _PATIENCE and left[-1] > left[-2] / 2  # as towards what is infinitely far
+        if left[-1] <= _DONE or crawls or (change := way.change(state)) is None:
             break
         state = way.towards(state, change)
-    if way.left(state) > NOTHING:
+        left.append(way.left(state))
+    if left[-1] > NOTHING:
         raise NoMotion(f"`{stated(text)}` cannot be arranged: nothing near is so")
     return state
 
@@ -125,6 +129,10 @@ class _Rates:
         """How far the expression is from 0, of what it changes by."""
         return abs(float(self.model.core.evaluate(self.texts[:1], state)[0])) / self.sizes[0]
 
+    def slope(self, read: Callable[[Array], Array], x: Array, step: Array, here: Array) -> Array:
+        """By how much what is read changes with one of it: both ways, so that squares of a rate that is 0 change nothing."""
+        return (read(x + step) - read(x - step)) / (2 * self.step)
+
     def change(self, state: State) -> Array | None:
         """The least change by which the expression is 0 to first order; None where nothing changes it."""
         x = self.at(state)
@@ -135,7 +143,8 @@ class _Rates:
             found = self.reached(state, there)
             return np.concatenate([self.model.core.evaluate(self.texts, found) / self.sizes, self.moves(found)])
 
-        slopes = np.array([(read(x + step) - read(x - step)) / (2 * self.step) for step in np.diag(np.full(len(x), self.step))]).T
+        here, steps = read(x), np.diag(np.full(len(x), self.step))
+        slopes = np.array([self.slope(read, x, step, here) for step in steps]).T
         (first, *others), moved = np.split(slopes, [len(self.texts)])
         rows = np.array([first, *(row for row in others if np.abs(row).max() > _FELT)])
         near = np.linalg.pinv(moved.T @ moved) @ rows.T
@@ -166,6 +175,9 @@ class _Place(_Rates):
         return self.model.moved(state, x * self.model.sizes, rates)
 
     moves = at
+
+    def slope(self, read: Callable[[Array], Array], x: Array, step: Array, here: Array) -> Array:
+        return (read(x + step) - here) / self.step
 
 
 def stated(text: str) -> str:
