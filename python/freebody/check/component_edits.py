@@ -1,4 +1,5 @@
-"""Two terms of an equation that each lack a factor of their own, as forces of which the components along a direction were meant."""
+"""Two terms of an equation that each lack a factor of their own, as forces of which the components along a direction were meant, or in which two
+letters stand for each other."""
 
 from __future__ import annotations
 
@@ -9,11 +10,13 @@ import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Fn, Mul, Node, Quotient, exchange
+from freebody.symbolic.tree import Add, Fn, Mul, Node, Quotient, Sym, exchange, substitute, walk
 
 from .edits import Edit
+from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation
+from .powers import powers_of, written
 from .shared_ratios import addends_of
 from .vocabulary import Vocabulary
 
@@ -22,32 +25,51 @@ _MOST = 6  # terms of an equation of which two are thought of together
 _MOST_LENGTHS = 6
 
 
+def exchanges(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """Two letters of one kind exchanged in two terms, and not in others: radii, of which each force got that of the other."""
+    found = [term for term, _ in addends_of(equation)]
+    for one, two in combinations(found, 2) if 2 < len(found) <= _MOST else ():
+        for own in sorted(one.symbols - two.symbols, key=lambda n: n.key):
+            for other in (n for n in vocabulary.alike(own) if n in two.symbols - one.symbols):
+                if sum(bool({own, other} & term.symbols) for term in found) > 2:  # else it is so wherever they stand
+                    after = exchange(equation, one, substitute(one, {own: other}))
+                    words = f"`{own.key}` and `{other.key}` exchanged in `{spell(one)}` and `{spell(two)}`"
+                    yield Edit("exchange", None, None, exchange(after, two, substitute(two, {other: own})), words=words)
+
+
 def component_edits(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabulary) -> Iterator[Edit]:
     """Two terms, wherever they stand, each times a sine, a cosine or the ratio of two lengths."""
     addends = addends_of(equation)
     parts = [sign * sampled(term, values) for term, sign in addends]
     if not 2 < len(parts) <= _MOST or any(part.ndim > 1 for part in parts):
         return
-    factors = [*_factors(vocabulary, values)]
-    if not factors:
-        return
-    rows = np.array([sampled(factor, values) for factor in factors])
-    for i, j in combinations(range(len(parts)), 2):
+    factors, rows = _factors(equation, values, vocabulary)
+    for i, j in combinations(range(len(parts)), 2) if factors else ():
         others = sum(parts) - parts[i] - parts[j]
         for k, row in enumerate(rows):
-            needed = -(others + row * parts[i]) / parts[j]
+            with np.errstate(all="ignore"):
+                needed = -(others + row * parts[i]) / parts[j]
             for m in np.flatnonzero(np.abs(rows - needed).max(axis=1) <= _SAME * np.abs(needed).max()).tolist():
                 (one, _), (two, _) = addends[i], addends[j]
-                first, second = Mul((one, factors[k])), Mul((two, factors[m]))
+                first, second = (written(*powers_of(Mul(pair))) for pair in ((one, factors[k]), (two, factors[m])))
                 words = f"`{spell(first)}` and `{spell(second)}` for `{spell(one)}` and `{spell(two)}`"
                 after = exchange(exchange(equation, one, first), two, second)
                 yield Edit("components", None, second, after, words=words)
 
 
-def _factors(vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
-    """Sines, cosines, and ratios of lengths, of which one at least changes with the motion."""
-    yield from (n for n in vocabulary.single_factors if isinstance(n, Fn) and {k.key for k in n.symbols} <= values.keys())
+def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabulary) -> tuple[list[Node], Array]:
+    """Sines, cosines, and ratios of lengths that change with the motion, also of what is added up in the equation, and their values."""
+    calls = [n for n in vocabulary.single_factors if isinstance(n, Fn) and {k.key for k in n.symbols} <= values.keys()]
     lengths = [n for n in vocabulary.sizes if vocabulary.dimension(n) == LENGTH and np.all(values[n.key])]
     still = [n for n in lengths if n in vocabulary.parameters][:_MOST_LENGTHS]
-    moving = [n for n in lengths if n not in vocabulary.parameters][:_MOST_LENGTHS]
-    yield from (Quotient(*pair) for pair in permutations((*still, *moving), 2) if not {*pair} <= {*still})
+    moving: list[Node] = [n for n in lengths if n not in vocabulary.parameters][:_MOST_LENGTHS]
+    moving += [n for n in dict.fromkeys(walk(equation)) if isinstance(n, Add) and dimension(n, vocabulary.dimensions) == LENGTH]
+    fixed = np.array([sampled(Quotient(*pair), values) for pair in permutations(still, 2)]).reshape(-1, len(next(iter(values.values()))))
+    ratios = []
+    for pair in permutations((*still, *moving), 2):
+        its = sampled(ratio := Quotient(*pair), values)
+        # where it is that of two lengths on all motions the speeds of two parts are in that ratio: no component
+        if not np.isclose(fixed, its).all(axis=1).any() and not {*pair} <= {*still}:
+            ratios.append(ratio)
+    factors = [*calls, *ratios]
+    return factors, np.array([sampled(factor, values) for factor in factors])

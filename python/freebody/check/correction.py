@@ -19,7 +19,7 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, unsigned, walk
 
 from .coefficients import tidied
-from .component_edits import component_edits
+from .component_edits import component_edits, exchanges
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
 from .energy_terms import energy_edits
@@ -207,6 +207,7 @@ class _Search:
             self.differentiated.likely(),
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
+            exchanges(self.equation, self.vocabulary),
             self.differentiated.others(),
             momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
             () if readable else forgotten_factors(self.equation, self.vocabulary),

@@ -89,6 +89,7 @@ class FittedEdits:
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
             )
             yield from self._squares.edits(equation, required)
+            yield from self._squares.of_components(equation, required)
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
                 yield from self._parts(equation, required)

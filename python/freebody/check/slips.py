@@ -30,6 +30,8 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
 
 _WHY = {
     "convention": "two things stand for each other throughout",
+    "exchange": "two letters stand for each other: each force has an arm, and each motion a radius, of its own",
+    "squares": "the speed is another: its square is the sum of those of two components at right angles, seen from what is at rest",
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",
     "factor": "a number is wrong or forgotten: ½, 2, or one of an inertia or of a rotation that was left out",

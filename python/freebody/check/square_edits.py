@@ -1,24 +1,27 @@
-"""Squares of speeds that lack a part of the speed."""
+"""Squares of speeds that lack a part of the speed, and sums of two that are those of other components."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import combinations
 
 import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Mul, Node, Num, Pow, Quotient, Sym
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange
 
 from .coefficients import more, multiplied, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation
+from .powers import powers_of, written
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
 _NEARLY = 1e-5  # relative spread below which a factor is meant to be one number
+_SAME = 1e-8  # relative: below it a sum is what is needed
 _SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
 
 
@@ -53,12 +56,48 @@ class SquareEdits:
                 new = Pow(more(base, part), node.exponent, span=node.span)
                 yield Edit.at(equation, "symbol", node, new, 0.1 + 0.02 * depth(part))
 
+    def of_components(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """Two squares of speeds in a sum that should be those of two other components, or lack a part each: that of what turns."""
+        terms = required.node.terms if isinstance(required.node, Add) and required.missing.ndim == 1 else ()
+        for pair in combinations(terms, 2):
+            (one, before), (two, beside) = map(self._of_speed, pair)
+            if one is None or two is None or before != beside or dimension(one, self.vocabulary.dimensions) != _SPEEDS[0]:
+                continue
+            squares = [sampled(speed, self.values) ** 2 for speed in (one, two)]
+            needed = sum(squares) + required.missing / sampled(written(*before), self.values)
+            (ones, first), (twos, second) = map(self._instead_of, (one, two))
+            off = np.abs(first[:, None] + second - needed).max(axis=2)
+            for i, j in np.argwhere(off <= _SAME * np.abs(needed).max()).tolist():
+                number, rest = before
+                new = [written(number, {**rest, speed: 2}) for speed in (ones[i], twos[j])]
+                after = exchange(exchange(equation, pair[0], new[0]), pair[1], new[1])
+                old, whole = (Add(some) for some in (pair, tuple(new)))
+                yield Edit("squares", old, whole, after, 0.01 * depth(whole))
+
+    def _of_speed(self, term: Node) -> tuple[Node | None, tuple[float, dict[Node, int]]]:
+        """A speed that is squared in a term, and what it is multiplied by there."""
+        number, powers = powers_of(term)
+        speeds = [n for n, power in powers.items() if power == 2 and dimension(n, self.vocabulary.dimensions) in _SPEEDS]
+        (speed,) = speeds if len(speeds) == 1 else (None,)
+        return speed, (number, {n: power for n, power in powers.items() if n is not speed})
+
+    def _instead_of(self, speed: Node) -> tuple[list[Node], Array]:
+        """A speed, the rates of coordinates, and it with a part in either sense, and their squares."""
+        parts, _ = self._parts_of_speeds(_SPEEDS[0])
+        rates = [n for n in parts if isinstance(n, Sym)]
+        found = [speed, *rates, *(more(speed, part) for n in parts if n not in rates for part in (n, Negative(n)))]
+        return found, np.array([sampled(node, self.values) ** 2 for node in found])
+
     def _parts_of_speeds(self, its: Dimension) -> tuple[list[Node], Array]:
         """Rates, and rates times a length, of a dimension, and their values."""
         if its not in self._made:
             known = self.vocabulary
-            rates = [Sym(q.name, 1) for q in known.coordinates]
-            rates += [n for n in (*known.parameters, *known.others) if known.is_rate(n)]
+            every = [n for n in known.parameters if known.is_rate(n)] + [Sym(q.name, 1) for q in known.coordinates]
+            every += [n for n in known.others if known.is_rate(n)]
+            rates: list[Sym] = []  # without those of what is driven with another of them
+            for n in every:
+                same = (np.shape(self.values[n.key]) == np.shape(self.values[k.key]) and np.allclose(self.values[n.key], self.values[k.key]) for k in rates)
+                rates += [] if any(same) else [n]
             lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
             turns = [n for n in rates if known.dimension(n) != its]
             found: list[Node] = [n for n in rates if known.dimension(n) == its]
