@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 _STEADY = 1e-7  # change along a motion, relative to the terms: what the integrator leaves
 _NEAREST = 40  # single edits beside which a second is looked for
-_BLUR = 10.0  # of what a motion leaves of a number, beside round-off
+_BLUR = 30.0  # of what a motion leaves of a number, beside round-off
 _BELOW = 0.1  # for a missing term with symbols below its line
 _SQUARE = LENGTH.times(LENGTH, 1)
 _OF_POWER = 1.5  # how large a correction is that says what changes a quantity
@@ -237,7 +237,8 @@ class _Search:
         sizes = [n for n in self.vocabulary.parameters if n not in self.vocabulary.angular]
         said = {*symbols_in(self.equation)}
         sums = [n for n in walk(self.node) if isinstance(n, Add) and {unsigned(t) for t in n.terms} <= {*sizes}]
-        ordered = sorted(sizes, key=lambda n: (n not in said, n in self.vocabulary.letters))
+        rooted = lambda n: not self.vocabulary.is_rate(n)  # a rate first: it is a root of others, which are powers of it
+        ordered = sorted(sizes, key=lambda n: (n not in said, n in self.vocabulary.letters, rooted(n)))
         return Monomials(self.values, dict.fromkeys((*(n for n in ordered if n in said), *sums, *ordered)), [()], _BLUR)
 
     @cached_property

@@ -17,7 +17,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
-from .inertia_edits import about_another_point, of_whole, wheels
+from .inertia_edits import about_another_point, mass_centres, of_whole, wheels
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
@@ -342,13 +342,17 @@ class FittedEdits:
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self.dictionary(equation, NUMBER_ONLY)
-            turning, of_turning = wheels(equation, self.vocabulary, self.values)
+            arms, of_arms = [], rows[:0]
             if self._of(equation) == FORCE:
+                turning, of_turning = wheels(equation, self.vocabulary, self.values)
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
+                arms, of_arms = mass_centres(self.vocabulary, self.values)
             said = np.array(
                 [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
             )
-            for pair in self.within(spanning(rows, required.missing, self.within)):
+            made = [*spanning(of_arms, required.missing, self.within)]
+            nodes, rows = (arms, of_arms) if made else (nodes, rows)
+            for pair in self.within(made or spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:

@@ -22,6 +22,7 @@ from .vocabulary import Vocabulary
 _ABOUT_CENTRE = {1 / 3: 1 / 4, 4 / 3: 1 / 4, 3 / 2: 1 / 3, 5 / 4: 1 / 5, 7 / 5: 2 / 7}
 """By the number of an inertia about an end or the rim, its share that is about the mass centre: of bars, disks, rods of length 2 l, and balls."""
 _MOST_WHEELS = 4
+_MOST_ARMS = 8
 _MOST_INERTIAS = 40
 _SAME = 1e-8  # relative: below it two values are one
 _ACCELERATION, _SPIN = LENGTH.times(TIME, -2), NUMBER_ONLY.times(TIME, -1)
@@ -55,6 +56,20 @@ def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Arra
         for a in moves
         for J in inertias[:_MOST_WHEELS]
         for r in lengths[:_MOST_WHEELS]
+    ]
+    count = len(next(iter(values.values())))
+    return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
+
+
+def mass_centres(vocabulary: Vocabulary, values: Mapping[str, Array]) -> tuple[list[Node], Array]:
+    """A mass times each component of the acceleration of the end of an arm that turns: one for each of the two arms to what is off the axes of
+    a body; and their values."""
+    masses, lengths = ([n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH))
+    found: list[Node] = [
+        product_of([mass, arm, part])
+        for mass in masses[:_MOST_WHEELS]
+        for arm in lengths[:_MOST_ARMS]
+        for part in vocabulary.accelerations
     ]
     count = len(next(iter(values.values())))
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)

@@ -169,9 +169,11 @@ class Likelihood:
         if isinstance(new, Pow):
             return _NEW * len(unsaid) + _ODD * self._cancels_within(new.base)
         if isinstance(new, Add):
+            stems = {_STEM.match(n.name)[0] for n in new.symbols & self._said}  # type: ignore[index]
+            twins = {n for n in unsaid & {*known.parameters} if _STEM.match(n.name)[0] in stems}  # type: ignore[index]
             return _NEW * sum(
                 3 if known.is_rate(n) and n not in known.parameters else 1 + (n in known.others and n not in known.letters)
-                for n in unsaid
+                for n in unsaid - twins
             )
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
 
@@ -225,7 +227,7 @@ class Likelihood:
             yield from [term] * (2 if new else 1)
         for symbol in below - self._below:
             yield from [symbol] * 2 * (symbol in known.coordinates and not symbol.dots)
-        usual = {*known.products_across, *(part for n in walk(term) if isinstance(n, Fn) for part in n.args)}
+        usual = {*known.products_across, *known.accelerations, *(part for n in walk(term) if isinstance(n, Fn) for part in n.args)}
         for part in walk(term):
             yield from [part] * 2 * (isinstance(part, Add) and part not in usual and part not in self._parts)
         for symbol in term.symbols:
