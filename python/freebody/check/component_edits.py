@@ -64,7 +64,9 @@ def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabu
     still = [n for n in lengths if n in vocabulary.parameters][:_MOST_LENGTHS]
     moving: list[Node] = [n for n in lengths if n not in vocabulary.parameters][:_MOST_LENGTHS]
     moving += [n for n in dict.fromkeys(walk(equation)) if isinstance(n, Add) and dimension(n, vocabulary.dimensions) == LENGTH]
-    fixed = np.array([sampled(Quotient(*pair), values) for pair in permutations(still, 2)]).reshape(-1, len(next(iter(values.values()))))
+    fixed = np.array([sampled(Quotient(*pair), values) for pair in permutations(still, 2)]).reshape(
+        -1, len(next(iter(values.values())))
+    )
     ratios = []
     for pair in permutations((*still, *moving), 2):
         its = sampled(ratio := Quotient(*pair), values)

@@ -46,6 +46,7 @@ _LARGER = {
     "convention": 0.1,
     "exchange": 0.1,
     "squares": 0.2,
+    "share": 0.3,
     "components": 0.3,
     "other term": 1.3,
 }

@@ -17,7 +17,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
-from .inertia_edits import about_another_point, mass_centres, of_whole, wheels
+from .inertia_edits import about_another_point, mass_centres, of_whole, shares, wheels
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
@@ -84,6 +84,7 @@ class FittedEdits:
                 yield from self._factors(equation, required)
                 turned = about_another_point(required, self._monomials(equation))
                 yield from (Edit.at(equation, "factor", node, new) for new in turned)
+                yield from (Edit.at(equation, "share", node, new) for new in shares(required, self.vocabulary, self.values))
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
             yield from (
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)

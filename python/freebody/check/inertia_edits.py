@@ -1,4 +1,5 @@
-"""What moments of inertia may lack: the parallel axis of a body that is no bar about its end, and what all wheels add to a mass."""
+"""What moments of inertia may lack: the parallel axis of a body that is no bar about its end, and what all wheels add to a mass; what a share of
+all that moves is; and the acceleration of a mass centre off the axes of its body."""
 
 from __future__ import annotations
 
@@ -23,6 +24,7 @@ _ABOUT_CENTRE = {1 / 3: 1 / 4, 4 / 3: 1 / 4, 3 / 2: 1 / 3, 5 / 4: 1 / 5, 7 / 5: 
 """By the number of an inertia about an end or the rim, its share that is about the mass centre: of bars, disks, rods of length 2 l, and balls."""
 _MOST_WHEELS = 4
 _MOST_ARMS = 8
+_MOST_SHARING = 12
 _MOST_INERTIAS = 40
 _SAME = 1e-8  # relative: below it two values are one
 _ACCELERATION, _SPIN = LENGTH.times(TIME, -2), NUMBER_ONLY.times(TIME, -1)
@@ -44,6 +46,23 @@ def about_another_point(required: RequiredTerm, terms: Monomials) -> Iterator[No
 
 def _squared(powers: Mapping[Node, int]) -> list[Node]:
     return [n for n, power in powers.items() if power == 2]
+
+
+def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
+    """A term of which only a share is meant: what moved before an impact beside all that moves on, m/(m + M) or J/(I + J + m l²)."""
+    if (factor := required.factor) is None or not np.all((factor > 0) & (factor < 1)):
+        return
+    masses, lengths, inertias = (
+        [n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH, INERTIA)
+    )
+    turning = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)]
+    for parts in (masses[:_MOST_SHARING], turning[:_MOST_SHARING]):
+        rows = [sampled(part, values) for part in parts]
+        for count in (2, 3):
+            for some in combinations(range(len(parts)), count):
+                own = factor * sum(rows[i] for i in some)
+                for i in (i for i in some if np.allclose(rows[i], own, rtol=_SAME, atol=0)):
+                    yield Mul((required.node, Quotient(parts[i], Add(tuple(parts[j] for j in some)))), span=required.node.span)
 
 
 def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Array]) -> tuple[list[Node], Array]:

@@ -96,7 +96,11 @@ class SquareEdits:
             every += [n for n in known.others if known.is_rate(n)]
             rates: list[Sym] = []  # without those of what is driven with another of them
             for n in every:
-                same = (np.shape(self.values[n.key]) == np.shape(self.values[k.key]) and np.allclose(self.values[n.key], self.values[k.key]) for k in rates)
+                same = (
+                    np.shape(self.values[n.key]) == np.shape(self.values[k.key])
+                    and np.allclose(self.values[n.key], self.values[k.key])
+                    for k in rates
+                )
                 rates += [] if any(same) else [n]
             lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
             turns = [n for n in rates if known.dimension(n) != its]

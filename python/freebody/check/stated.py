@@ -9,7 +9,7 @@ from .language.spelling import spell
 
 _IN_WORDS = ("convention", "exchange", "components", "momentum")
 """Kinds of edits of more than one part, told in words of their own."""
-_LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
+_LEFT_OUT = ("missing term", "missing factor", "share", "other term", "unit vector")
 
 
 @dataclass(frozen=True)
