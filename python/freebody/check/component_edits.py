@@ -4,13 +4,13 @@ letters stand for each other."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from itertools import combinations, permutations
+from itertools import combinations, permutations, product
 
 import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Mul, Node, Quotient, Sym, exchange, substitute, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Quotient, exchange, substitute, unsigned, walk
 
 from .edits import Edit
 from .language.dimensions import dimension
@@ -27,11 +27,17 @@ _MOST_LENGTHS = 6
 
 def exchanges(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     """Two letters of one kind exchanged in two terms, and not in others: radii, of which each force got that of the other."""
-    found = [term for term, _ in addends_of(equation)]
-    for one, two in combinations(found, 2) if 2 < len(found) <= _MOST else ():
-        for own in sorted(one.symbols - two.symbols, key=lambda n: n.key):
-            for other in (n for n in vocabulary.alike(own) if n in two.symbols - one.symbols):
-                if sum(bool({own, other} & term.symbols) for term in found) > 2:  # else it is so wherever they stand
+    sums = (
+        [unsigned(term) for term in n.terms]
+        for n in walk(equation)
+        if isinstance(n, Add) and n not in (equation.left, equation.right)
+    )
+    for terms in ([term for term, _ in addends_of(equation)], *sums):
+        for one, two in combinations(terms, 2) if len(terms) <= _MOST else ():
+            for own in sorted(one.symbols - two.symbols, key=lambda n: n.key):
+                for other in (n for n in vocabulary.alike(own) if n in two.symbols - one.symbols):
+                    if sum(n in (own, other) for n in walk(equation)) == sum(n in (own, other) for n in (*walk(one), *walk(two))):
+                        continue  # it is so wherever they stand
                     after = exchange(equation, one, substitute(one, {own: other}))
                     words = f"`{own.key}` and `{other.key}` exchanged in `{spell(one)}` and `{spell(two)}`"
                     yield Edit("exchange", None, None, exchange(after, two, substitute(two, {other: own})), words=words)
@@ -49,7 +55,8 @@ def component_edits(equation: Equation, values: Mapping[str, Array], vocabulary:
         for k, row in enumerate(rows):
             with np.errstate(all="ignore"):
                 needed = -(others + row * parts[i]) / parts[j]
-            for m in np.flatnonzero(np.abs(rows - needed).max(axis=1) <= _SAME * np.abs(needed).max()).tolist():
+            near = np.flatnonzero(np.abs(rows[:, 0] - needed[0]) <= _SAME * np.abs(needed).max())
+            for m in near[np.abs(rows[near] - needed).max(axis=1) <= _SAME * np.abs(needed).max()].tolist():
                 (one, _), (two, _) = addends[i], addends[j]
                 first, second = (written(*powers_of(Mul(pair))) for pair in ((one, factors[k]), (two, factors[m])))
                 words = f"`{spell(first)}` and `{spell(second)}` for `{spell(one)}` and `{spell(two)}`"
@@ -63,7 +70,9 @@ def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabu
     lengths = [n for n in vocabulary.sizes if vocabulary.dimension(n) == LENGTH and np.all(values[n.key])]
     still = [n for n in lengths if n in vocabulary.parameters][:_MOST_LENGTHS]
     moving: list[Node] = [n for n in lengths if n not in vocabulary.parameters][:_MOST_LENGTHS]
-    moving += [n for n in dict.fromkeys(walk(equation)) if isinstance(n, Add) and dimension(n, vocabulary.dimensions) == LENGTH]
+    moving += [Add((a, Negative(b))) for pairs in (product(still, moving), combinations(moving, 2)) for a, b in pairs]
+    said = (n for n in walk(equation) if isinstance(n, Add) and dimension(n, vocabulary.dimensions) == LENGTH)
+    moving = [*dict.fromkeys((*said, *moving))]
     fixed = np.array([sampled(Quotient(*pair), values) for pair in permutations(still, 2)]).reshape(
         -1, len(next(iter(values.values())))
     )

@@ -29,6 +29,7 @@ from .powers import power_of, powers_of, written
 from .residual import magnitude
 from .slips import why
 from .solve_for_term import RequiredTerm, parts_inside
+from .square_edits import SquareEdits
 from .stated import Correction, stated
 from .throughout import throughout
 
@@ -272,8 +273,10 @@ class _Search:
                 yield from (Edit.at(self.equation, "symbol", node, other) for other in others)
 
     def _squares(self) -> Iterator[Edit]:
-        """The square of a length, an angle or a speed that lacks a part; that of a distance for that of a stretch."""
-        known = self.vocabulary
+        """Two squares of other components of a speed; the square of a length, an angle or a speed that lacks a part; that of a distance for that of a stretch."""
+        known, lost = self.vocabulary, -self._changes(sampled(self.node, self.values))
+        addends = [*_addends(self.node, Num(1.0, "1"))]
+        yield from SquareEdits(self.values, known).of_components(self.equation, addends, lost, self._changes)
         every = [*known.parameters, *(Sym(n.name, dots) for n in known.coordinates for dots in (0, 1)), *known.others]
         turning = [n for n in every if n.dots == 1 and (its := known.dimension(n)) is not None and its.length == 0]
         speeds: list[Node] = [Mul((n, turn)) for turn in turning for n in every if known.dimension(n) == LENGTH]

@@ -42,6 +42,7 @@ _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
+_ONE = Num(1.0, "1")
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
 
@@ -90,7 +91,8 @@ class FittedEdits:
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
             )
             yield from self._squares.edits(equation, required)
-            yield from self._squares.of_components(equation, required)
+            if isinstance(node, Add) and required.missing.ndim == 1:
+                yield from self._squares.of_components(equation, [(term, _ONE) for term in node.terms], required.missing)
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
                 yield from self._parts(equation, required)

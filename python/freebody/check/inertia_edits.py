@@ -49,8 +49,9 @@ def _squared(powers: Mapping[Node, int]) -> list[Node]:
 
 
 def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
-    """A term of which only a share is meant: what moved before an impact beside all that moves on, m/(m + M) or J/(I + J + m l²)."""
-    if (factor := required.factor) is None or not np.all((factor > 0) & (factor < 1)):
+    """An energy of before an impact, of which only a share stays: what moved then beside all that moves on, m/(m + M) or J/(I + J + m l²)."""
+    node, factor, known = required.node, required.factor, {*vocabulary.parameters}
+    if isinstance(node, Sym) or not node.symbols <= known or factor is None or not np.all((factor > 0) & (factor < 1)):
         return
     masses, lengths, inertias = (
         [n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH, INERTIA)
@@ -58,11 +59,11 @@ def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, 
     turning = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)]
     for parts in (masses[:_MOST_SHARING], turning[:_MOST_SHARING]):
         rows = [sampled(part, values) for part in parts]
-        for count in (2, 3):
-            for some in combinations(range(len(parts)), count):
-                own = factor * sum(rows[i] for i in some)
-                for i in (i for i in some if np.allclose(rows[i], own, rtol=_SAME, atol=0)):
-                    yield Mul((required.node, Quotient(parts[i], Add(tuple(parts[j] for j in some)))), span=required.node.span)
+        for own in (i for i, part in enumerate(parts) if part.symbols <= node.symbols):
+            others = [i for i in range(len(parts)) if i != own]
+            for some in (some for count in (1, 2) for some in combinations(others, count)):
+                if np.allclose(rows[own], factor * sum(rows[i] for i in (own, *some)), rtol=_SAME, atol=0):
+                    yield Mul((node, Quotient(parts[own], Add(tuple(parts[i] for i in (own, *some))))), span=node.span)
 
 
 def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Array]) -> tuple[list[Node], Array]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import combinations
 
@@ -12,7 +12,7 @@ from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange
 
-from .coefficients import more, multiplied, snapped
+from .coefficients import more, multiplied, product, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation
@@ -20,8 +20,7 @@ from .powers import powers_of, written
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
-_NEARLY = 1e-5  # relative spread below which a factor is meant to be one number
-_SAME = 1e-8  # relative: below it a sum is what is needed
+_NEARLY = 1e-5  # relative spread below which a factor is meant to be one number, or a sum what is needed
 _SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
 
 
@@ -56,30 +55,42 @@ class SquareEdits:
                 new = Pow(more(base, part), node.exponent, span=node.span)
                 yield Edit.at(equation, "symbol", node, new, 0.1 + 0.02 * depth(part))
 
-    def of_components(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """Two squares of speeds in a sum that should be those of two other components, or lack a part each: that of what turns."""
-        terms = required.node.terms if isinstance(required.node, Add) and required.missing.ndim == 1 else ()
-        for pair in combinations(terms, 2):
-            (one, before), (two, beside) = map(self._of_speed, pair)
-            if one is None or two is None or before != beside or dimension(one, self.vocabulary.dimensions) != _SPEEDS[0]:
+    def of_components(
+        self,
+        equation: Equation,
+        addends: Sequence[tuple[Node, Node]],
+        missing: Array,
+        change: Callable[[Array], Array] = np.asarray,
+    ) -> Iterator[Edit]:
+        """Two squares of speeds that should be those of two other components, or lack a part each: that of what turns. ``addends`` come with what
+        they are multiplied by; ``missing`` is what the equation lacks, or how that ``change``s along the motions."""
+        found = [(term, self._of_speed(term), self._of_speed(product([before, term]))) for term, before in addends]
+        for pair in combinations([each for each in found if each[1]], 2):
+            (one, two), terms = (speed for _, (speed, _, _), _ in pair), [term for term, _, _ in pair]
+            (_, *before), (_, *beside) = (whole for _, _, whole in pair)
+            if before != beside or dimension(one, self.vocabulary.dimensions) != _SPEEDS[0]:
                 continue
-            squares = [sampled(speed, self.values) ** 2 for speed in (one, two)]
-            needed = sum(squares) + required.missing / sampled(written(*before), self.values)
+            needed = sum(change(sampled(speed, self.values) ** 2) for speed in (one, two)) + missing / sampled(
+                written(*before), self.values
+            )
             (ones, first), (twos, second) = map(self._instead_of, (one, two))
-            off = np.abs(first[:, None] + second - needed).max(axis=2)
-            for i, j in np.argwhere(off <= _SAME * np.abs(needed).max()).tolist():
-                number, rest = before
-                new = [written(number, {**rest, speed: 2}) for speed in (ones[i], twos[j])]
-                after = exchange(exchange(equation, pair[0], new[0]), pair[1], new[1])
-                old, whole = (Add(some) for some in (pair, tuple(new)))
-                yield Edit("squares", old, whole, after, 0.01 * depth(whole))
+            off = np.abs(change(first)[:, None] + change(second) - needed).max(axis=2)
+            for i, j in np.argwhere(off <= _NEARLY * np.abs(needed).max()).tolist():
+                new = [
+                    written(number, {**rest, speed: 2})
+                    for (_, (_, number, rest), _), speed in zip(pair, (ones[i], twos[j]), strict=True)
+                ]
+                after = exchange(exchange(equation, terms[0], new[0]), terms[1], new[1])
+                whole = Add(tuple(new))
+                yield Edit("squares", Add(tuple(terms)), whole, after, 0.01 * depth(whole))
 
-    def _of_speed(self, term: Node) -> tuple[Node | None, tuple[float, dict[Node, int]]]:
-        """A speed that is squared in a term, and what it is multiplied by there."""
+    def _of_speed(self, term: Node) -> tuple[Node, float, dict[Node, int]] | None:
+        """The speed that is squared in a term, and what it is multiplied by there, as a number and powers."""
         number, powers = powers_of(term)
         speeds = [n for n, power in powers.items() if power == 2 and dimension(n, self.vocabulary.dimensions) in _SPEEDS]
-        (speed,) = speeds if len(speeds) == 1 else (None,)
-        return speed, (number, {n: power for n, power in powers.items() if n is not speed})
+        if len(speeds) != 1:
+            return None
+        return speeds[0], number, {n: power for n, power in powers.items() if n is not speeds[0]}
 
     def _instead_of(self, speed: Node) -> tuple[list[Node], Array]:
         """A speed, the rates of coordinates, and it with a part in either sense, and their squares."""
@@ -92,16 +103,10 @@ class SquareEdits:
         """Rates, and rates times a length, of a dimension, and their values."""
         if its not in self._made:
             known = self.vocabulary
-            every = [n for n in known.parameters if known.is_rate(n)] + [Sym(q.name, 1) for q in known.coordinates]
-            every += [n for n in known.others if known.is_rate(n)]
-            rates: list[Sym] = []  # without those of what is driven with another of them
-            for n in every:
-                same = (
-                    np.shape(self.values[n.key]) == np.shape(self.values[k.key])
-                    and np.allclose(self.values[n.key], self.values[k.key])
-                    for k in rates
-                )
-                rates += [] if any(same) else [n]
+            steady = [n for n in known.parameters if known.is_rate(n)]
+            is_driven = lambda n: any(np.allclose(self.values[n.key], self.values[given.key]) for given in steady)
+            rates = [n for n in (Sym(q.name, 1) for q in known.coordinates) if not is_driven(n)]
+            rates += [*steady, *(n for n in known.others if known.is_rate(n))]
             lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
             turns = [n for n in rates if known.dimension(n) != its]
             found: list[Node] = [n for n in rates if known.dimension(n) == its]
