@@ -15,7 +15,7 @@ from .powers import power_of
 
 _MOST_SHAPES = 4000
 _SAME = 1e-7  # of a logarithm: below it two values are one
-_WHOLE = 1e-4  # off a whole number, below which a power is one
+_WHOLE = 1e-2  # off a whole number, below which a power is one: whether it is shows beside the values
 _HIGHEST = 3
 _MOST_POWERS = 7
 _EXCHANGED = (1, 2, -1, -2)
