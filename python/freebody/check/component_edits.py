@@ -53,15 +53,21 @@ def component_edits(equation: Equation, values: Mapping[str, Array], vocabulary:
     for i, j in combinations(range(len(parts)), 2) if factors else ():
         others = sum(parts) - parts[i] - parts[j]
         for k, row in enumerate(rows):
-            with np.errstate(all="ignore"):
-                needed = -(others + row * parts[i]) / parts[j]
-            near = np.flatnonzero(np.abs(rows[:, 0] - needed[0]) <= _SAME * np.abs(needed).max())
-            for m in near[np.abs(rows[near] - needed).max(axis=1) <= _SAME * np.abs(needed).max()].tolist():
+            for m in _equal_to(-(others + row * parts[i]), parts[j], rows):
                 (one, _), (two, _) = addends[i], addends[j]
                 first, second = (written(*powers_of(Mul(pair))) for pair in ((one, factors[k]), (two, factors[m])))
                 words = f"`{spell(first)}` and `{spell(second)}` for `{spell(one)}` and `{spell(two)}`"
                 after = exchange(exchange(equation, one, first), two, second)
                 yield Edit("components", None, second, after, words=words)
+
+
+def _equal_to(product: Array, part: Array, rows: Array) -> list[int]:
+    """The rows that are what a part has to be multiplied by to be a product; one state leaves few."""
+    with np.errstate(all="ignore"):
+        needed = product / part
+        nothing = _SAME * np.abs(needed).max()
+        near = np.flatnonzero(np.abs(rows[:, 0] - needed[0]) <= nothing)
+        return near[np.abs(rows[near] - needed).max(axis=1) <= nothing].tolist()
 
 
 def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabulary) -> tuple[list[Node], Array]:
