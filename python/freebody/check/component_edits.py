@@ -51,23 +51,23 @@ def component_edits(equation: Equation, values: Mapping[str, Array], vocabulary:
         return
     factors, rows = _factors(equation, values, vocabulary)
     for i, j in combinations(range(len(parts)), 2) if factors else ():
-        others = sum(parts) - parts[i] - parts[j]
-        for k, row in enumerate(rows):
-            for m in _equal_to(-(others + row * parts[i]), parts[j], rows):
-                (one, _), (two, _) = addends[i], addends[j]
-                first, second = (written(*powers_of(Mul(pair))) for pair in ((one, factors[k]), (two, factors[m])))
-                words = f"`{spell(first)}` and `{spell(second)}` for `{spell(one)}` and `{spell(two)}`"
-                after = exchange(exchange(equation, one, first), two, second)
-                yield Edit("components", None, second, after, words=words)
+        with np.errstate(all="ignore"):
+            needed = -(sum(parts) - parts[i] - parts[j] + rows * parts[i]) / parts[j]
+        for k, m in _equal(needed, rows):
+            (one, _), (two, _) = addends[i], addends[j]
+            first, second = (written(*powers_of(Mul(pair))) for pair in ((one, factors[k]), (two, factors[m])))
+            words = f"`{spell(first)}` and `{spell(second)}` for `{spell(one)}` and `{spell(two)}`"
+            after = exchange(exchange(equation, one, first), two, second)
+            yield Edit("components", None, second, after, words=words)
 
 
-def _equal_to(product: Array, part: Array, rows: Array) -> list[int]:
-    """The rows that are what a part has to be multiplied by to be a product; one state leaves few."""
+def _equal(needed: Array, rows: Array) -> Iterator[tuple[int, int]]:
+    """Which rows are one: on the first state few are."""
     with np.errstate(all="ignore"):
-        needed = product / part
-        nothing = _SAME * np.abs(needed).max()
-        near = np.flatnonzero(np.abs(rows[:, 0] - needed[0]) <= nothing)
-        return near[np.abs(rows[near] - needed).max(axis=1) <= nothing].tolist()
+        nothing, order = _SAME * np.abs(needed).max(axis=1), np.argsort(rows[:, 0])
+        begin, end = (np.searchsorted(rows[order, 0], needed[:, 0] + off) for off in (-nothing, nothing))
+    for k in np.flatnonzero(np.isfinite(nothing) & (end > begin)).tolist():
+        yield from ((k, m) for m in order[begin[k] : end[k]].tolist() if np.abs(rows[m] - needed[k]).max() <= nothing[k])
 
 
 def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabulary) -> tuple[list[Node], Array]:
@@ -79,14 +79,12 @@ def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabu
     moving += [Add((a, Negative(b))) for pairs in (product(still, moving), combinations(moving, 2)) for a, b in pairs]
     said = (n for n in walk(equation) if isinstance(n, Add) and dimension(n, vocabulary.dimensions) == LENGTH)
     moving = [*dict.fromkeys((*said, *moving))]
-    fixed = np.array([sampled(Quotient(*pair), values) for pair in permutations(still, 2)]).reshape(
-        -1, len(next(iter(values.values())))
-    )
-    ratios = []
-    for pair in permutations((*still, *moving), 2):
-        its = sampled(ratio := Quotient(*pair), values)
-        # where it is that of two lengths on all motions the speeds of two parts are in that ratio: no component
-        if not np.isclose(fixed, its).all(axis=1).any() and not {*pair} <= {*still}:
-            ratios.append(ratio)
-    factors = [*calls, *ratios]
-    return factors, np.array([sampled(factor, values) for factor in factors])
+    every = [*still, *moving]
+    sizes = np.array([sampled(n, values) for n in every]).reshape(len(every), -1)
+    ratios, fixed = [], [sizes[i] / sizes[k] for i, k in permutations(range(len(still)), 2)]
+    for i, k in permutations(range(len(every)), 2):
+        # where it is that of two lengths on all motions, the speeds of two parts are in that ratio: no component
+        moves = max(i, k) >= len(still) and not any(np.allclose(sizes[i], its * sizes[k], atol=0) for its in fixed)
+        ratios += [(Quotient(every[i], every[k]), sizes[i] / sizes[k])] if moves and sizes[k].all() else []
+    rows = [*(sampled(n, values) for n in calls), *(row for _, row in ratios)]
+    return [*calls, *(ratio for ratio, _ in ratios)], np.array(rows)

@@ -308,7 +308,7 @@ class FittedEdits:
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
             brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
             every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
-            shapes = (shape for shape in every if not any(map(self._is_number, shape)))
+            shapes = (shape for shape in every if not any(map(self._has_number, shape)))
             self._terms[equation] = Monomials(
                 self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *alike, *bases)), shapes, self.blur
             )
@@ -349,7 +349,8 @@ class FittedEdits:
             if self._of(equation) == FORCE:
                 turning, of_turning = wheels(equation, self.vocabulary, self.values)
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
-                arms, of_arms = mass_centres(self.vocabulary, self.values)
+                turning = [n for n in self.vocabulary.accelerations if not self._has_number(n)]
+                arms, of_arms = mass_centres(self.vocabulary, self.values, turning)
             said = np.array(
                 [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
             )
@@ -401,6 +402,10 @@ class FittedEdits:
             good &= np.array([not (isinstance(n, Mul) and any(id(f) in still for f in n.factors)) for n in nodes], dtype=bool)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
         return self._made[key]
+
+    def _has_number(self, part: Node) -> bool:
+        """The same of one in a sum."""
+        return any(map(self._is_number, walk(part) if isinstance(part, Add) else (part,)))
 
     def _is_number(self, factor: Node) -> bool:
         """Whether a sine or cosine has one value on all states: it says nothing there."""

@@ -3,7 +3,7 @@ all that moves is; and the acceleration of a mass centre off the axes of its bod
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, product
 
 import numpy as np
@@ -81,15 +81,12 @@ def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Arra
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
 
 
-def mass_centres(vocabulary: Vocabulary, values: Mapping[str, Array]) -> tuple[list[Node], Array]:
-    """A mass times each component of the acceleration of the end of an arm that turns: one for each of the two arms to what is off the axes of
+def mass_centres(vocabulary: Vocabulary, values: Mapping[str, Array], parts: Sequence[Node]) -> tuple[list[Node], Array]:
+    """A mass times each of some components of the acceleration of the end of an arm that turns: one for each of the two arms to what is off the axes of
     a body; and their values."""
     masses, lengths = ([n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH))
     found: list[Node] = [
-        product_of([mass, arm, part])
-        for mass in masses[:_MOST_WHEELS]
-        for arm in lengths[:_MOST_ARMS]
-        for part in vocabulary.accelerations
+        product_of([mass, arm, part]) for mass in masses[:_MOST_WHEELS] for arm in lengths[:_MOST_ARMS] for part in parts
     ]
     count = len(next(iter(values.values())))
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
