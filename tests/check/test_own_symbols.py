@@ -216,3 +216,16 @@ def test_a_letter_for_a_force_is_that_force_however_its_joint_is_called(name, qu
     m.hinge(a.end, b.start, name=name, coordinate="q")
     m.initial(p=0.3, q=0.5, rates={"p": 1.0, "q": 0.0})
     assert not any(quoted in str(mend) for mend in m.check("F = 0", {"F": f"{quoted}.Fx"}).mends)
+
+
+def test_a_letter_for_a_gauge_has_its_dimension() -> None:
+    model = fb.Mechanism.loads("""
+freebody: 1
+bodies: {puck: {shape: particle, mass: 1 kg}}
+joints: {table: {type: free, of: [ground.O, puck.centre], coordinates: [x, y]}}
+gauges: {r: "distance(ground.O, puck.centre)"}
+initial: {x: 1 m, y: 1 m}
+""")
+    known = Symbols(model, {"ρ": "r", "A": "r^2"}).dimensions
+    assert known["ρ"] == known["x"]
+    assert known["A"] == known["x"].times(known["x"], 1)

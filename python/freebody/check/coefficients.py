@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from itertools import chain
 from typing import TypeVar
 
 from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, is_zero, walk
@@ -94,7 +95,8 @@ def product(factors: Sequence[Node]) -> Node:
 
 def more(node: Node, *terms: Node) -> Node:
     """A sum with more terms."""
-    return Add((*(node.terms if isinstance(node, Add) else (node,)), *terms), span=node.span)
+    parts = (part.terms if isinstance(part, Add) else (part,) for part in (node, *terms))
+    return Add(tuple(chain(*parts)), span=node.span)
 
 
 def tidied(node: N) -> N:

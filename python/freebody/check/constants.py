@@ -29,6 +29,7 @@ from .powers import power_of, powers_of, written
 from .residual import magnitude
 from .slips import why
 from .solve_for_term import RequiredTerm, parts_inside
+from .square_edits import SquareEdits
 from .stated import Correction, stated
 from .throughout import throughout
 
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 
 _STEADY = 1e-7  # change along a motion, relative to the terms: what the integrator leaves
 _NEAREST = 40  # single edits beside which a second is looked for
-_BLUR = 10.0  # of what a motion leaves of a number, beside round-off
+_BLUR = 30.0  # of what a motion leaves of a number, beside round-off
 _BELOW = 0.1  # for a missing term with symbols below its line
 _SQUARE = LENGTH.times(LENGTH, 1)
 _OF_POWER = 1.5  # how large a correction is that says what changes a quantity
@@ -237,7 +238,8 @@ class _Search:
         sizes = [n for n in self.vocabulary.parameters if n not in self.vocabulary.angular]
         said = {*symbols_in(self.equation)}
         sums = [n for n in walk(self.node) if isinstance(n, Add) and {unsigned(t) for t in n.terms} <= {*sizes}]
-        ordered = sorted(sizes, key=lambda n: (n not in said, n in self.vocabulary.letters))
+        rooted = lambda n: not self.vocabulary.is_rate(n)  # a rate first: it is a root of others, which are powers of it
+        ordered = sorted(sizes, key=lambda n: (n not in said, n in self.vocabulary.letters, rooted(n)))
         return Monomials(self.values, dict.fromkeys((*(n for n in ordered if n in said), *sums, *ordered)), [()], _BLUR)
 
     @cached_property
@@ -271,8 +273,10 @@ class _Search:
                 yield from (Edit.at(self.equation, "symbol", node, other) for other in others)
 
     def _squares(self) -> Iterator[Edit]:
-        """The square of a length, an angle or a speed that lacks a part; that of a distance for that of a stretch."""
-        known = self.vocabulary
+        """Two squares of other components of a speed; the square of a length, an angle or a speed that lacks a part; that of a distance for that of a stretch."""
+        known, lost = self.vocabulary, -self._changes(sampled(self.node, self.values))
+        addends = [*_addends(self.node, Num(1.0, "1"))]
+        yield from SquareEdits(self.values, known).of_components(self.equation, addends, lost, self._changes)
         every = [*known.parameters, *(Sym(n.name, dots) for n in known.coordinates for dots in (0, 1)), *known.others]
         turning = [n for n in every if n.dots == 1 and (its := known.dimension(n)) is not None and its.length == 0]
         speeds: list[Node] = [Mul((n, turn)) for turn in turning for n in every if known.dimension(n) == LENGTH]

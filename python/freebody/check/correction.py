@@ -19,7 +19,7 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, unsigned, walk
 
 from .coefficients import tidied
-from .component_edits import component_edits
+from .component_edits import component_edits, exchanges
 from .derivative_edits import DerivativeEdits
 from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
 from .energy_terms import energy_edits
@@ -32,7 +32,7 @@ from .likelihood import PARTNER, Likelihood
 from .marks import Marks
 from .momentum_edits import momentum_edits
 from .powers import powers_of
-from .residual import HOLDS, OFTEN, Edited, Residual, magnitude, residual, unreached
+from .residual import HOLDS, OFTEN, REACH, Edited, Residual, magnitude, residual, unreached
 from .senses import one_sense
 from .slips import is_constraint, why
 from .stated import Correction, stated
@@ -63,6 +63,7 @@ _WORTH = 10  # characters that an edit of size 1 may save
 _LIKELIEST = 1.0  # size of a single edit; none is smaller
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
 _LINEAR = 2e-6  # what is left of a true linear equation where all is small, for terms of higher order and round-off
+_LITTLE = 0.01  # of the least term: what is left there of one that is no slip
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _OF_START = 1.0  # by which what is so from the start alone is less likely to be meant
 _OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
@@ -191,11 +192,19 @@ class _Search:
         self.holds, self._near = (
             (_LIMIT, _LIMIT)
             if family.scaled or family.late
-            else (_LINEAR, _LINEAR)
+            else (min(_LINEAR, _LITTLE * self._least_share),) * 2
             if family.small
             else (_OF_RUN if case.sampler.moment else HOLDS, _PROMISING)
         )
         self.right = self._worst(equation, self.values) < self.holds
+
+    @cached_property
+    def _least_share(self) -> float:
+        """What the least term is of all of them: where one is small, what is left has to be little beside that one."""
+        with np.errstate(all="ignore"):
+            sizes = [np.abs(sampled(term, self.values)) for term in terms(self.equation, expand=True)]
+            shares = [np.median(size / sum(sizes)) for size in sizes if size.ndim == 1 and size.any()]
+        return float(min(filter(np.isfinite, shares), default=1.0))
 
     def singles(self) -> Iterator[_Found]:
         """Every single edit that may make it true."""
@@ -207,6 +216,7 @@ class _Search:
             self.differentiated.likely(),
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
+            exchanges(self.equation, self.vocabulary),
             self.differentiated.others(),
             momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
             () if readable else forgotten_factors(self.equation, self.vocabulary),
@@ -426,7 +436,10 @@ class _Search:
 
     def _confirmed(self, equation: Equation) -> bool:
         holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
-        held = self.family.held and unreached(equation, self.values)  # what is held at 0, or stays it, may hide what is wrong
+        reach = REACH * (self._least_share if self.family.small else 1.0)
+        held = self.family.held and unreached(
+            equation, self.values, reach=reach
+        )  # what is held at 0, or stays it, may hide what is wrong
         return holds and not held and not (self.family.since and not all(map(self._moves, terms(equation))))
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:

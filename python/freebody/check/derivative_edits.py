@@ -67,15 +67,21 @@ class DerivativeEdits:
 
     def _of_products(self) -> Iterator[Edit]:
         """Terms of which a derivative is a factor, as that of a product of which only one factor was differentiated; and half of what is
-        lacking then, as Lagrange's equation of an inertia that changes has it."""
-        differentiated = [node for node, _ in self._differentiated]
+        lacking then, as Lagrange's equation of an inertia that changes has it; also on both sides, as where a constraint was differentiated twice."""
+        differentiated, whole = [node for node, _ in self._differentiated], []
         for side in (self.equation.left, self.equation.right):
             if any(part is node for part in walk(side) for node in differentiated):
                 continue  # there all of it was
             parts = side.terms if isinstance(side, Add) else (side,)
             lost = list(chain(*map(self._of_other_factors, parts)))
-            for term in (*lost, *([Add(tuple(lost))] if len(lost) > 1 else []), *(Quotient(term, _TWO) for term in lost)):
+            together = [Add(tuple(lost))] if len(lost) > 1 else []
+            for term in (*lost, *together, *(Quotient(term, _TWO) for term in lost)):
                 yield Edit("missing term", None, term, exchange(self.equation, side, more(side, term)), _OF_PRODUCT)
+            whole += [(side, lost)] if lost else []
+        if len(whole) > 1:
+            after = Equation(*(more(side, *lost) for side, lost in whole))
+            every = [Add(tuple(lost)) if len(lost) > 1 else lost[0] for _, lost in whole]
+            yield Edit("missing term", None, Add(tuple(every)), after, _OF_PRODUCT, "` and `".join(map(spell, every)))
 
     def _of_other_factors(self, term: Node) -> Iterator[Node]:
         """What the derivative of a product has beside a term in which one factor of it is differentiated."""

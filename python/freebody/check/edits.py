@@ -44,6 +44,9 @@ _LARGER = {
     "extra term": 0.1,
     "missing term": 0.2,
     "convention": 0.1,
+    "exchange": 0.1,
+    "squares": 0.2,
+    "share": 0.3,
     "components": 0.3,
     "other term": 1.3,
 }

@@ -17,7 +17,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
-from .inertia_edits import about_another_point, of_whole, wheels
+from .inertia_edits import about_another_point, mass_centres, of_whole, shares, wheels
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
@@ -42,6 +42,7 @@ _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
+_ONE = Num(1.0, "1")
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
 
@@ -84,11 +85,14 @@ class FittedEdits:
                 yield from self._factors(equation, required)
                 turned = about_another_point(required, self._monomials(equation))
                 yield from (Edit.at(equation, "factor", node, new) for new in turned)
+                yield from (Edit.at(equation, "share", node, new) for new in shares(required, self.vocabulary, self.values))
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
             yield from (
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
             )
             yield from self._squares.edits(equation, required)
+            if isinstance(node, Add) and required.missing.ndim == 1:
+                yield from self._squares.of_components(equation, [(term, _ONE) for term in node.terms], required.missing)
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
                 yield from self._parts(equation, required)
@@ -304,7 +308,7 @@ class FittedEdits:
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
             brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
             every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
-            shapes = (shape for shape in every if not any(map(self._is_number, shape)))
+            shapes = (shape for shape in every if not any(map(self._has_number, shape)))
             self._terms[equation] = Monomials(
                 self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *alike, *bases)), shapes, self.blur
             )
@@ -341,13 +345,18 @@ class FittedEdits:
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self.dictionary(equation, NUMBER_ONLY)
-            turning, of_turning = wheels(equation, self.vocabulary, self.values)
+            arms, of_arms = [], rows[:0]
             if self._of(equation) == FORCE:
+                turning, of_turning = wheels(equation, self.vocabulary, self.values)
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
+                turning = [n for n in self.vocabulary.accelerations if not self._has_number(n)]
+                arms, of_arms = mass_centres(self.vocabulary, self.values, turning)
             said = np.array(
                 [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
             )
-            for pair in self.within(spanning(rows, required.missing, self.within)):
+            made = [*spanning(of_arms, required.missing, self.within)]
+            nodes, rows = (arms, of_arms) if made else (nodes, rows)
+            for pair in self.within(made or spanning(rows, required.missing, self.within)):
                 sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
                 lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
                 if None not in lost:
@@ -393,6 +402,10 @@ class FittedEdits:
             good &= np.array([not (isinstance(n, Mul) and any(id(f) in still for f in n.factors)) for n in nodes], dtype=bool)
             self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
         return self._made[key]
+
+    def _has_number(self, part: Node) -> bool:
+        """The same of one in a sum."""
+        return any(map(self._is_number, walk(part) if isinstance(part, Add) else (part,)))
 
     def _is_number(self, factor: Node) -> bool:
         """Whether a sine or cosine has one value on all states: it says nothing there."""

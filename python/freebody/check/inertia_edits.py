@@ -1,8 +1,9 @@
-"""What moments of inertia may lack: the parallel axis of a body that is no bar about its end, and what all wheels add to a mass."""
+"""What moments of inertia may lack: the parallel axis of a body that is no bar about its end, and what all wheels add to a mass; what a share of
+all that moves is; and the acceleration of a mass centre off the axes of its body."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, product
 
 import numpy as np
@@ -22,6 +23,8 @@ from .vocabulary import Vocabulary
 _ABOUT_CENTRE = {1 / 3: 1 / 4, 4 / 3: 1 / 4, 3 / 2: 1 / 3, 5 / 4: 1 / 5, 7 / 5: 2 / 7}
 """By the number of an inertia about an end or the rim, its share that is about the mass centre: of bars, disks, rods of length 2 l, and balls."""
 _MOST_WHEELS = 4
+_MOST_ARMS = 8
+_MOST_SHARING = 12
 _MOST_INERTIAS = 40
 _SAME = 1e-8  # relative: below it two values are one
 _ACCELERATION, _SPIN = LENGTH.times(TIME, -2), NUMBER_ONLY.times(TIME, -1)
@@ -45,6 +48,24 @@ def _squared(powers: Mapping[Node, int]) -> list[Node]:
     return [n for n, power in powers.items() if power == 2]
 
 
+def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
+    """An energy of before an impact, of which only a share stays: what moved then beside all that moves on, m/(m + M) or J/(I + J + m l²)."""
+    node, factor, known = required.node, required.factor, {*vocabulary.parameters}
+    if isinstance(node, Sym) or not node.symbols <= known or factor is None or not np.all((factor > 0) & (factor < 1)):
+        return
+    masses, lengths, inertias = (
+        [n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH, INERTIA)
+    )
+    turning = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)]
+    for parts in (masses[:_MOST_SHARING], turning[:_MOST_SHARING]):
+        rows = [sampled(part, values) for part in parts]
+        for own in (i for i, part in enumerate(parts) if part.symbols <= node.symbols):
+            others = [i for i in range(len(parts)) if i != own]
+            for some in (some for count in (1, 2) for some in combinations(others, count)):
+                if np.allclose(rows[own], factor * sum(rows[i] for i in (own, *some)), rtol=_SAME, atol=0):
+                    yield Mul((node, Quotient(parts[own], Add(tuple(parts[i] for i in (own, *some))))), span=node.span)
+
+
 def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Array]) -> tuple[list[Node], Array]:
     """What each body that turns with what moves adds to the mass, times its acceleration: J ẍ/r², and their values."""
     known = vocabulary
@@ -55,6 +76,17 @@ def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Arra
         for a in moves
         for J in inertias[:_MOST_WHEELS]
         for r in lengths[:_MOST_WHEELS]
+    ]
+    count = len(next(iter(values.values())))
+    return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
+
+
+def mass_centres(vocabulary: Vocabulary, values: Mapping[str, Array], parts: Sequence[Node]) -> tuple[list[Node], Array]:
+    """A mass times each of some components of the acceleration of the end of an arm that turns: one for each of the two arms to what is off the axes of
+    a body; and their values."""
+    masses, lengths = ([n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH))
+    found: list[Node] = [
+        product_of([mass, arm, part]) for mass in masses[:_MOST_WHEELS] for arm in lengths[:_MOST_ARMS] for part in parts
     ]
     count = len(next(iter(values.values())))
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)

@@ -61,6 +61,7 @@ _INSIDE = 0.25  # for a part of a bracket that has no place there: what is too m
 _BOUND = 0.2  # for a term that is lacking at one instant, where many are equal
 _UNDECLARED = 0.6  # for a reaction without a letter in the place of a weight
 _TAKEN_OUT = 0.2  # for a reaction in an equation of motion of several masses: what turns as well is likelier forgotten
+_OPENED = 0.25  # for what else moves in the equation of motion of one coordinate alone
 _NEW_RATE = 0.05  # for a rate of which the equation did not speak, which is easily taken for another
 _NEW = 0.15  # for any other quantity of which it did not speak, more for a force
 _OTHER_LETTER = 0.2  # more, for a force or a moment in the place of one that differs by more than its index
@@ -98,6 +99,10 @@ class Likelihood:
             return math.inf
         if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
             return math.inf
+        return self._of_kind(edit) + self._opens(edit)
+
+    def _of_kind(self, edit: Edit) -> float:
+        """That of an edit that puts something in."""
         match edit.kind, edit.old, edit.new:
             case "factor", Node() as old, new:
                 answers = any(isinstance(side, Sym) for side in self._sides)
@@ -120,6 +125,19 @@ class Likelihood:
             case "angle", _, new:
                 return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
+
+    def _opens(self, edit: Edit) -> float:
+        """Of what brings a reaction or another coordinate into an equation of motion of one alone, which can be solved by itself; more where the
+        acceleration is exchanged."""
+        new = edit.after.symbols - self._said - {*self.vocabulary.parameters} if self._is_closed else ()
+        exchanged = edit.kind == "symbol" and any(n.dots == 2 for n in new)
+        return _ODD if exchanged else _OPENED * bool(new)
+
+    @cached_property
+    def _is_closed(self) -> bool:
+        """Whether it is the equation of motion of one coordinate."""
+        moving = self._said - {*self.vocabulary.parameters}
+        return len({n.name for n in moving}) == 1 and max(n.dots for n in moving) == 2 > min(n.dots for n in moving)
 
     def _has_mass_beside(self, part: Node) -> bool:
         """Whether a part stands in a term with a mass or an inertia, whose numbers are of many kinds."""
@@ -169,9 +187,11 @@ class Likelihood:
         if isinstance(new, Pow):
             return _NEW * len(unsaid) + _ODD * self._cancels_within(new.base)
         if isinstance(new, Add):
+            stems = {_STEM.match(n.name)[0] for n in new.symbols & self._said}  # type: ignore[index]
+            twins = {n for n in unsaid & {*known.parameters} if _STEM.match(n.name)[0] in stems}  # type: ignore[index]
             return _NEW * sum(
                 3 if known.is_rate(n) and n not in known.parameters else 1 + (n in known.others and n not in known.letters)
-                for n in unsaid
+                for n in unsaid - twins
             )
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
 
@@ -225,7 +245,11 @@ class Likelihood:
             yield from [term] * (2 if new else 1)
         for symbol in below - self._below:
             yield from [symbol] * 2 * (symbol in known.coordinates and not symbol.dots)
-        usual = {*known.products_across, *(part for n in walk(term) if isinstance(n, Fn) for part in n.args)}
+        usual = {
+            *known.products_across,
+            *known.accelerations,
+            *(part for n in walk(term) if isinstance(n, Fn) for part in n.args),
+        }
         for part in walk(term):
             yield from [part] * 2 * (isinstance(part, Add) and part not in usual and part not in self._parts)
         for symbol in term.symbols:

@@ -15,9 +15,9 @@ from .powers import power_of
 
 _MOST_SHAPES = 4000
 _SAME = 1e-7  # of a logarithm: below it two values are one
-_WHOLE = 1e-4  # off a whole number, below which a power is one
+_WHOLE = 1e-2  # off a whole number, below which a power is one: whether it is shows beside the values
 _HIGHEST = 3
-_MOST_POWERS = 6
+_MOST_POWERS = 7
 _EXCHANGED = (1, 2, -1, -2)
 """Powers of a base that may stand for those of another of which it is a multiple."""
 _DEPENDENT = 1e-6  # of a column: what is left of it beside others, below which it says nothing new, or is lost in round-off

@@ -30,6 +30,8 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
 
 _WHY = {
     "convention": "two things stand for each other throughout",
+    "exchange": "two letters stand for each other: each force has an arm, and each motion a radius, of its own",
+    "squares": "the speed is another: its square is the sum of those of two components at right angles, seen from what is at rest",
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",
     "factor": "a number is wrong or forgotten: ½, 2, or one of an inertia or of a rotation that was left out",
@@ -41,6 +43,7 @@ _WHY = {
     "angle": "the angle is measured from elsewhere, or is that between others",
     "power": "the power is another: a centripetal term goes with the square of the rate, a moment of inertia with that of the distance",
     "root": "it is the root of this, or its square: what is squared in an energy is not yet so",
+    "share": "it is only a share: what moved before is a part of all that moves on, or that turns with it",
     "missing factor": "a factor is forgotten: dimensions or an arm tell which",
     "extra factor": "a factor is one too many: dimensions tell which",
     "inverses": "the inverse of a sum is not the sum of the inverses: springs, masses or inertias count otherwise together",

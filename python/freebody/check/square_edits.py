@@ -1,24 +1,26 @@
-"""Squares of speeds that lack a part of the speed."""
+"""Squares of speeds that lack a part of the speed, and sums of two that are those of other components."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
 import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Mul, Node, Num, Pow, Quotient, Sym
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange
 
-from .coefficients import more, multiplied, snapped
+from .coefficients import more, multiplied, product, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation
+from .powers import powers_of, written
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
-_NEARLY = 1e-5  # relative spread below which a factor is meant to be one number
+_NEARLY = 1e-5  # relative spread below which a factor is meant to be one number, or a sum what is needed
 _SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
 
 
@@ -53,12 +55,58 @@ class SquareEdits:
                 new = Pow(more(base, part), node.exponent, span=node.span)
                 yield Edit.at(equation, "symbol", node, new, 0.1 + 0.02 * depth(part))
 
+    def of_components(
+        self,
+        equation: Equation,
+        addends: Sequence[tuple[Node, Node]],
+        missing: Array,
+        change: Callable[[Array], Array] = np.asarray,
+    ) -> Iterator[Edit]:
+        """Two squares of speeds that should be those of two other components, or lack a part each: that of what turns. ``addends`` come with what
+        they are multiplied by; ``missing`` is what the equation lacks, or how that ``change``s along the motions."""
+        found = [(term, self._of_speed(term), self._of_speed(product([before, term]))) for term, before in addends]
+        for pair in combinations([each for each in found if each[1]], 2):
+            (one, two), terms = (speed for _, (speed, _, _), _ in pair), [term for term, _, _ in pair]
+            (_, *before), (_, *beside) = (whole for _, _, whole in pair)
+            if before != beside or dimension(one, self.vocabulary.dimensions) != _SPEEDS[0]:
+                continue
+            needed = sum(change(sampled(speed, self.values) ** 2) for speed in (one, two)) + missing / sampled(
+                written(*before), self.values
+            )
+            (ones, first), (twos, second) = map(self._instead_of, (one, two))
+            off = np.abs(change(first)[:, None] + change(second) - needed).max(axis=2)
+            for i, j in np.argwhere(off <= _NEARLY * np.abs(needed).max()).tolist():
+                new = [
+                    written(number, {**rest, speed: 2})
+                    for (_, (_, number, rest), _), speed in zip(pair, (ones[i], twos[j]), strict=True)
+                ]
+                after = exchange(exchange(equation, terms[0], new[0]), terms[1], new[1])
+                whole = Add(tuple(new))
+                yield Edit("squares", Add(tuple(terms)), whole, after, 0.01 * depth(whole))
+
+    def _of_speed(self, term: Node) -> tuple[Node, float, dict[Node, int]] | None:
+        """The speed that is squared in a term, and what it is multiplied by there, as a number and powers."""
+        number, powers = powers_of(term)
+        speeds = [n for n, power in powers.items() if power == 2 and dimension(n, self.vocabulary.dimensions) in _SPEEDS]
+        if len(speeds) != 1:
+            return None
+        return speeds[0], number, {n: power for n, power in powers.items() if n is not speeds[0]}
+
+    def _instead_of(self, speed: Node) -> tuple[list[Node], Array]:
+        """A speed, the rates of coordinates, and it with a part in either sense, and their squares."""
+        parts, _ = self._parts_of_speeds(_SPEEDS[0])
+        rates = [n for n in parts if isinstance(n, Sym)]
+        found = [speed, *rates, *(more(speed, part) for n in parts if n not in rates for part in (n, Negative(n)))]
+        return found, np.array([sampled(node, self.values) ** 2 for node in found])
+
     def _parts_of_speeds(self, its: Dimension) -> tuple[list[Node], Array]:
         """Rates, and rates times a length, of a dimension, and their values."""
         if its not in self._made:
             known = self.vocabulary
-            rates = [Sym(q.name, 1) for q in known.coordinates]
-            rates += [n for n in (*known.parameters, *known.others) if known.is_rate(n)]
+            steady = [n for n in known.parameters if known.is_rate(n)]
+            is_driven = lambda n: any(np.allclose(self.values[n.key], self.values[given.key]) for given in steady)
+            rates = [n for n in (Sym(q.name, 1) for q in known.coordinates) if not is_driven(n)]
+            rates += [*steady, *(n for n in known.others if known.is_rate(n))]
             lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
             turns = [n for n in rates if known.dimension(n) != its]
             found: list[Node] = [n for n in rates if known.dimension(n) == its]

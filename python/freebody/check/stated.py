@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from .edits import Edit
 from .language.spelling import spell
 
-_LEFT_OUT = ("missing term", "missing factor", "other term", "unit vector")
+_IN_WORDS = ("convention", "exchange", "components", "momentum")
+"""Kinds of edits of more than one part, told in words of their own."""
+_LEFT_OUT = ("missing term", "missing factor", "share", "other term", "unit vector")
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,7 @@ class Correction:
     def __str__(self) -> str:
         def said(kind: str, before: str, after: str) -> str:
             both = f"{kind}: `{before}` should be `{after}`" if before and after else f"{kind} `{before or after}`"
-            return after if kind in ("convention", "components", "momentum") else both
+            return after if kind in _IN_WORDS else both
 
         stated = " and ".join(said(*edit) for edit in self.edits)
         return f"{stated}: {self.equation}" + (f" (with {self.given})" if self.given else "")

@@ -244,11 +244,12 @@ class Symbols:
         return {joint["name"] for joint in self.spec["joints"] if str(joint["with"].get("along")) in angular}
 
     def _measure_gauges(self) -> None:
-        """Gauges have the dimension of their expression, where that has one."""
+        """Gauges have the dimension of their expression, where that has one, and so do letters for them."""
         for gauge in self.spec["gauges"]:
-            if (own := self.meanings.get(gauge["name"])) is not None and own.dimension is None:
+            if (own := self.meanings.get(name := gauge["name"])) is not None and own.dimension is None:
                 with suppress(ModelProblem):
-                    self.meanings[gauge["name"]] = replace(own, dimension=self.measure(str(gauge["value"]))[1])
+                    self.meanings[name] = replace(own, dimension=self.measure(str(gauge["value"]))[1])
+                    self.named.values[name] = (own.kind, self.meanings[name].dimension)
 
     def _reactions(self) -> dict[str, Meaning]:
         """Forces by the names of what makes them, in two spellings."""

@@ -113,7 +113,8 @@ class Vocabulary:
         functions += [(call,) for call in calls]
         dynamic = dict.fromkeys(each for each, _ in (*self._dynamic(moving), *self._works(wanted)))
         yield from ((*moves, *function) for function in functions for moves in dynamic)
-        yield from ((part,) for part in (*self.differences, *self.turned_components, *self.products_across))
+        parts = (*self.differences, *self.turned_components, *self.products_across, *self.accelerations)
+        yield from ((part,) for part in parts)
 
     @cached_property
     def differences(self) -> list[Node]:
@@ -135,13 +136,31 @@ class Vocabulary:
 
     @cached_property
     def turned_components(self) -> list[Node]:
-        """The components of forces, of which those along x and y have letters, along and across directions at each angle."""
+        """The components of forces and accelerations, of which those along x and y have letters, along and across directions at each angle."""
         forces = [n for n in self.others if self.dimension(n) == FORCE and n.name.endswith("x")]
         pairs = [(n, other) for n in forces if (other := Sym(f"{n.name[:-1]}y")) in self.others]
+        lengths = [n for n, its in self.coordinates.items() if its == LENGTH]
+        pairs += [(Sym(x.name, 2), Sym(y.name, 2)) for x, y in combinations(lengths, 2)]
         out: list[Node] = []
         for (x, y), angle in product(pairs, self.angles):
             sine, cosine = (Fn(name, (angle,)) for name in ("sin", "cos"))
             out += [Add((Mul((x, cosine)), Mul((y, sine)))), Add((Mul((x, sine)), Negative(Mul((y, cosine)))))]
+        return out
+
+    @cached_property
+    def accelerations(self) -> list[Node]:
+        """Components of the acceleration of the end of an arm that turns, each of its two parts, along axes and across and along other angles."""
+        turning = [n for n in self.coordinates if n in self.angular]
+        pairs = [*permutations(turning, 2)]
+        seen: list[tuple[Sym, Node, bool]] = [(n, n, True) for n in turning]
+        seen += [(n, angle, False) for n, other in pairs for angle in (Add((other, Negative(n))), other)]  # absolute, relative
+        out: list[Node] = []
+        for n, angle, along in seen:
+            sine, cosine = (Fn(name, (angle,)) for name in ("sin", "cos"))
+            across, inwards = Sym(n.name, 2), _square(Sym(n.name, 1))
+            with_sense = lambda term, plus: term if plus else Negative(term)
+            out.append(Add((Mul((across, cosine)), with_sense(Mul((inwards, sine)), not along))))
+            out.append(Add((Mul((across, sine)), with_sense(Mul((inwards, cosine)), along))))
         return out
 
     def is_rate(self, symbol: Sym) -> bool:
