@@ -19,23 +19,26 @@ from freebody.model.start import quantity
 from freebody.run.moments import PATIENT, Unreached
 from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
 from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
-from .families import ALL, BEFORE, Family, NoMotion
+from .families import ALL, BEFORE, SINCE_START, Family, NoMotion
 from .frequency_claims import OMEGA
 from .inner_forces import inner_forces
 from .language.dimensions import misfit
 from .language.glyphs import CONDITION
-from .language.statements import Program, symbols_in
+from .language.spelling import spell
+from .language.statements import Program, symbols_in, terms
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .phases import NOT_FIRST, alike, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
+from .residual import magnitude
 from .senses import is_root
 from .symbols import DOUBTFUL, Symbols
 from .timed_claims import holds_on_run
@@ -128,7 +131,12 @@ class Checker:
         ):
             return alone.check(*how)
         try:
-            return (re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and self._of_frequencies(*how)) or self._checked(*how)
+            if re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and (found := self._of_frequencies(*how)):
+                return found
+            verdict = self._checked(*how)
+            as_rate = verdict.kind is Kind.WRONG and any(note.startswith("Here ω is read as") for note in verdict.notes)
+            found = self._of_frequencies(*how) if as_rate else None  # a rate is no expression of what stays the same
+            return replace(found, text=verdict.text) if found else verdict
         except StatementError as error:
             is_of_omega = re.search("`(?:ω|omega)(?:_[A-Za-z])?`", error.what) is not None
             if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
@@ -191,6 +199,8 @@ class Checker:
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         checker.budget = Budget(self.seconds, begins=thread_time())
         plain, passed = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
+        if any(name.startswith("Δ") for name in (*self.declared, *(letters or ()))):  # a letter, and no change
+            plain = re.sub(r"\\Delta\s*(?=\w)", "Δ", plain)
         try:
             label, colon, _ = plain.partition(":")
             checker.inner |= inner_forces(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
@@ -229,10 +239,23 @@ class Checker:
         for name in self.switches:
             with suppress(ModelProblem, StatementError):
                 later = self.beside("after", name, {}).check(text, letters)
-                if later.kind is Kind.WRONG:
+                if later.kind is Kind.WRONG and self._is_idle(verdict, text, letters):
                     said = ", ".join(f"`{term}`" for term in verdict.untested)
                     return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
         return verdict
+
+    def _is_idle(self, verdict: Verdict, text: str, letters: Declared | None) -> bool:
+        """Whether what is not established of a statement is 0 as the model is at first, and not only small where it was tried."""
+        since = SINCE_START if verdict.assumption == FROM_START else None
+        case = self.case(with_condition_first(plainly(text)[0]), letters, since)
+        values = case.values()
+        untested = [
+            (equation, term)
+            for equation in case.equations
+            for term in terms(equation, expand=True)
+            if spell(term) in verdict.untested
+        ]
+        return all(np.all(np.abs(sampled(term, values)) <= _ROUND_OFF * magnitude(one.left, values)) for one, term in untested)
 
     def at_first(self) -> Checker:
         """The same, of which is asked what is so as the model is at first, whatever switches on it later."""

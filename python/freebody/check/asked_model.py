@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -34,6 +35,15 @@ _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by mo
 _DEPENDENT = (
     0.05  # part of the motions by which loops stay closed that moves a coordinate: below it loops are near a dead position for it
 )
+
+
+def _with_words(item: Any, change: Callable[[str], str]) -> Any:
+    """Data with each text in it changed, but for units."""
+    if isinstance(item, Mapping):
+        return {key: each if key in ("name", "unit") else _with_words(each, change) for key, each in item.items()}
+    if isinstance(item, str):
+        return change(item)
+    return [_with_words(each, change) for each in item] if isinstance(item, list | tuple) else item
 
 
 class AskedModel:
@@ -77,6 +87,9 @@ class AskedModel:
         name = next(name for name in ("g", "gravity", "gravity2") if name not in taken)
         self.spec["parameters"] += [{"name": name, "value": -given[1], "unit": "m/s^2"}]
         self.spec["gravity"] = [0.0, f"-{name}"]
+        literal = re.compile(rf"(?<![\w.]){re.escape(f'{-given[1]:g}')}(?![\w.])")  # the same number in laws is no other one
+        for kind in ("forces", "motions", "states", "parameters"):
+            self.spec[kind] = [_with_words(item, lambda text: literal.sub(name, text)) for item in self.spec[kind]]
         self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
         return name
 

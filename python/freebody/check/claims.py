@@ -58,6 +58,7 @@ _STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what 
 _MOMENTS = 6
 _RUNS = 12
 _ENOUGH, _CLEARLY = 5, 1e-3  # runs after which what changes by so much is no constant
+_SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
 _NEWTON = 20  # steps by which premises are made true
 _FEWEST = 8  # places at which they have to be
 
@@ -72,7 +73,11 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         verdict := across_impact(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
     ):
         return verdict
-    for pattern, judge in _FORMS:
+    for pattern, judge in (
+        _FORMS
+        if not _named_changes({**checker.declared, **declared}, claim)
+        else (form for form in _FORMS if form[1] is not changes)
+    ):
         if found := pattern.fullmatch(claim):
             said = ((part or "").strip() for part in found.groups())
             return judge(checker, {**declared, **given}, *said)
@@ -84,6 +89,11 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")
     return None
+
+
+def _named_changes(declared: Declared, claim: str) -> bool:
+    """Whether a letter of the writer's own begins as a change does: ΔE, the energy that is lost."""
+    return any(name.startswith("Δ") and name in claim for name in declared)
 
 
 def _defined(text: str) -> tuple[dict[str, str], str]:
@@ -145,8 +155,19 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
             return replace(found, assumption=words)
         if found.kind is verdict.kind and found.mends and not verdict.mends:
             verdict = replace(verdict, mends=found.mends)
-        verdict = found if verdict.kind is Kind.UNDECIDABLE and found.kind is not verdict.kind else verdict
+        if verdict.kind is Kind.UNDECIDABLE is not found.kind or (
+            found.kind is Kind.UNDECIDABLE and _is_of_start(checker, declared, statement)
+        ):
+            verdict = found
     return verdict
+
+
+def _is_of_start(checker: Checker, declared: Declared, statement: str) -> bool:
+    """Whether it speaks of motions from the start alone, so that no others break it."""
+    with suppress(StatementError):
+        case = checker.case(statement, declared)
+        return any(map(case.meaning.speaks_of_start, case.equations))
+    return False
 
 
 def _letters_of(checker: Checker, declared: Declared, condition: str) -> tuple[dict[str, str], str]:
@@ -219,11 +240,21 @@ def _limit(checker: Checker, declared: Declared, statement: str, limits: str) ->
             rest = 0.0
             continue
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
-        shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier  # what grows with t leaves more behind
+        if given.late and HOLDS < rest < _SETTLING and _settles(case, equation):
+            rest = 0.0
+        shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier
         if np.isnan(rest) or (rest > HOLDS and not shrinks):
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _settles(case: Case, equation: Equation) -> bool:
+    """Whether what is left of it at the end of motions dies away: by a larger factor in each span of time, not as a power of the time."""
+    given = case.hypothesis
+    late = (replace(given, late=given.late**part) for part in (2 / 3, 5 / 6, 1.0))
+    first, second, last = (float(np.median(np.abs(residual(equation, case.values(one)).ratio).max(axis=1))) for one in late)
+    return second / last > (first / second) ** 2 > 2.0
 
 
 def _small(case: Case, statement: str, limits: str) -> Verdict:

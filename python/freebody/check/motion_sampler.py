@@ -282,7 +282,9 @@ class MotionSampler(AskedModel):
             state = self._at_moment(self.started(values))
         else:
             random = rng.random() < _ELSEWHERE
-            with_them = self._puts_in_place or reach < 1  # strings may be as long as they are at the start
+            with_them = self._puts_in_place or (
+                reach < 1 and rng.random() < 0.5
+            )  # strings may be as long as they are at the start
             own = self._at_moment(self.started(values)) if with_them else self.own
             q = own.q + reach * _APART * self.sizes * rng.uniform(-1, 1, len(own.q)) * random
             rates, there = self._rates(rng, family), self._named(own.u)

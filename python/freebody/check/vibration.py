@@ -206,6 +206,8 @@ class Vibration:
         except (MotionError, ModelError, SingularConfiguration, ValueError, np.linalg.LinAlgError):
             return None
         swinging = [each.state for each in found if len(each.space.a) == 2 and np.linalg.det(each.space.a) > 0]
+        if not swinging and (far := self._at_rest(first)) and _swings(_space(core, far).a):
+            return far
         return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
 
     def quantities(self, row: Array) -> Mapping[str, float]:

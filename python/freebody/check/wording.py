@@ -118,6 +118,8 @@ _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=cons
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
+_GIVEN_BEFORE_LABEL = re.compile(rf"\s*((?:{_SYMBOL}\s*=\s*[\d.]+(?:,\s*|\s+and\s+))+)([A-Za-z][\w\s'-]*:(?!=).+)", re.S)
+"""``a = 0, c = 0, natural frequencies: …``."""
 _GIVEN_FIRST = re.compile(
     rf"((?:[^\W\d][\w{{}}\\]*\s*=\s*\d+(?:\.\d+)?(?:\s+[A-Za-z°][^\s,;]*|°)?(?:\s*,\s*|\s+and\s+|\s*(?=;)))+);\s*((?:{_STARTS})\b.+)",
     re.S,
@@ -160,6 +162,8 @@ def with_condition_first(text: str) -> str:
         return f"constant: {found[1]}"
     if found := _GIVEN.fullmatch(said) or _GIVEN_FIRST.fullmatch(said):
         return f"if {found[1]}: {found[2]}"
+    if found := _GIVEN_BEFORE_LABEL.fullmatch(said):
+        return f"if {found[1].strip().removesuffix(',')}: {found[2]}"
     if found := _LIMIT.fullmatch(said):
         return f"as {next(filter(None, found.groups()[:3]))}: {found[4]}"
     if (
