@@ -81,10 +81,11 @@ def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabu
     moving = [*dict.fromkeys((*said, *moving))]
     every = [*still, *moving]
     sizes = np.array([sampled(n, values) for n in every]).reshape(len(every), -1)
-    ratios, fixed = [], [sizes[i] / sizes[k] for i, k in permutations(range(len(still)), 2)]
+    ratios, fixed = [], [1.0, *(sizes[i] / sizes[k] for i, k in permutations(range(len(still)), 2))]
     for i, k in permutations(range(len(every)), 2):
-        # where it is that of two lengths on all motions, the speeds of two parts are in that ratio: no component
-        moves = max(i, k) >= len(still) and not any(np.allclose(sizes[i], its * sizes[k], atol=0) for its in fixed)
+        # where it is a number, or the ratio of two lengths, on all motions, the speeds of two parts are in that ratio: no component
+        alike = (np.allclose(np.abs(sizes[i]), its * np.abs(sizes[k]), atol=0) for its in fixed)
+        moves = max(i, k) >= len(still) and not any(alike)
         ratios += [(Quotient(every[i], every[k]), sizes[i] / sizes[k])] if moves and sizes[k].all() else []
     rows = [*(sampled(n, values) for n in calls), *(row for _, row in ratios)]
     return [*calls, *(ratio for ratio, _ in ratios)], np.array(rows)
