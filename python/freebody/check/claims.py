@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from itertools import takewhile
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import MotionError, State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.run.records import Array
 from freebody.solve.perturbed_states import independent
@@ -21,31 +19,20 @@ from freebody.symbolic.tree import Sym
 
 from . import timed_claims
 from .assumptions import (
-    FROM_START,
-    SMALL,
-    WORDS,
     family,
-    first_order,
-    first_order_from_start,
-    says_zero,
-    small_from_start,
-    tiny,
-    vanishes,
-    wider,
 )
 from .case import Case
 from .condition_edits import other_conditions
-from .constants import constant_corrections
-from .correction import MOST, SECOND, corrections
-from .families import ALL, SINCE_START, NoMotion, Samples
+from .constant_claims import constant, reading
+from .correction import MOST
+from .families import Samples
 from .frequency_claims import frequencies
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
-from .motion_sampler import touching
+from .limit_claims import limit
 from .phases import phase
-from .residual import HOLDS, jacobian, magnitude, residual
-from .stated import Correction
+from .residual import jacobian, magnitude, residual
 from .two_moments import BETWEEN, across_impact, between, changes
 from .verdict import Evidence, Kind, Verdict, evidence
 from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled, on_later_stretch
@@ -54,11 +41,6 @@ from .wording import BLOW, as_claim, named, with_condition_first
 if TYPE_CHECKING:
     from .api import Checker, Declared
 
-_STEADY = 1e-7  # spread of a constant along a run, relative to its terms: what the integrator leaves
-_MOMENTS = 6
-_RUNS = 12
-_ENOUGH, _CLEARLY = 5, 1e-3  # runs after which what changes by so much is no constant
-_SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
 _NEWTON = 20  # steps by which premises are made true
 _FEWEST = 8  # places at which they have to be
 
@@ -73,11 +55,8 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         verdict := across_impact(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
     ):
         return verdict
-    for pattern, judge in (
-        _FORMS
-        if not _named_changes({**checker.declared, **declared}, claim)
-        else (form for form in _FORMS if form[1] is not changes)
-    ):
+    forms = [form for form in _FORMS if form[1] is not changes or not _named_changes({**checker.declared, **declared}, claim)]
+    for pattern, judge in forms:
         if found := pattern.fullmatch(claim):
             said = ((part or "").strip() for part in found.groups())
             return judge(checker, {**declared, **given}, *said)
@@ -139,7 +118,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         and any(str(value) in _ZEROS for _, value in given.held)
         and not checker.sampler.has(given)
     ):
-        return _limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
+        return limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     release = replace(given, since="", at_start=True)
     others = [(release, condition)] if given.since == "rest" else []
     later = places or verdict.kind is Kind.UNDECIDABLE or _OF_RATES.search("".join(given.vanishing)) is not None
@@ -218,150 +197,9 @@ def _only_if(checker: Checker, declared: Declared, condition: str, statement: st
     return Verdict(Kind.TRUE, statement, reason, condition, evidence=always.evidence)
 
 
-def _limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
-    """In a limit: what is left shrinks with the parameter, or vanishes."""
-    *others, words = sorted((part.strip() for part in limits.split(",")), key=lambda part: IN_WORDS.fullmatch(part) is not None)
-    if others and IN_WORDS.fullmatch(words) and words not in WORDS and (found := phase(checker, words)):
-        return in_phase(checker, declared, found, words, f"limit: {statement} as {', '.join(others)}")
-    given = family(limits, checker, declared)
-    case = checker.case(statement, declared, given)
-    if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
-        return checker.check(statement, declared, replace(given, small=()))
-    if given.small:
-        return _small(case, statement, limits)
-    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled), late=given.late ** (4 / 7))
-    values, before = case.values(), case.values(near)
-    for equation in case.equations:
-        found = residual(equation, values)
-        if says_zero(equation):
-            if not vanishes(equation, values, before if given.scaled or given.late else case.values(ALL)):
-                what = f"it does not vanish in the limit {limits}"
-                return Verdict(Kind.WRONG, statement, what, evidence=evidence(found, values))
-            rest = 0.0
-            continue
-        rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
-        if given.late and HOLDS < rest < _SETTLING and _settles(case, equation):
-            rest = 0.0
-        shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier
-        if np.isnan(rest) or (rest > HOLDS and not shrinks):
-            mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
-            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
-    return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
-
-
-def _settles(case: Case, equation: Equation) -> bool:
-    """Whether what is left of it at the end of motions dies away: by a larger factor in each span of time, not as a power of the time."""
-    given = case.hypothesis
-    late = (replace(given, late=given.late**part) for part in (2 / 3, 5 / 6, 1.0))
-    first, second, last = (float(np.median(np.abs(residual(equation, case.values(one)).ratio).max(axis=1))) for one in late)
-    return second / last > (first / second) ** 2 > 2.0
-
-
-def _small(case: Case, statement: str, limits: str) -> Verdict:
-    """For small motions, to first order."""
-    for equation in case.equations:
-        if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
-            continue
-        from_start = first_order_from_start(case, equation)
-        if not (from_start or _first_order(case, equation, from_start is None)):
-            near = tiny(case, equation) if from_start is None else ("", small_from_start(case))
-            mends: tuple[Correction, ...] = ()
-            with suppress(NoMotion):
-                mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and near else ()
-            values = (case if from_start is None else small_from_start(case, SMALL)).values()
-            seen = evidence(residual(equation, values), values)
-            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
-    return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
-
-
-def _first_order(case: Case, equation: Equation, needed: bool) -> bool:
-    """Whether it is true to first order in small motions of any kind. Raises ``NoMotion`` where that is ``needed`` and there are none."""
-    try:
-        return first_order(case, equation, case.hypothesis)
-    except NoMotion:
-        if needed:
-            raise
-        return False
-
-
-def _constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
-    """The same at all times of each motion, until it goes on in another mode; of motions from the start, or after something that happens, until
-    something switches."""
-    case = _reading(checker, declared, expression)
-    node = case.equations[0].left
-    worst, seen, lost, runs, broken = 0.0, None, "", [], None
-    # What a hypothesis makes 0 has no size of its own there, only round-off.
-    usual = float(np.median(magnitude(node, case.values(ALL)))) if case.hypothesis.vanishing else 0.0
-    for sample in case.samples(count=_RUNS).states:
-        if len(runs) >= _ENOUGH and worst > _CLEARLY and not case.correcting:
-            break
-        try:
-            along, change = _along(
-                checker, sample, until_change=bool(case.hypothesis.since or checker.sampler.moment or checker.is_at_first)
-            )
-        except MotionError as error:  # with these numbers what switches on it cannot be carried through
-            broken = error
-            continue
-        if not along.states:
-            continue
-        values = case.meaning.values(along)
-        runs.append(values)
-        value, size = sampled(node, values), magnitude(node, values)
-        spread = float(np.max(np.ptp(value, axis=0)) / max(float(np.max(size)), usual, 1e-300))
-        if np.isnan(spread):
-            return Verdict(Kind.UNDECIDABLE, expression, "it has no value along the motion")
-        if spread >= worst:
-            worst, lost = spread, change
-            seen = Evidence({"t": along.states[-1].t}, value[0].tolist(), value[-1].tolist(), spread, _RUNS)
-    if broken and not runs:
-        raise broken
-    if worst < _STEADY:
-        return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
-    if case.hypothesis == ALL and case.sampler.starts_to_move:  # a momentum that is 0 keeps mass centres where they are
-        from_start = checker.check(f"constant: {expression}", declared, SINCE_START, correcting=False)
-        if from_start.ok:
-            return replace(from_start, assumption=FROM_START)
-    mends = constant_corrections(case, node, runs) if case.correcting else ()
-    return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", mends=mends, evidence=seen)
-
-
-def _reading(checker: Checker, declared: Declared, expression: str) -> Case:
-    """An expression symbolically, or else one of the model language (``energy()``)."""
-    try:
-        return checker.case(f"{expression} = 0", declared)
-    except StatementError:
-        with suppress(ModelProblem):
-            return checker.case("quantity = 0", {**declared, "quantity": expression})
-        raise
-
-
-def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples, str]:
-    """States along the motion that goes on from a true state, to its first change if that is asked for, or no impact comes on it that belongs
-    to the model's own motion; and what changes on it."""
-    sampler = checker.sampler
-    motion = sampler.core.simulate(state, state.t + 1 / sampler.rate, rtol=1e-11, max_steps=5000)
-    change = next((each for each in motion.changes if each.t > state.t), None)
-    until_change |= change is not None and not _happens(checker, change.of, motion, state.t)
-    ends = sampler.staying(motion, state.t, change.t if change and until_change else motion.end.t)
-    times = np.linspace(state.t, ends - 1e-9 * (ends - state.t), _MOMENTS)
-    stated = f", with {' '.join([change.kind, *change.of])} on it" if change and not until_change else ""
-    states = [motion.state(t) for t in times.tolist()]
-    first = touching(state if state.history else states[0])
-    same = takewhile(
-        lambda each: stated or touching(each) == first, states
-    )  # until a cord is unwound; none where at once it touches
-    return Samples(sampler.core, [*same]), stated
-
-
-def _happens(checker: Checker, parts: Sequence[str], motion: Trajectory, begins: float) -> bool:
-    """Whether rates jump on a motion, by something of parts that changes on the model's own run, too."""
-    jumps = any(each.before is not None for each in motion.changes if each.t > begins)
-    return jumps and any({*each.of} & {*parts} for each in checker.own_motion.changes if each.t > 0)
-
-
 def _independent(checker: Checker, declared: Declared, names: str, expression: str) -> Verdict:
     """The value of an expression, when some coordinates or rates are changed and all else stays."""
-    case = _reading(checker, declared, expression)
+    case = reading(checker, declared, expression)
     node, values = case.equations[0].left, case.values()
     before, size = sampled(node, values), magnitude(node, values)
     for name, moved in _changed_alone(checker, declared, names, case):
@@ -472,9 +310,9 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"only if\b(.*?):(.+)", re.S), _only_if),
     (re.compile(r"if\b(.*?):(.+)", re.S), _if),
     (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), frequencies),
-    (re.compile(r"constant:(.+)", re.S), _constant),
+    (re.compile(r"constant:(.+)", re.S), constant),
     (re.compile(rf"{BETWEEN}:(.+)", re.S), between),
-    (re.compile(r"limit:(.+)\bas\b(.*)", re.S), _limit),
+    (re.compile(r"limit:(.+)\bas\b(.*)", re.S), limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),
     (re.compile(r"shorter:(.+)\bthan\b(.+)", re.S), _shorter),

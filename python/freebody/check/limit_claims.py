@@ -1,0 +1,102 @@
+"""Claims in a limit: of parameters that go to 0 or to infinity, of small motions, of what a motion comes to."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .assumptions import (
+    SMALL,
+    WORDS,
+    family,
+    first_order,
+    first_order_from_start,
+    says_zero,
+    small_from_start,
+    tiny,
+    vanishes,
+    wider,
+)
+from .case import Case
+from .correction import SECOND, corrections
+from .families import ALL, NoMotion
+from .language.statements import Equation, symbols_in
+from .phases import phase
+from .residual import HOLDS, residual
+from .stated import Correction
+from .verdict import Kind, Verdict, evidence
+from .worded_claims import IN_WORDS, in_phase
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+
+_SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
+
+
+def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
+    """In a limit: what is left shrinks with the parameter, or vanishes."""
+    *others, words = sorted((part.strip() for part in limits.split(",")), key=lambda part: IN_WORDS.fullmatch(part) is not None)
+    if others and IN_WORDS.fullmatch(words) and words not in WORDS and (found := phase(checker, words)):
+        return in_phase(checker, declared, found, words, f"limit: {statement} as {', '.join(others)}")
+    given = family(limits, checker, declared)
+    case = checker.case(statement, declared, given)
+    if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
+        return checker.check(statement, declared, replace(given, small=()))
+    if given.small:
+        return _small(case, statement, limits)
+    near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled), late=given.late ** (4 / 7))
+    values, before = case.values(), case.values(near)
+    for equation in case.equations:
+        found = residual(equation, values)
+        if says_zero(equation):
+            if not vanishes(equation, values, before if given.scaled or given.late else case.values(ALL)):
+                what = f"it does not vanish in the limit {limits}"
+                return Verdict(Kind.WRONG, statement, what, evidence=evidence(found, values))
+            rest = 0.0
+            continue
+        rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
+        if given.late and HOLDS < rest < _SETTLING and _settles(case, equation):
+            rest = 0.0
+        shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier
+        if np.isnan(rest) or (rest > HOLDS and not shrinks):
+            mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
+            return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
+    return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _settles(case: Case, equation: Equation) -> bool:
+    """Whether what is left of it at the end of motions dies away: by a larger factor in each span of time, not as a power of the time."""
+    given = case.hypothesis
+    late = (replace(given, late=given.late**part) for part in (2 / 3, 5 / 6, 1.0))
+    first, second, last = (float(np.median(np.abs(residual(equation, case.values(one)).ratio).max(axis=1))) for one in late)
+    return second / last > (first / second) ** 2 > 2.0
+
+
+def _small(case: Case, statement: str, limits: str) -> Verdict:
+    """For small motions, to first order."""
+    for equation in case.equations:
+        if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
+            continue
+        from_start = first_order_from_start(case, equation)
+        if not (from_start or _first_order(case, equation, from_start is None)):
+            near = tiny(case, equation) if from_start is None else ("", small_from_start(case))
+            mends: tuple[Correction, ...] = ()
+            with suppress(NoMotion):
+                mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and near else ()
+            values = (case if from_start is None else small_from_start(case, SMALL)).values()
+            seen = evidence(residual(equation, values), values)
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
+    return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
+
+
+def _first_order(case: Case, equation: Equation, needed: bool) -> bool:
+    """Whether it is true to first order in small motions of any kind. Raises ``NoMotion`` where that is ``needed`` and there are none."""
+    try:
+        return first_order(case, equation, case.hypothesis)
+    except NoMotion:
+        if needed:
+            raise
+        return False
