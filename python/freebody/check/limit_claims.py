@@ -58,7 +58,10 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
             rest = 0.0
             continue
         rest, earlier = (float(np.median(np.abs(r.ratio).max(axis=1))) for r in (found, residual(equation, before)))
-        if given.late and HOLDS < rest < _SETTLING and _settles(case, equation):
+        if given.late and HOLDS < rest < _SETTLING:
+            if not _settles(case, equation):
+                what = f"{rest:.0e} of its terms is left where motions were followed to, and it is not seen to die away"
+                return Verdict(Kind.UNDECIDABLE, statement, what)
             rest = 0.0
         shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier
         if np.isnan(rest) or (rest > HOLDS and not shrinks):

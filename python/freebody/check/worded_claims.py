@@ -144,8 +144,8 @@ def in_phase(
 
 
 def _is_idle(one: Verdict) -> bool:
-    """Whether a letter of a statement is 0 where it was judged: then it may not be meant of that stretch."""
-    return one.evidence is not None and any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
+    """Whether a letter of a statement is 0 where it was judged, or every term: then it may not be meant of that stretch."""
+    return one.evidence is None or any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
 
 
 def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
