@@ -145,6 +145,8 @@ class _Rates:
 
         here, steps = read(x), np.diag(np.full(len(x), self.step))
         slopes = np.array([self.slope(read, x, step, here) for step in steps]).T
+        if not np.isfinite(slopes).all():
+            return None  # nearby it has no value
         (first, *others), moved = np.split(slopes, [len(self.texts)])
         rows = np.array([first, *(row for row in others if np.abs(row).max() > _FELT)])
         near = np.linalg.pinv(moved.T @ moved) @ rows.T
