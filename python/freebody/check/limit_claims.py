@@ -85,7 +85,10 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
             continue
         from_start = first_order_from_start(case, equation)
         if not (from_start or _first_order(case, equation, from_start is None)):
-            near = tiny(case, equation) if from_start is None else ("", small_from_start(case))
+            of_start = (
+                from_start is not None and case.meaning.of_start_alone
+            )  # else it may name but the time, as what is driven does
+            near = ("", small_from_start(case)) if of_start else tiny(case, equation)
             mends: tuple[Correction, ...] = ()
             with suppress(NoMotion):
                 mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and near else ()
