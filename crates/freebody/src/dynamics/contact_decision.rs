@@ -22,15 +22,10 @@ impl ContactDecision {
         self.doubtful.contains(&true)
     }
 
-    /// Leaves to `next` what is not decided here and is there; all else is not its business.
-    pub fn complete(&mut self, next: &ContactDecision) {
-        for i in 0..self.modes.len() {
-            if self.doubtful[i] && !next.doubtful[i] {
-                self.modes[i] = next.modes[i];
-                self.friction_ratios[i] = next.friction_ratios[i];
-                self.doubtful[i] = false;
-            }
-        }
+    /// Whether `next` decides something that is in doubt here. What is in doubt for ever, as a touch that others make
+    /// redundant, is no reason to follow it.
+    pub fn is_settled_by(&self, next: &ContactDecision) -> bool {
+        self.doubtful.iter().zip(&next.doubtful).any(|(&here, &there)| here && !there)
     }
 }
 
