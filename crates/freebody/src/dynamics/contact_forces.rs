@@ -86,6 +86,11 @@ impl Workspace<'_> {
         constraints.iter().map(acceleration).collect()
     }
 
+    /// The acceleration of sliding of a unilateral constraint in the last solution, m/s²; 0 where it cannot have friction.
+    pub fn slide_acceleration(&self, constraint: usize) -> f64 {
+        slide_row(self.at(), constraint, Some(&self.solved.bodies)).map_or(0.0, |row| row.bias)
+    }
+
     /// The restitution of a unilateral constraint.
     pub fn restitution(&self, constraint: usize) -> f64 {
         self.n.values[self.m.unilateral[constraint].restitution]

@@ -4,6 +4,7 @@
 //! unilateral constraints alone, with the Delassus matrix of accelerations by unit contact forces. An impact is the
 //! same problem with velocities and impulses (Pfeiffer & Glocker 1996, *Multibody Dynamics with Unilateral Contacts*).
 
+use super::contact_decision::{decision, ContactDecision};
 use super::minimal::Force;
 use super::rows::{closing_rows, gap_row, slide_row};
 use super::{generalized_force, DynamicsError, Row, Workspace};
@@ -14,8 +15,6 @@ use crate::plane::{Vec2, Wrench};
 use crate::scalar::Scalar;
 use crate::solve::Matrix;
 
-/// Part of the largest acceleration below which one, or a force that would cause it, is too small to decide by.
-pub(super) const CLOSE: f64 = 1e-8;
 /// Part of the mechanism's own accelerations below which one is round-off.
 const ACCELERATION_NOISE: f64 = 1e-13;
 /// Part of the characteristic length, and of the mechanism's own speed, up to which a gap is closed and nothing moves, at
@@ -51,16 +50,6 @@ pub struct ClosedContacts {
     pub(super) g: Matrix,
     /// Rates of the k gaps, those of angles at their levers, then of the k slides, m/s.
     pub rates: Vec<f64>,
-}
-
-/// How unilateral constraints go on.
-pub struct ContactDecision {
-    /// Of each unilateral constraint reached.
-    pub modes: Vec<ContactMode>,
-    /// Whether something that decides was too small to be sure of.
-    pub is_doubtful: bool,
-    /// Part of its normal force that is the friction of each.
-    pub friction_ratios: Vec<f64>,
 }
 
 impl ClosedContacts {
@@ -369,30 +358,4 @@ pub(super) fn force_on_first<S: Scalar>(
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// The modes of an answer, and whether it was a close thing.
-fn decision(answer: &Answer, problem: &Problem, acceleration: f64) -> ContactDecision {
-    let k = answer.status.len();
-    let fastest = problem.free.iter().chain(&answer.acceleration).fold(acceleration, |most, x| most.max(x.abs()));
-    let weak = |i: usize| answer.normal[i] * problem.g[(i, i)] <= CLOSE * fastest;
-    let slow = |x: f64| x.abs() <= CLOSE * fastest;
-    let mode = |i: usize| match answer.status[i] {
-        Status::Open if slow(answer.acceleration[i]) => ContactMode::ClosedUnloaded,
-        Status::Open => ContactMode::Open,
-        Status::Closed => ContactMode::Frictionless,
-        Status::Stick => ContactMode::Stick,
-        Status::Slip(sense) => ContactMode::Slip(sense),
-    };
-    let close = |i: usize| match (answer.status[i], problem.friction[i]) {
-        (Status::Open, _) => slow(answer.acceleration[i]),
-        (Status::Stick, FrictionLaw::Resting { fixed, .. }) => {
-            let most = fixed * answer.normal[i];
-            weak(i) || most - answer.tangent[i].abs() <= CLOSE * most
-        }
-        (Status::Slip(_), FrictionLaw::Resting { .. }) => weak(i) || slow(answer.acceleration[k + i]),
-        _ => weak(i),
-    };
-    let friction = answer.normal.iter().zip(&answer.tangent).map(|(n, t)| if *n > 0.0 { t / n } else { 0.0 }).collect();
-    ContactDecision { modes: (0..k).map(mode).collect(), is_doubtful: (0..k).any(close), friction_ratios: friction }
 }

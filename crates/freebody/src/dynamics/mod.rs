@@ -9,6 +9,7 @@
 
 mod answer;
 mod articulated_body;
+mod contact_decision;
 mod contact_forces;
 mod contact_modes;
 mod derivatives;
@@ -40,8 +41,9 @@ mod tree_matrices;
 mod tree_motion;
 mod unloaded;
 
+pub use contact_decision::ContactDecision;
 pub use contact_forces::compliant_force;
-pub use contact_modes::{ClosedContacts, ContactDecision, ContactTolerances};
+pub use contact_modes::{ClosedContacts, ContactTolerances};
 pub use derivatives::{Direction, RowDerivatives};
 pub use energy::{kinetic, potential};
 pub use evaluator::reaction_names;

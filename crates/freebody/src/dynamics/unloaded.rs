@@ -1,7 +1,8 @@
 //! Unilateral constraints that are closed and carry nothing, but could: a taut string at no tension, a contact without
 //! pressure.
 
-use super::contact_modes::{CLOSE, REST};
+use super::contact_decision::CLOSE;
+use super::contact_modes::REST;
 use super::rows::slide_row;
 use super::{DynamicsError, Route, Workspace};
 use crate::contact::complementarity::FrictionLaw;

@@ -68,8 +68,22 @@ pub(super) const CLOSED_GAP: f64 = 1e-10;
 pub(super) const REST_SPEED: f64 = 1e-10;
 /// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
 const OCCLUDED_GAP: f64 = 2.0 * CLOSED_GAP;
+/// How far below zero a guard of speeds or borders may go that begins at zero: less than what counts as rest and as closed, so
+/// that what is found there is at rest, and not on its way back.
+pub(super) const LEEWAY: f64 = 0.5 * REST_SPEED;
+/// The same of forces, over the mechanism's own: more than the round-off by which they are found to hold.
+const FORCE_LEEWAY: f64 = 1e-9;
 /// Speed, over the mechanism's own, from which a contact with partial friction slides: well above what counts as none.
 const SLIPPING: f64 = 10.0 * REST_SPEED;
+
+/// The leeway of a guard. A gap has none: what falls through it and is lifted again would bounce for ever.
+pub(super) fn leeway(guard: ContactGuard, of_forces: bool) -> f64 {
+    match guard {
+        _ if of_forces => FORCE_LEEWAY,
+        ContactGuard::Hold => 0.0,
+        _ => LEEWAY,
+    }
+}
 
 impl HybridSystem<'_> {
     /// The values of the guards of all unilateral constraints: positive as long as the mode holds.

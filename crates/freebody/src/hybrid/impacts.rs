@@ -1,4 +1,4 @@
-//! Impacts: impacts of unilateral constraints that are closed, the end of bounces without end, and contacts that jam.
+//! Impacts: impacts of unilateral constraints that are closed, and contacts that jam.
 
 use super::mode_changes::{ContactImpulse, Impulses, ModeChange};
 use super::HybridSystem;
@@ -7,16 +7,6 @@ use crate::dynamics::{ClosedContacts, ContactTolerances, DynamicsError, ImpactSo
 use crate::mode::{ContactMode, Mode};
 use crate::plane::Vec2;
 
-/// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
-/// its height comes near the round-off of the gap.
-const SHORTEST_FLIGHT: f64 = 1e-5;
-/// The same in a pile, of more contacts than this, where each bounce sets off others and none is of consequence.
-const SHORTEST_FLIGHT_IN_PILE: f64 = 1e-3;
-const PILE: usize = 8;
-/// Change of a rate over the speed of parting beyond which bounces are not what it would end.
-const UNRELATED: f64 = 1e4;
-/// Largest ratio of one bounce to the one before of which a series is summed: nearer to 1 its end would be infinitely far.
-const SUMMABLE: f64 = 0.999;
 /// Part of the kinetic energy by which it may rise in an impact, as round-off.
 const RISE: f64 = 1e-11;
 /// Shares of themselves by which unilateral constraints yield, one after the other, where impulses of rigid ones are
@@ -70,23 +60,9 @@ impl HybridSystem<'_> {
     ) -> Result<(Vec<usize>, f64), DynamicsError> {
         self.refuse_driven_together(contacts)?;
         self.check_direction(&contacts.constraints)?;
-        let restitution: Vec<f64> = contacts.constraints.iter().map(|&l| self.workspace.restitution(l)).collect();
-        let names = self.workspace.names_of(&contacts.constraints);
-        let rule = self.rule;
-        let (before, mut raised) = (y.to_vec(), rest_speed);
-        let impact = self.workspace.solve_impact(contacts, &restitution, |problem| decide(problem, rule, &names));
-        let mut impacting = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
-        for share in REGULARIZATION.into_iter().filter(|_| rule != Rule::Stop) {
-            if impacting.is_err() {
-                let impact =
-                    self.workspace.solve_impact(contacts, &restitution, |problem| regularized(problem, share, &names));
-                impacting = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
-                if let Ok((impact, _)) = &impacting {
-                    raised = raised.max(self.speed_left(contacts, impact, share));
-                }
-            }
-        }
-        let (impact, lost) = impacting?;
+        let before = y.to_vec();
+        let (impact, lost, left) = self.collide(t, y, contacts, &self.restitutions(contacts))?;
+        let raised = rest_speed.max(left);
         let (part, hit) = (contacts.takes_part(rest_speed), hit(&impact));
         let impacting = (0..part.len()).filter(|&i| part[i] && hit[i]);
         let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
@@ -102,6 +78,30 @@ impl HybridSystem<'_> {
             note: impact.note,
         });
         Ok((impacting, raised))
+    }
+
+    /// Impulses with these restitutions, of rigid contacts or else of ones that yield; the velocities after them, the
+    /// energy lost, and the speed that yielding left over.
+    pub(super) fn collide(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        contacts: &ClosedContacts,
+        restitution: &[f64],
+    ) -> Result<(ImpactSolution, f64, f64), DynamicsError> {
+        let (rule, names) = (self.rule, self.workspace.names_of(&contacts.constraints));
+        let impact = self.workspace.solve_impact(contacts, restitution, |problem| decide(problem, rule, &names));
+        let mut applied = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
+        let mut left = 0.0;
+        for share in REGULARIZATION.into_iter().filter(|_| rule != Rule::Stop) {
+            if applied.is_err() {
+                let impact =
+                    self.workspace.solve_impact(contacts, restitution, |problem| regularized(problem, share, &names));
+                applied = impact.and_then(|impact| self.apply_impact(t, y, contacts, impact));
+                left = applied.as_ref().map_or(0.0, |(impact, _)| self.speed_left(contacts, impact, share));
+            }
+        }
+        applied.map(|(impact, lost)| (impact, lost, left))
     }
 
     /// Takes the velocities after an impact, with the work of the drives and the energy lost in it, if there is any
@@ -171,82 +171,16 @@ impl HybridSystem<'_> {
             mode.contacts[contacts.constraints[i]].mode = held(impact.normal[i], impact.tangent[i], friction);
         }
         let unloaded: Vec<usize> = unloaded.iter().map(|&i| contacts.constraints[i]).collect();
+        let restitution = self.restitutions(contacts);
         let impacting = impacting.iter().map(|&i| ContactImpulse {
             name: m.groups[m.unilateral[contacts.constraints[i]].group].name.clone(),
             normal: impact.normal[i] * self.workspace.lever(contacts.constraints[i]),
             tangent: impact.tangent[i],
-            restitution: self.workspace.restitution(contacts.constraints[i]),
+            restitution: restitution[i],
         });
         let (impacting, unloaded) = (impacting.collect(), self.names(&unloaded));
         let (drives, drive_works) = (impact.drives.clone(), impact.drive_works.clone());
         Impulses { groups, joints, drives, drive_works, contacts: impacting, unloaded, mode }
-    }
-
-    /// The mode after bounces without end, if they are over within a moment: what takes part in them comes to rest.
-    ///
-    /// A flight after a bounce lasts twice the speed of parting over the acceleration of return, and each of a series
-    /// lasts a constant part of the one before. Longer flights are noted, for a step must not be so long that it does
-    /// not see them.
-    pub(super) fn zeno_limit(
-        &mut self,
-        mode: &Mode,
-        t: f64,
-        y: &mut [f64],
-        contacts: &ClosedContacts,
-        parting: &[usize],
-        impacting: &[usize],
-    ) -> Result<Option<Mode>, DynamicsError> {
-        self.place_in(mode, t, y);
-        self.workspace.solve()?;
-        let constraints: Vec<usize> = parting.iter().map(|&i| contacts.constraints[i]).collect();
-        let back = self.workspace.gap_accelerations(&constraints);
-        let speeds = parting.iter().map(|&i| contacts.rates[i]);
-        let flights: Vec<f64> =
-            speeds.zip(&back).map(|(v, &a)| if a < 0.0 { -2.0 * v / a } else { f64::INFINITY }).collect();
-        let is_pile = contacts.constraints.len() > PILE;
-        let shortest = if is_pile { SHORTEST_FLIGHT_IN_PILE } else { SHORTEST_FLIGHT };
-        let (brief, before) = (shortest * self.workspace.length / self.speed, self.bounce_interval.take());
-        let over: Vec<usize> = (0..constraints.len()).filter(|&i| flights[i] <= brief).collect();
-        let next = (0..constraints.len()).min_by(|&a, &b| flights[a].total_cmp(&flights[b])).expect("something parts");
-        if over.is_empty() {
-            let of = impacting.iter().copied().chain([constraints[next]]).collect();
-            self.bounce_interval = flights[next].is_finite().then_some((of, flights[next]));
-            return Ok(None);
-        }
-        let flight = over.iter().map(|&i| flights[i]).fold(0.0, f64::max);
-        let over: Vec<usize> = over.iter().map(|&i| constraints[i]).collect();
-        // What rocks alternates between its feet.
-        let same = before.filter(|(of, _)| over.iter().any(|l| of.contains(l)));
-        let part = same.map_or(0.0, |(_, before)| (flight / before).min(SUMMABLE));
-        let (energy, earlier) = (self.workspace.kinetic_energy(), y.to_vec());
-        let fastest = parting.iter().map(|&i| contacts.rates[i]).fold(0.0, f64::max);
-        let parts = constraints.iter().zip(parting).map(|(&l, &i)| contacts.rates[i] * self.workspace.lever(l));
-        let (parts, n) = (parts.fold(0.0, f64::max), self.workspace.m.freedom());
-        let mut mode = mode.clone();
-        for &constraint in &over {
-            // What rocks comes to rest as a whole; what slides goes on sliding.
-            let rocks = self.workspace.m.unilateral[constraint].friction.is_some()
-                && self.workspace.slide_rate(constraint).abs() <= fastest;
-            mode.contacts[constraint].mode = if rocks { ContactMode::Stick } else { ContactMode::Frictionless };
-        }
-        let work = self.project_velocities(&mode, t, y)?;
-        let change = |i: usize| (y[n + i] - earlier[n + i]).abs() / self.units[i] * self.workspace.length;
-        if (0..n).map(change).fold(0.0, f64::max) > UNRELATED * parts {
-            y.copy_from_slice(&earlier);
-            return Ok(None);
-        }
-        let lost = energy + work - self.workspace.kinetic_energy();
-        self.begin_phase(t, -lost);
-        self.record(ModeChange {
-            t: t + flight / (1.0 - part),
-            kind: "rest",
-            of: self.names(&over),
-            lost,
-            states: Some([earlier, y.to_vec()]),
-            impulses: None,
-            note: Some(format!("the bounces from t = {t:.12} s on, infinitely many, have come to an end")),
-        });
-        Ok(Some(mode))
     }
 
     /// Contacts that jam: the impact without a collision that brings their sliding to an end (Génot & Brogliato

@@ -16,6 +16,7 @@ mod mode_resolution;
 mod parts;
 mod record;
 mod reference;
+mod rest;
 mod scales;
 mod series;
 mod system;

@@ -2,6 +2,7 @@
 
 use super::guards::{ContactGuard, CLOSED_GAP, REST_SPEED};
 use super::impacts::{Rule, LEFT_OVER};
+use super::rest::Instant;
 use super::{HybridSystem, Start};
 use crate::dynamics::{ContactTolerances, DynamicsError};
 use crate::mode::{ContactMode, Mode};
@@ -130,7 +131,7 @@ impl HybridSystem<'_> {
     fn next_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<Mode, DynamicsError> {
         let mut mode = self.mode.clone();
         mode.resting = false;
-        let (mut tolerances, mut impacting) = (self.tolerances(), vec![]);
+        let (mut tolerances, mut instant) = (self.tolerances(), Instant::new());
         for round in 0..ROUNDS {
             if round > PATIENT_ROUNDS {
                 // What comes to rest here sets off what rests there, ever more slowly.
@@ -147,7 +148,7 @@ impl HybridSystem<'_> {
             let k = contacts.constraints.len();
             if contacts.rates[..k].iter().any(|&rate| rate < -rest_speed) {
                 let (hit, rest_speed) = self.impact(t, y, &contacts, rest_speed)?;
-                impacting.extend(hit);
+                instant.impacting.extend(hit);
                 tolerances.rest_speed = rest_speed;
                 continue;
             }
@@ -166,15 +167,13 @@ impl HybridSystem<'_> {
                 decided => decided?,
             };
             // What bounces back does so from where it is: to shift it would turn its way.
-            let at_rest: Vec<usize> = contacts.constraints.iter().copied().filter(|l| !impacting.contains(l)).collect();
+            let at_rest: Vec<usize> =
+                contacts.constraints.iter().copied().filter(|l| !instant.impacting.contains(l)).collect();
             mode = self.close_contacts(mode, t, y, &at_rest, &contacts.constraints)?;
-            if parting.is_empty() {
-                self.bounce_interval = None;
-            } else if let Some(at_rest) = self.zeno_limit(&mode, t, y, &contacts, &parting, &impacting)? {
-                mode = at_rest;
-                continue;
+            match self.come_to_rest(&mode, t, y, &contacts, &parting, &mut instant)? {
+                Some(at_rest) => mode = at_rest,
+                None => return Ok(mode),
             }
-            return Ok(mode);
         }
         Err(DynamicsError::EndlessImpacts(ROUNDS))
     }
@@ -313,7 +312,7 @@ impl HybridSystem<'_> {
         let slips = contacts.slips();
         let mut decision = self.workspace.decide_contact_modes(&contacts, &slips, tolerances)?;
         for moments in LOOKAHEADS {
-            if !decision.is_doubtful {
+            if !decision.is_doubtful() {
                 break;
             }
             // What nothing decides now is decided by what comes next.
@@ -321,7 +320,11 @@ impl HybridSystem<'_> {
             let (q, u) = self.extrapolate(&mode, t, y, ahead)?;
             self.workspace.place(&mode, t + ahead, &q, &u);
             let next = self.workspace.closed_contacts(contacts.constraints.clone())?;
-            decision = self.workspace.decide_contact_modes(&next, &slips, tolerances)?;
+            let next = self.workspace.decide_contact_modes(&next, &slips, tolerances)?;
+            // Taken as a whole: parts of two answers are none.
+            if decision.is_settled_by(&next) {
+                decision = next;
+            }
             self.place_in(&mode, t, y);
         }
         self.workspace.share_friction(&contacts, &decision)

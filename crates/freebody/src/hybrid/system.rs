@@ -1,6 +1,6 @@
 //! A mechanism as a system of differential equations with events.
 
-use super::guards::SwitchingFunction;
+use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
 use super::scales::ROUNDOFF;
@@ -417,9 +417,13 @@ impl System for HybridSystem<'_> {
                 EventSpec { side: self.frozen_side(law), ..EventSpec::discontinuity() }
             }
             SwitchingFunction::Contact(l, guard) => {
-                EventSpec { of_forces: self.is_force(l, guard), ..EventSpec::guard(self.roundoff_scale) }
+                let of_forces = self.is_force(l, guard);
+                let leeway = leeway(guard, of_forces);
+                EventSpec { of_forces, leeway, ..EventSpec::guard(self.roundoff_scale) }
             }
-            SwitchingFunction::JointFriction(..) => EventSpec::guard(self.roundoff_scale),
+            SwitchingFunction::JointFriction(..) => {
+                EventSpec { leeway: LEEWAY, ..EventSpec::guard(self.roundoff_scale) }
+            }
         }
     }
 

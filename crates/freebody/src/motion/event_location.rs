@@ -50,7 +50,8 @@ impl Runner<'_> {
         let later: Vec<f64> = values.iter().zip(glance).map(|(value, to)| value + (to - value) / GLANCE).collect();
         let (mut hits, system) = (Vec::new(), &mut *self.system.system);
         for (index, side, rtol) in self.detector.coming(&values, &later) {
-            let hit = Mark { t: self.now.t, index, kind: Kind::Crossing, direction: side * ahead, blur: 0.0 };
+            let hit =
+                Mark { t: self.now.t, index, kind: Kind::Crossing, direction: side * ahead, blur: 0.0, level: 0.0 };
             if system.switch(index).role != Role::Event || !counts(system, &hit, &self.now.y)? {
                 continue;
             }
@@ -173,7 +174,7 @@ impl Runner<'_> {
             let system = &mut *self.system.system;
             system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
             let slope = Probe::new(system, segment).slope(hit.index, t, self.detector.noise(hit.index));
-            let found = t - values[hit.index] / slope.map_err(Outcome::DynamicsError)?;
+            let found = t - (values[hit.index] - hit.level) / slope.map_err(Outcome::DynamicsError)?;
             let better = found.clamp(t0, t1);
             arrives = next.is_none() || better != last || is_tie(found, last, self.norm.time);
             if better.is_nan() || (better - t).abs() <= 4.0 * f64::EPSILON * t.abs() {

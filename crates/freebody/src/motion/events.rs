@@ -54,6 +54,8 @@ pub(super) struct Mark {
     pub direction: i8,
     /// How far the time of an event is not sure, s; 0 where time alone decides.
     pub blur: f64,
+    /// The value there: 0 but for a guard that began at zero.
+    pub level: f64,
 }
 
 /// What is not sure of an event.
@@ -90,6 +92,8 @@ struct Place {
     /// It is at a touch, which may be recorded already.
     grazes: Option<bool>,
     last_touch: f64,
+    /// It is a guard that has not been farther from zero than its leeway since the law changed.
+    begins: bool,
 }
 
 /// What is known of one switching function.
@@ -105,6 +109,8 @@ struct Memory {
     /// It is not watched any more.
     is_muted: bool,
     is_guard: bool,
+    /// How far below zero it may be where it begins there.
+    leeway: f64,
     /// Part of its reach within which it touches zero.
     graze: f64,
     /// The same within which it is not sure whether it acts,
@@ -160,8 +166,8 @@ impl EventDetector {
     pub fn new(system: &dyn System, rtol: f64) -> Self {
         let memory = |i| {
             let spec = system.switch(i);
-            let (now, is_guard) =
-                (Place { side: spec.side, reach: 0.0, grazes: None, last_touch: f64::NAN }, spec.role == Role::Guard);
+            let is_guard = spec.role == Role::Guard;
+            let now = Place { side: spec.side, reach: 0.0, grazes: None, last_touch: f64::NAN, begins: is_guard };
             let graze = match spec.role {
                 Role::Guard => 0.0,
                 _ if spec.acts => GRAZE_OF_ACTION * rtol,
@@ -169,7 +175,8 @@ impl EventDetector {
             };
             let blur = if spec.role == Role::Event { DOUBT * rtol } else { 0.0 };
             let doubt = if spec.acts { blur } else { 0.0 };
-            Memory { now, ahead: now, size: spec.scale, is_spent: false, is_muted: false, is_guard, graze, doubt, blur }
+            let (size, leeway) = (spec.scale, spec.leeway);
+            Memory { now, ahead: now, size, is_spent: false, is_muted: false, is_guard, leeway, graze, doubt, blur }
         };
         let memory: Vec<Memory> = (0..system.switches()).map(memory).collect();
         let bounds = vec![[0.0; 2]; memory.len()];
@@ -202,6 +209,8 @@ impl EventDetector {
             let (spec, memory) = (probe.system.switch(i), &mut self.memory[i]);
             memory.size = memory.size.max(largest).max(spec.scale);
             if memory.is_guard {
+                memory.leeway = spec.leeway;
+                memory.now.begins &= spec.leeway > 0.0;
                 memory.graze = if spec.of_forces { GRAZE_OF_ACTION * self.rtol } else { 0.0 };
             }
             let nodes = self.nodes(i, values, &mut probe)?;
@@ -220,7 +229,7 @@ impl EventDetector {
         self.unresolved.clear();
         for (memory, [value, _]) in self.memory.iter_mut().zip(&self.bounds) {
             memory.size = memory.size.max(value.abs());
-            memory.ahead = Place { reach: memory.now.reach.max(value.abs()), ..memory.now };
+            memory.ahead = Place { reach: memory.now.reach.max(value.abs()), begins: false, ..memory.now };
         }
         true
     }
@@ -341,10 +350,14 @@ impl EventDetector {
                 may_touch && is_near && beyond(node.value, clear) != -place.side
             };
             if turns(&node) && place.side != 0 && place.grazes != Some(true) {
-                marks.push(Mark { t: node.t, index: i, kind: Kind::Touch, direction: 0, blur: 0.0 });
+                marks.push(Mark { t: node.t, index: i, kind: Kind::Touch, direction: 0, blur: 0.0, level: 0.0 });
                 (place.grazes, place.last_touch) = (Some(true), node.t);
             }
-            let noise = if place.grazes.is_some() { near } else { NOISE * memory.size };
+            let noise = match place.grazes {
+                _ if place.begins => memory.leeway.max(NOISE * memory.size),
+                Some(_) => near,
+                None => NOISE * memory.size,
+            };
             let sign = beyond(node.value, noise);
             if sign != 0 && place.side == -sign && place.grazes.is_none() {
                 // It turns back before it is clearly on the other side.
@@ -357,9 +370,13 @@ impl EventDetector {
                 continue;
             }
             if place.side == -sign {
-                // What holds may start within its round-off.
-                let noise = if memory.is_guard { NOISE * memory.size } else { 0.0 };
-                let t = probe.root(i, last, node, f64::from(place.side) * noise)?;
+                // What holds may start within its round-off, or within its leeway.
+                let shifts = match memory.is_guard {
+                    true if place.begins => [noise; 2],
+                    true => [0.0, NOISE * memory.size],
+                    false => [0.0; 2],
+                };
+                let t = probe.root(i, last, node, shifts.map(|shift| f64::from(place.side) * shift))?;
                 let direction = sign * probe.ahead() as i8;
                 let turn = nodes[k..].iter().find(|node| node.is_extremum);
                 self.unresolved.extend(turn.and_then(|turn| unsure(turn, t)));
@@ -368,14 +385,15 @@ impl EventDetector {
                     true => memory.blur * place.reach / slope,
                     false => 0.0,
                 };
-                marks.push(Mark { t, index: i, kind: Kind::Crossing, direction, blur });
+                let level = if place.begins { -noise } else { 0.0 };
+                marks.push(Mark { t, index: i, kind: Kind::Crossing, direction, blur, level });
                 place.reach = 0.0;
             } else if place.grazes == Some(false) {
-                marks.push(Mark { t: last.t, index: i, kind: Kind::Touch, direction: 0, blur: 0.0 });
+                marks.push(Mark { t: last.t, index: i, kind: Kind::Touch, direction: 0, blur: 0.0, level: 0.0 });
                 place.last_touch = last.t;
             }
             let reach = place.reach.max(node.value.abs());
-            place = Place { side: sign, reach, grazes: None, ..place };
+            place = Place { side: sign, reach, grazes: None, begins: false, ..place };
             last = node;
         }
         memory.ahead = place;
@@ -417,6 +435,7 @@ impl EventDetector {
                 sign if has_jumped && sign != place.side => 0,
                 sign => sign,
             };
+            place.begins |= has_jumped && memory.is_guard;
             place.reach = place.reach.max(value.abs());
             memory.now = place;
         }
@@ -459,7 +478,7 @@ impl EventDetector {
     pub fn spend(&mut self, i: usize, side: i8, t: f64) {
         let memory = &mut self.memory[i];
         memory.is_spent = true;
-        memory.now = Place { side, reach: 0.0, grazes: None, last_touch: t };
+        memory.now = Place { side, reach: 0.0, grazes: None, last_touch: t, ..memory.now };
     }
 }
 

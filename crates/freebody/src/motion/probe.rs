@@ -84,11 +84,11 @@ impl<'a> Probe<'a> {
         Ok(here[i] != there[i])
     }
 
-    /// Where function `i` changes its sign between two nodes; where it has that of `b` at `a` already, though within the
-    /// `noise` there, it leaves the noise.
-    pub fn root(&mut self, i: usize, a: Node, b: Node, noise: f64) -> Result<f64, DynamicsError> {
+    /// Where function `i`, shifted, changes its sign between two nodes, by the first of the `shifts` with which it does: where it
+    /// has the sign of `b` at `a` already, though within its noise, it leaves the noise.
+    pub fn root(&mut self, i: usize, a: Node, b: Node, shifts: [f64; 2]) -> Result<f64, DynamicsError> {
         let is_bracket = |shift: f64| a.value + shift != 0.0 && (a.value + shift < 0.0) != (b.value + shift < 0.0);
-        match [0.0, noise].into_iter().find(|&shift| is_bracket(shift)) {
+        match shifts.into_iter().find(|&shift| is_bracket(shift)) {
             Some(shift) => bracketed(|t| Ok(self.one(i, t)? + shift), (a.t, a.value + shift), (b.t, b.value + shift)),
             None => Ok(a.t),
         }

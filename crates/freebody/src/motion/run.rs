@@ -108,7 +108,7 @@ impl<'a> Runner<'a> {
         let now = Point::new(t0, y0);
         Self {
             stepper: (method.stepper)(y0.len()),
-            chatter: Chatter::new(t0, system.time_scale()),
+            chatter: Chatter::new(system.time_scale()),
             detector: EventDetector::new(system, method.estimate_order.map_or(0.0, |_| options.rtol)),
             norm: Norm::new(system, options.rtol),
             steps: StepController::new(method.estimate_order, method.implicit, options.max_step),

@@ -19,6 +19,9 @@ pub struct EventSpec {
     /// Physical size of the function: what is below 16 ε of it is zero. 0 when unknown; the
     /// largest value met stands in for it.
     pub scale: f64,
+    /// How far below zero a guard may go that begins within as much of it: what was decided so closely is left only where
+    /// that is clear.
+    pub leeway: f64,
 }
 
 /// What the zero of a switching function is.
@@ -36,7 +39,7 @@ pub enum Role {
 impl EventSpec {
     /// An event that counts in a direction.
     pub fn event(direction: i8) -> Self {
-        EventSpec { direction, role: Role::Event, acts: false, side: 0, of_forces: false, scale: 0.0 }
+        EventSpec { direction, role: Role::Event, acts: false, side: 0, of_forces: false, scale: 0.0, leeway: 0.0 }
     }
     /// A discontinuity.
     pub fn discontinuity() -> Self {
