@@ -287,6 +287,8 @@ def _condition(part: str) -> str:
         return "in the steady state"
     if _UNIFORM.fullmatch(said):
         return "at constant speed"
+    if found := re.fullmatch(r"\w+\s+(first\s+)?(?:passes|reaches|comes\s+to)\s+(?:through\s+)?(\S+\s*=.+)", said):
+        return f"{found[2]}{', from the start' * bool(found[1])}"
     if found := re.fullmatch(r"(.+[=<>].+)\s+again", said):
         return f"{found[1]}, from the start"
     if found := _THROUGHOUT.fullmatch(said):  # so are its rates
