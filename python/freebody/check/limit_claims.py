@@ -85,9 +85,8 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
             continue
         from_start = first_order_from_start(case, equation)
         if not (from_start or _first_order(case, equation, from_start is None)):
-            of_start = (
-                from_start is not None and case.meaning.of_start_alone
-            )  # else it may name but the time, as what is driven does
+            # What names the time alone may be of anything that is driven.
+            of_start = from_start is not None and case.meaning.of_start_alone
             near = ("", small_from_start(case)) if of_start else tiny(case, equation)
             mends: tuple[Correction, ...] = ()
             with suppress(NoMotion):
