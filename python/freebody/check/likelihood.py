@@ -222,9 +222,8 @@ class Likelihood:
         again = kind == "missing term" and (
             self._is_there(term) or any(term in n.terms for n in self._parts if isinstance(n, Add))
         )
-        answered = kind == "missing term" and not term.symbols.isdisjoint(
-            self._sides
-        )  # what it is solved for is not on both sides
+        # What it is solved for does not stand on both sides.
+        answered = kind == "missing term" and not term.symbols.isdisjoint(self._sides)
         size = _NEW * strange + _ODD * (again + answered) + self._mixture(term)
         size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self._said)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))

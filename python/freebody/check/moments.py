@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from freebody.core import CompiledModel, State
 from freebody.core.compiled import BEFORE
 from freebody.model.start import quantity
+from freebody.run.moments import Unreached, time_of
 
 from .integrals import extreme
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
@@ -48,13 +50,12 @@ class Moments:
             span = until - start.t
         for doubled in range(_DOUBLED):
             motion = core.simulate(start, start.t + span * 2**doubled, rtol=_EXACT, max_steps=_STEPS)
-            happened = [(event.t, event.name) for event in motion.events]
-            happened += [(change.t, part) for change in motion.changes for part in change.of]
-            times = [t for t, what in happened if name in (what, what.partition(".")[0])] if until is None else [until]
-            if times and moment != name and min(times) == start.t:
-                return start
-            if times and min(times) <= motion.end.t:
-                return motion.state(float(np.nextafter(min(times), -np.inf)) if moment != name else min(times))
+            with suppress(Unreached):
+                t = time_of(motion, name) if until is None else until
+                if moment != name and t == start.t:
+                    return start
+                if t <= motion.end.t:
+                    return motion.state(float(np.nextafter(t, -np.inf)) if moment != name else t)
             if until is not None or motion.end.t < start.t + span * 2**doubled:
                 break
         return None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core.compiled import BEFORE as JUST_BEFORE
+from freebody.core.compiled import BEFORE
 from freebody.model.errors import ModelProblem
 from freebody.model.start import quantity
 from freebody.run.digits import SAFETY
@@ -173,7 +173,7 @@ class _OnRun:
 
     def _time(self, moment: str) -> float:
         """When a moment is; that of the start without one."""
-        name = moment.removeprefix(JUST_BEFORE)
+        name = moment.removeprefix(BEFORE)
         if not name or name[0].isdigit():
             return quantity("a moment", name, "s") if name else float(self.run.edges[0])
         t = time_of(self.run, name)

@@ -16,6 +16,7 @@ from .verdict import Verdict
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
+    from .symbols import Symbols
 
 
 def changes(checker: Checker, declared: Declared, left: str, right: str) -> Verdict:
@@ -38,9 +39,10 @@ def between(checker: Checker, declared: Declared, label: str, statement: str) ->
     known = checker.symbols(declared)
 
     def at_moment(found: re.Match[str]) -> str:
-        letter, index = found[2], "1" if found[4] in "1₁" else "2"
-        meant = f"_{index}" if known.spelt(f"{letter}_{index}") else ""
-        return f"{found[1] or ''}{letter}{meant}{found[3]}{found[5]}{'(0)' if index == '1' and not meant else ''}"
+        letter, index, is_known = _letter(known, found)
+        if is_known:
+            return found[0]
+        return f"{found[1] or ''}{letter}{found[3]}{found[6]}{'(0)' * (index == '1')}"
 
     since = replace(checker.hypothesis, since=checker.hypothesis.since or "start")
     verdict = checker.check(_INDEXED.sub(at_moment, statement), declared, since)
@@ -64,8 +66,8 @@ def across_impact(checker: Checker, declared: Declared, label: str, statement: s
         return f"({beside(found[1] or found[2], name, '2')} - {beside(found[1] or found[2], name, '1')})"
 
     def at_moment(found: re.Match[str]) -> str:
-        letter, index = f"{found[2]}{f'_{found[4]}' * bool(found[4])}", "1" if found[5] in "1₁" else "2"
-        if known.spelt(f"{letter}{'' if found[4] else '_'}{index}"):
+        letter, index, is_known = _letter(known, found)
+        if is_known:
             return found[0]
         primes = found[3] + found[6] + "}" * ((found[1] or "").count("{") - found[3].count("}"))
         dotted = f"{found[1] or ''}{letter}{primes}"
@@ -73,12 +75,18 @@ def across_impact(checker: Checker, declared: Declared, label: str, statement: s
         return f" {beside(dotted, name, index)} "
 
     with suppress(StatementError, ModelProblem):
-        said = _DELTA.sub(change, _AT_SIDE.sub(at_moment, statement))
+        said = _DELTA.sub(change, _INDEXED.sub(at_moment, statement))
         if letters:
             verdict = checker.check(said, {**declared, **letters}, correcting=checker.correcting)
             read = f"`{label}` is read as the impact at {happening}, 1 as just before it and 2 as just after it."
             return replace(verdict, notes=(*verdict.notes, read))
     return None
+
+
+def _letter(known: Symbols, found: re.Match[str]) -> tuple[str, str, bool]:
+    """A letter without the index of a moment, that index, and whether with it the letter has a meaning of its own."""
+    letter, index = f"{found[2]}{f'_{found[4]}' * bool(found[4])}", "1" if found[5] in "1₁" else "2"
+    return letter, index, known.spelt(f"{letter}{'' if found[4] else '_'}{index}") is not None
 
 
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
@@ -90,7 +98,5 @@ _DELTA = re.compile(
 _STATE = r"(?:(?:the\s+)?(?:time|instant|moment|state|position|place|point)s?\s+)?\$?(?:t\s*=\s*)?(?:t_?)?\{?"
 BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|and)\s+{_STATE}[2₂]\}}?\$?)\s*"
 """``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
-_INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([12₁₂])(?![A-Za-z0-9{])\}?('*)")
-"""A letter with its dots and the index of a moment."""
-_AT_SIDE = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([A-Za-z]*)([12₁₂])(?![A-Za-z0-9{])\}?('*)")
-"""The same, where it may have another index before that: ``v_{y1}``."""
+_INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([A-Za-z]*)([12₁₂])(?![A-Za-z0-9{])\}?('*)")
+"""A letter with its dots and the index of a moment, behind another that it may have: ``v_{y1}``."""

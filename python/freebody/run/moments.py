@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import CompiledModel, MotionError, State
+from freebody.core import CompiledModel, MotionError, State, Trajectory
 from freebody.model.start import quantity
 from freebody.run.simulation import MAX_STEPS, Run, simulate
 
@@ -88,13 +88,13 @@ def _end(mechanism: Builder, start: State) -> float:
     return mechanism.run_numbers().until or start.t + PATIENT
 
 
-def time_of(run: Run, name: str) -> float:
-    """When an event, or a mode change of a part, of this name comes first, s; of a name like ``stick wheel`` a change of that kind. Raises
-    ``Unreached`` where it does not come."""
+def time_of(run: Run | Trajectory, name: str) -> float:
+    """When an event, or a mode change of a part, of this name comes first, s; of a name like ``stick wheel`` a change of that kind, of one
+    like ``rail`` that of an end of it, ``rail.most``. Raises ``Unreached`` where it does not come."""
     happened = [(event.t, event.name) for event in run.events]
     happened += [(change.t, part) for change in run.changes for part in change.of]
     kinds = [(change.t, f"{change.kind} {part}") for change in run.changes for part in change.of]
-    if times := [t for t, what in (*happened, *kinds) if what == name]:
+    if times := [t for t, what in (*happened, *kinds) if name in (what, what.partition(".")[0])]:
         return min(times)
     known = ", ".join(dict.fromkeys(what for _, what in sorted(happened))) or "nothing does"
     raise Unreached(f"{name!r} does not happen until {run.outcome.t:g} s; what happens: {known}")
