@@ -119,7 +119,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         and not checker.sampler.has(given)
     ):
         return limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
-    release = replace(given, since="", at_start=True)
+    release = replace(given, since="", at_start=True, at_rest=given.since == "rest")
     others = [(release, condition)] if given.since == "rest" else []
     later = places or verdict.kind is Kind.UNDECIDABLE or _OF_RATES.search("".join(given.vanishing)) is not None
     if given.vanishing and later:  # it may be so only where something switches, or has done so

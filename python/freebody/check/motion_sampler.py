@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -28,6 +29,7 @@ from .moments import Moments
 from .sides import changes_side
 from .steady import steady_state
 from .stretches import first_zero, stretches
+from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -57,6 +59,9 @@ _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _PARTS = 4  # stretches of a motion that goes on through what switches
+_ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
+"""What is asked of more than the start."""
+_INSIDE = 0.5, 0.3, 0.8  # parts of a stretch
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 
 
@@ -143,7 +148,7 @@ class MotionSampler(AskedModel):
         elif self.rolls_in_loop and not family.at_start:
             found, start = self._rolled_on(rng, values, family)
         else:
-            found = self.started(values) if family.at_start else self._anywhere(rng, values, family, reach)
+            found = self._released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
         start = self.started(values) if family.since == BEFORE else start
         lost = [text for text in family.vanishing if found and not self.vanishes(self._of_now(text, start), found)]
@@ -305,6 +310,7 @@ class MotionSampler(AskedModel):
         start = self._at_moment(
             self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
+        start = self._put(start, family, values)
         began = self.started(values) if family.since == BEFORE else start
         conditions = [self._of_now(text, began) for text in family.vanishing]
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
@@ -313,9 +319,8 @@ class MotionSampler(AskedModel):
             parts = stretches(motion)[: _PARTS if family.through else 1]
             begins, ends = parts[0][0], self.staying(motion, parts[0][0], parts[-1][1])
             parts = [(one, min(other, ends)) for one, other in parts if one < ends] or parts[:1]
-            if begins == start.t:  # what is 0 there and in the middle, too, is asked of no moment
-                middle = motion.state((begins + ends) / 2)
-                first = [text for text in conditions if not (self.vanishes(text, start) and self.vanishes(text, middle))][:1]
+            if begins == start.t:  # what is 0 all along is asked of no moment
+                first = [text for text in conditions if family.through or not self._stays(text, motion, *parts[0])][:1]
             if not first:
                 one, other = parts[rng.integers(len(parts))]
                 if family.late and not goes_on:
@@ -327,7 +332,24 @@ class MotionSampler(AskedModel):
                 return self._sampled(motion.end, family.through), start
             if ends < motion.end.t and not family.through:
                 break
-        return (self._sampled(start) if first and self.vanishes(first[0], start) else None), start
+        at_start = first and not family.through and self.vanishes(first[0], start)
+        return (self._sampled(start) if at_start else None), start
+
+    def _released(self, values: Mapping[str, float], family: Family) -> State:
+        """The start, where it has to be, and with no rates where it is to be at rest."""
+        start = self.started(values)
+        still = {self.names[i]: 0.0 for i in independent(self.free_rates)}
+        return self._put(self.moved(start, start.q, still) if family.at_rest else start, family, values)
+
+    def _put(self, start: State, family: Family, values: Mapping[str, float]) -> State:
+        """A start, put where it has to be for what is asked of its place alone."""
+        of_start = [text for text in family.vanishing if OF_START.search(text) and not _ELSE.search(text)]
+        moving = slice(1, 1 + 2 * len(self.names))
+        alone = (text for text in of_start if not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any())
+        places = [OF_START.sub(r"(\1)", text) for text in alone]
+        if family.since == BEFORE or all(self.vanishes(text, start) for text in places):
+            return start
+        return arranged(self, places, start, self._named(start.u), replace(family, at_rest=True, vanishing=()), values, ())
 
     def _followed(self, start: State, longs: Sequence[float]) -> Iterator[tuple[Trajectory, bool]]:
         """The motion from a start in stages that are so many times the time typical of the model long, the later ones as long as that
@@ -341,9 +363,15 @@ class MotionSampler(AskedModel):
                 return
             start = motion.end
 
+    def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:
+        """Whether an expression is 0 on all of a stretch."""
+        return all(self.vanishes(text, motion.state(begins + part * (ends - begins))) for part in _INSIDE)
+
     def _first(self, text: str, motion: Trajectory, parts: Sequence[tuple[float, float]]) -> State | None:
         """Where an expression is first 0 behind the beginning of a motion, which may be just where something switches."""
         for begins, ends in parts:
+            if self._stays(text, motion, begins, ends):
+                continue
             t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], begins, ends)
             for at in (t, ends):
                 if at is not None and self.vanishes(text, found := motion.state(at)):  # it has not jumped there

@@ -84,7 +84,9 @@ def phase(checker: Checker, words: str) -> Phase | None:
     limits = checker.sampler.core.instant(checker.sampler.own).limits
     rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
     able = {name for name in limits if (rubs(name) if kind in _STATES else limits[name].state not in _OF_STRINGS)}
-    meant = _meant(words, {*(part for _, part in firsts.values()), *able} or {*limits}, limits)
+    parts = {*(part for _, part in firsts.values()), *able} or {*limits}
+    surfaces = parts & {contact["name"] for contact in checker.sampler.spec["contacts"]} if kind in _CHANGES else set()
+    meant = _meant(words, parts, limits, surfaces or parts)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
@@ -110,15 +112,15 @@ def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, 
     return there or (lasts and not found)
 
 
-def _meant(words: str, parts: Collection[str], limits: Any) -> set[str]:
-    """Those of several parts that words name, by their own names or those of their bodies; all where they name none."""
+def _meant(words: str, parts: Collection[str], limits: Any, unnamed: Collection[str]) -> set[str]:
+    """Those of several parts that words name, by their own names or those of their bodies; the ``unnamed`` where they name none."""
     said = re.findall(r"\w+", words)
     bodies = {name: {limits[name].first, limits[name].second} - {GROUND} if name in limits else set() for name in parts}
     ways = (
         {name for name in parts if name in words or bodies[name] & {*said}},
         {name for name in parts if any(alike(each, word) for each in (name, *bodies[name]) for word in said)},
     )
-    return next(filter(None, ways), {*parts})
+    return next(filter(None, ways), {*unnamed})
 
 
 def alike(name: str, word: str) -> bool:

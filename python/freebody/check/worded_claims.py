@@ -15,6 +15,7 @@ from freebody.symbolic.errors import StatementError
 
 from . import timed_claims
 from .assumptions import WORDS
+from .described import described
 from .families import BEFORE, SINCE_START
 from .phases import NOT_FIRST, Phase, kind_of, phase
 from .user_symbols import INITIAL
@@ -73,6 +74,10 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         with suppress(ModelProblem):
             if said and (until := _UNTIL.fullmatch(words)):
                 return beside_event(checker, declared, "", "before", until[1], statement)
+        if said and (given := described(words, checker, declared)):
+            found = checker.check(statement, declared, given)
+            once = given.since and found.kind is Kind.UNDECIDABLE  # it may come only after something switches
+            return checker.check(statement, declared, replace(given, through=True)) if once else found
         if lasts and verdict is not None and not (found := _later(checker, declared, words, statement, verdict, problem)).ok:
             return found  # whichever stretch is meant
         raise problem

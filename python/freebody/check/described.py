@@ -1,0 +1,120 @@
+"""Where a motion is, in words: which way a body moves, and where something is greatest or least."""
+
+from __future__ import annotations
+
+import re
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from freebody.model.errors import ModelProblem
+from freebody.model.names import spell
+from freebody.run.records import quote
+
+from .phases import alike
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+    from .families import Family
+    from .user_symbols import Meaning
+
+_MOVING = re.compile(
+    r"\b(?:(?:mov|slid|go|roll|travel|swing|climb|head)(?:e?s|ing|es)?|(?:on|during) (?:the|its) (?:way|stroke|motion))\b"
+)
+_WAYS = {
+    "right": ("vx", r"(?:to(?:wards?)? the )?right(?:wards?)?"),
+    "left": ("-vx", r"(?:to(?:wards?)? the )?left(?:wards?)?"),
+    "up": ("vy", r"up(?:wards?|hill)?|climb(?:s|ing)|ris(?:es|ing)|ascend(?:s|ing)"),
+    "down": ("-vy", r"down(?:wards?|hill)?|fall(?:s|ing)|sink(?:s|ing)|descend(?:s|ing)"),
+}
+"""Which way a body moves: the component of its velocity that is above 0 then, and words for it."""
+_GREATEST = r"(?:greatest|largest|biggest|highest|farthest|longest|maximal|maximum|max\.?|most|fullest|full)"
+_LEAST = r"(?:least|smallest|lowest|shortest|minimal|minimum|min\.?)"
+_EXTREME = re.compile(rf"\b(?:(?P<greatest>{_GREATEST}|top(?!\s+of\b))|(?P<least>{_LEAST}|bottom(?!\s+of\b)))(?!\w)")
+_OF_SPRING = {
+    "least": re.compile(r"\bcompress(?:ed|ion)\b"),
+    "greatest": re.compile(r"\b(?:stretch(?:ed)?|exten(?:ded|sion)|elongat(?:ed|ion))\b"),
+}
+"""Of what the length of a spring is least or greatest."""
+_HEIGHT = re.compile(r"\b(?:highest|lowest|height|top|bottom)\b")
+_LETTER = 2  # characters that the name of a quantity has at most: longer ones may be words
+_SPEED = re.compile(r"\b(?:speed|velocity|fast(?:est)?|slow(?:est)?)\b")
+_TURNS = 1e-6  # of what is typical, what a second derivative is at least where something turns: what stays so does not
+_PLACE = re.compile(
+    r"\b(?:point|place|position|height|swing|swung|angle|tilt|lean|turn|deflection|displacement|excursion|deviation|amplitude|distance|way)\b"
+)
+
+
+def described(words: str, checker: Checker, declared: Declared) -> Family | None:
+    """The motions of which words are true: ``it moves to the left``, ``at greatest compression``, ``the speed is least``. None where they say
+    nothing of the kind, or not of what."""
+    return _extreme(words, checker, declared) or _way(words, checker)
+
+
+def _way(words: str, checker: Checker) -> Family | None:
+    """Motions of a body one way."""
+    found = [speed for speed, said in _WAYS.values() if re.search(rf"\b(?:{said})\b", words)]
+    moving = _MOVING.search(words) or re.search(r"\b(?:ris|fall|sink|climb|ascend|descend)(?:s|es|ing)\b", words)
+    if len(found) != 1 or not moving or (body := _body(words, checker)) is None:
+        return None
+    return replace(checker.hypothesis, above=(*checker.hypothesis.above, f"{found[0]}({quote(body)}.centre)"))
+
+
+def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
+    """Motions from the start to where something is first greatest or least."""
+    found = _EXTREME.search(words)
+    if found is None or not (rates := _rates(words, found.lastgroup == "least", checker, declared)):
+        return None
+    given, sampler, (first, *second) = checker.hypothesis, checker.sampler, rates
+    least = _TURNS * sampler.rate * sampler.size_of(first, sampler.own)
+    above = (f"{text} - {least!r}" for text in second)
+    return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
+
+
+def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tuple[str, ...]:
+    """Of that of which words speak, what comes to 0 where it is extreme, and what is above 0 there; nothing where that is not clear."""
+    names, body = checker.sampler.names, _body(words, checker)
+    for side, pattern in _OF_SPRING.items():
+        if pattern.search(words):
+            length = _length(checker)
+            return _of(length, (side == "least") is not least) if length else ()
+    letters = checker.symbols(declared).meanings
+    for word in re.findall(r"[^\W\d]\w*", words):
+        if len(word) <= _LETTER and word in letters and letters[word].kind in ("coordinate", "declared", "reading"):
+            return _signed(letters[word].needed(1)[0], *_second(letters[word]), least=least)
+    if _SPEED.search(words):
+        return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
+    if _HEIGHT.search(words) and body:
+        return _signed(f"vy({quote(body)}.centre)", f"ay({quote(body)}.centre)", least=least)
+    return _of(spell(names[0]), least) if _PLACE.search(words) and len(names) == 1 else ()
+
+
+def _second(letter: Meaning) -> list[str]:
+    """The second derivative of a letter, if it has one."""
+    with suppress(ModelProblem):
+        return letter.needed(2)
+    return []
+
+
+def _of(text: str, least: bool) -> tuple[str, ...]:
+    return _signed(f"rate({text})", f"accel({text})", least=least)
+
+
+def _signed(first: str, *second: str, least: bool) -> tuple[str, ...]:
+    return first, *(text if least else f"-({text})" for text in second)
+
+
+def _length(checker: Checker) -> str | None:
+    """That of the only spring."""
+    springs = [force["with"] for force in checker.sampler.spec["forces"] if force["type"] == "spring"]
+    if len(springs) != 1:
+        return None
+    return springs[0].get("along") or "distance({}, {})".format(*springs[0]["between"])
+
+
+def _body(words: str, checker: Checker) -> str | None:
+    """The body that words name; the only one where they name none."""
+    bodies = [body["name"] for body in checker.sampler.spec["bodies"]]
+    said = re.findall(r"\w+", words)
+    named = [name for name in bodies if any(name == word or alike(name, word) for word in said)]
+    return named[0] if len(named) == 1 else bodies[0] if len(bodies) == 1 else None
