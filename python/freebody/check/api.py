@@ -152,7 +152,7 @@ class Checker:
     def _swinging(self, coordinate: str, letters: Declared | None) -> Checker | None:
         """The same of the vibration of one of several coordinates, which swings for itself; None where it does not."""
         meaning = self.symbols(letters).spelt(coordinate)
-        if meaning is None or meaning.kind != "coordinate" or len(self.sampler.names) < 2:
+        if meaning is None or meaning.kind != "coordinate" or len(self.sampler.names) < 2 or not self.vibration.is_of_several:
             return None
         other = copy(self)
         other.vibration = Vibration(self.sampler, meaning.texts[0])
@@ -309,9 +309,8 @@ class Checker:
             return alike_in_kind[0]
         times = [event.t for event in run.events]
         later = [change for change in run.changes if change.t > run.t[0] and change.t not in times]
-        impacts = dict.fromkeys(change.of[0] for change in run.changes if change.kind == "impact" and change.of)
-        if len(impacts) == 1 and _BLOW.search(said):
-            return next(iter(impacts))
+        if len(self.impacts) == 1 and _BLOW.search(said):
+            return next(iter(self.impacts))
         if len(events) == 1 and not later:  # nothing else can be meant
             return next(iter(events))
         what = ", ".join({**events, **parts}) or "nothing does"

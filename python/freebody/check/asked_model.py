@@ -17,7 +17,7 @@ from freebody.core import Array, CompiledModel, FreeBodies, MotionError, State, 
 from freebody.model.start import Start, evaluate, initial_state
 from freebody.run.moments import START, state_of
 from freebody.solve.perturbed_states import independent
-from freebody.symbolic.dimensions import Dimension
+from freebody.symbolic.dimensions import LENGTH, Dimension
 
 from .sides import changes_side, squares
 
@@ -32,6 +32,7 @@ _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment
 _MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
+_STRIDE = 3.0  # by which a length grows from place to place on the way to where it is far larger
 _DEPENDENT = (
     0.05  # part of the motions by which loops stay closed that moves a coordinate: below it loops are near a dead position for it
 )
@@ -159,9 +160,23 @@ class AskedModel:
         """The start with other parameters, its loops in the same assembly. Raises ``MotionError`` and ``ModelProblem``."""
         words = initial_state(self.start, self.core, self.changes | values)
         if self.loops:
-            place = [words["fixed"].get(name, q) for name, q in self._named(self.first.q).items()]
-            words["guess"] |= self._named(self.moved(self.first, np.array(place), {}, p=words["p"]).q)
+            words["guess"] |= self._named(self._closed(values, words["fixed"]))
         return self.core.assemble(words.pop("p"), self.begins, **words)[0]
+
+    def _closed(self, values: Mapping[str, float], fixed: Mapping[str, float]) -> Array:
+        """Where loops close with other parameters, in the assembly of the start; those that are far larger by strides, on which lengths grow with
+        them. Raises ``MotionError``."""
+        own, q = self.free_parameters, np.array([fixed.get(name, q) for name, q in self._named(self.first.q).items()])
+        ratios = {name: x / own[name] for name, x in values.items() if own.get(name) and x / own[name] > 0}
+        lengths = {name for name, its in self.start.parameters.items() if its == LENGTH}
+        far = max((ratio for name, ratio in ratios.items() if name in lengths), default=1.0)
+        strides = math.ceil(math.log(far, _STRIDE)) if far > 1 else 1
+        for k in range(1, strides + 1):
+            on_the_way = {name: own[name] * ratio ** (k / strides) for name, ratio in ratios.items()}
+            p = self.core.bind({**values, **on_the_way} if k < strides else values)
+            q = (self.core.assemble(p, self.begins, fixed, self._named(q))[0] if k > 1 else self.moved(self.first, q, {}, p=p)).q
+            q = np.where([c["dimension"] == "m" and k < strides for c in self.coordinates], q * far ** (1 / strides), q)
+        return q
 
     def moved(self, state: State, q: Array, rates: Mapping[str, float], t: float | None = None, p: Array | None = None) -> State:
         """A state of the same assembly and mode with coordinates ``q``, where loops leave them free. Raises ``MotionError``."""

@@ -207,9 +207,10 @@ class MotionSampler(AskedModel):
         turn = math.pi  # farther than a part of a right angle many ways of a loop end in a singular position
         turn *= min(1.0, _SHORT_LOOP / len(self.names)) / 2 if self.loops else 1
         move = np.array([turn if c["dimension"] == "rad" else self.length for c in self.coordinates])
-        place = self.first.q + reach * move * rng.uniform(-1, 1, len(move))
+        near = self.started(values) if self.loops and family.scaled else self.first
+        place = near.q + reach * move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
-        state = self.moved(self.first, place, rates, t=t, p=self.core.bind(values))
+        state = self.moved(near, place, rates, t=t, p=self.core.bind(values))
         free = self._adjustable(family)
         return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, values, free))
 

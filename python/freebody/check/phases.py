@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import GROUND
+from freebody.core import GROUND, CompiledModel
 
 from .wording import LASTS
 
@@ -23,7 +23,7 @@ _KINDS = {
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
     "taut": "taut|tight|stretched|straight",
     "slack": "slack|loose",
-    "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|land(?:s|ed)"
+    "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
     r"|blow|impact|collision|shock"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on the \w+\Z"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
@@ -42,11 +42,15 @@ _ON = re.compile(r"(?:(?:the\s+)?\w+\s+)?on the (\w+)\Z")
 """``on the floor:``, ``foot on the ground:``."""
 _BEFORE = {"stick": "sliding", "slip": "stuck"}
 """What a joint with friction was in before its first change."""
+_TOUCHES = ("impact", "contact")
 _MOMENT = re.compile(
     r"\b(?:moment|instant|(?:begin|start|become|go|get|come|turn|end|stop|cease)(?:e?s)?\b|is over|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
 )
 _LASTED = re.compile(r"\b(?:has|have|had)\b")
 """``once it has left``: from then on."""
+_GROUND = re.compile(r"\b(?:ground|floor|land(?:s|ed|ing)?|touch\w*down|wall|table|ice|road|street|slope|incline)\b")
+_TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|together|both|two)\b")
+"""Of what touches ground, and of what touches another body."""
 _ALL = re.compile(r"\b(?:both|all|they)\b")
 NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
@@ -80,7 +84,9 @@ def phase(checker: Checker, words: str) -> Phase | None:
     happened = {change.kind for change in run.changes if change.t > run.t[0]}
     kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
-    firsts = {name: (t, part) for t, part, name in reversed(found) if t > run.t[0]}
+    begun = _begun(run, checker.sampler.core, _STATES[kind]) if kind in _BEFORE else []
+    found += begun
+    firsts = {name: (t, part) for t, part, name in sorted(found, reverse=True) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
     rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
     able = {name for name in limits if (rubs(name) if kind in _STATES else limits[name].state not in _OF_STRINGS)}
@@ -91,11 +97,24 @@ def phase(checker: Checker, words: str) -> Phase | None:
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
-    at_first = _goes_on_at_first(kind, lasts, every, {name: limits[name].state for name in meant if name in limits}, run, meant)
+    states = {name: limits[name].state for name in meant if name in limits}
+    at_first = _goes_on_at_first(kind, lasts and not (begun and times), every, states, run, meant)
     if not lasts and NOT_FIRST.search(words):
         return None
     is_moment = not lasts and not _LASTED.search(words) and (kind not in _STATES or _MOMENT.search(words) is not None)
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
+
+
+def _begun(run: Any, core: CompiledModel, state: str) -> list[tuple[float, str, str]]:
+    """When parts touch that are in a state from then on, each with the name of that change."""
+    last = {name: limit.state for name, limit in core.instant(run.motion.end).limits.items()}
+    found: list[tuple[float, str, str]] = []
+    for change in reversed(run.changes):
+        for part in change.of:
+            if change.kind in _TOUCHES and last.get(part) == state:
+                found.append((change.t, part, f"{change.kind} {part}"))
+            last[part] = _BEFORE.get(change.kind, "")
+    return found
 
 
 def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, str], run: Any, meant: Collection[str]) -> bool:
@@ -113,14 +132,21 @@ def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, 
 
 
 def _meant(words: str, parts: Collection[str], limits: Any, unnamed: Collection[str]) -> set[str]:
-    """Those of several parts that words name, by their own names or those of their bodies; the ``unnamed`` where they name none."""
+    """Those of several parts that words name best, by their own names, those of their bodies, and whether one of these is ground; the
+    ``unnamed`` where they name none."""
     said = re.findall(r"\w+", words)
-    bodies = {name: {limits[name].first, limits[name].second} - {GROUND} if name in limits else set() for name in parts}
-    ways = (
-        {name for name in parts if name in words or bodies[name] & {*said}},
-        {name for name in parts if any(alike(each, word) for each in (name, *bodies[name]) for word in said)},
-    )
-    return next(filter(None, ways), {*unnamed})
+
+    def named(name: str) -> int:
+        return 2 if name in words else any(alike(name, word) for word in said)
+
+    def score(part: str) -> int:
+        bodies = {limits[part].first, limits[part].second} if part in limits else set()
+        place = _GROUND if GROUND in bodies else _TOGETHER
+        return named(part) + sum(map(named, bodies - {GROUND})) + (bool(bodies) and place.search(words) is not None)
+
+    scores = {part: score(part) for part in parts}
+    best = max(scores.values(), default=0)
+    return {part for part, its in scores.items() if its == best} if best else {*unnamed}
 
 
 def alike(name: str, word: str) -> bool:

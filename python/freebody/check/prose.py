@@ -128,7 +128,7 @@ _STOP = re.compile(
     re.IGNORECASE,
 )
 _EVER = (
-    r"(?:\b(?:for|at)\s+(?:all|any|every|each)\s+(?:(?:time|instant|moment|angle|position|motion)s?\b|\\?\w+)(?:\s+(?:t\b|\\?theta\b|θ))?"
+    r"(?:\b(?:for|at)\s+(?:all|any|every|each)\s+(?:(?:time|instant|moment|angle|position|motion)s?\b|\\\w+|[A-Za-z]\w?\b|[^\W\x00-\x7f]\w*)(?:\s+(?:t\b|\\?theta\b|θ))?"
     r"(?:\s*(?:>=?|≥|\\geq?\b)\s*0)?|\balways|\bidentically|\b(?:throughout|during) the motion)"
 )
 _ALWAYS = re.compile(rf"(?:,|\\q?quad)?\s*{_EVER}{_CLOSES}|\A\s*{_EVER}\s*[,:]", re.IGNORECASE)

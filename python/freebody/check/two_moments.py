@@ -52,6 +52,7 @@ def between(checker: Checker, declared: Declared, label: str, statement: str) ->
 def across_impact(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict | None:
     """``stroke: Δ[J θ' + I φ'] = 0``, ``impact: v_2 = -e v_1``: just before and just after the only thing that there are impacts at; None
     where no letter is of these moments."""
+    statement = _AFTER.sub("₂", _BEFORE.sub("₁", statement))
     if re.search(r"Δ|\\Delta|[12₁₂]", statement) is None or len(parts := checker.impacts) != 1:
         return None
     (happening,) = parts
@@ -89,6 +90,9 @@ def _letter(known: Symbols, found: re.Match[str]) -> tuple[str, str, bool]:
     return letter, index, known.spelt(f"{letter}{'' if found[4] else '_'}{index}") is not None
 
 
+_BEFORE = re.compile(r"(?<=[\w'}])(?:⁻|\^\{?[-−]\}?)(?=\s*(?:[-=+−*/·),^²]|\Z|\s[^\W\d]))")
+_AFTER = re.compile(r"(?<=[\w'}])(?:⁺|\^\{?\+\}?)(?=\s*(?:[-=+−*/·),^²]|\Z|\s[^\W\d]))")
+"""``v⁻`` and ``v⁺``, just before and just after."""
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
 _CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?\w+)?)")

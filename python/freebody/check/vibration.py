@@ -101,6 +101,11 @@ class Vibration:
         """How many natural frequencies it has."""
         return sum(name.startswith("natural frequency") for name in self._own) if self.rest else 0
 
+    @property
+    def is_of_several(self) -> bool:
+        """Whether several coordinates move freely about the place of rest."""
+        return self.rest is not None and len(_space(self.sampler.core, self.rest).free) > 1
+
     def modes(self, relations: Sequence[str]) -> list[int]:
         """The numbers of those natural vibrations in which expressions of several coordinates stay 0, as they are at rest. Raises
         ``NoMotion`` where there is none."""

@@ -71,7 +71,16 @@ _QUANTITY = re.compile(r"\s*\$?\\?[A-Za-z]_\{?\w+\}?\$?\s*")
 _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
-_STEADY_FIRST = re.compile(r"\A\s*(?:the\s+)?steady[\s-]+state(?=\s*[:,])")
+_STATE_FIRST = re.compile(
+    r"\A\s*(?:the\s+)?(?:(steady[\s-]+state)|(?:static\s+)?(equilibrium))(?=\s*[:,](?!=)|\s+(?:with|for|if|when|where)\s[^:;\n]*:(?!=))"
+)
+"""``steady state with c = 0:``."""
+_GIVEN_SMALL = re.compile(
+    rf"\A(?!\s*(?:{CONDITION}|small|for|with)\b)(?=[^:;,\n]*=[^:;,\n]*,\s*(?:for\s+)?small\s[^:;=\n]*:(?!=))"
+)
+"""``m_1 a = m_2 b, small θ:``."""
+_SAID_OF_MOMENT = re.compile(rf"\A\s*([^\s=:;,]+)\s+({_INSTANT}[^=:;\n]+?)\s*(=[^:;\n]+)\Z")
+"""``E just after the impact = …``."""
 _STILL_FIRST = re.compile(
     r"\A\s*(?:if\s+|when\s+|while\s+)?(?:(?:it|all)\s+(?:is|hangs|stands)\s+)?(?:held|kept|hanging|standing|holding)\s+still(?=\s*[:,])"
 )
@@ -82,7 +91,7 @@ _BEHIND = re.compile(
     rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS}|while|during|until)(?:\s[^:;\n]+)?)"
 )
 _HAPPENS_WHEN = re.compile(
-    rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,3}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
+    rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,4}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
 )
 """``the block breaks loose when k x = μ m g``."""
 _PARTS = re.compile(r",|\band\b")
@@ -175,6 +184,8 @@ def with_condition_first(text: str) -> str:
         return f"constant: {same}"
     if (found := _NAMED_VALUE.fullmatch(said)) and (name := _quantity(found[1])):
         return f"{name} = {found[2]}"
+    if found := _SAID_OF_MOMENT.fullmatch(said):
+        return f"{found[2]}: {found[1]} {found[3]}"
     if found := _HAPPENS_WHEN.fullmatch(said):
         return f"when {found[1]}: {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
@@ -184,10 +195,11 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))
+    text = _STATE_FIRST.sub(lambda found: f"in {'steady state' if found[1] else 'equilibrium'}", text)
+    text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", _GIVEN_SMALL.sub("if ", text)))
     text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
     text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, text))
-    text = _STILL_FIRST.sub("in equilibrium", _STEADY_FIRST.sub("in steady state", _TENDING.sub("as ", text)))
+    text = _STILL_FIRST.sub("in equilibrium", _TENDING.sub("as ", text))
     label, colon, rest = text.partition(":")
     if colon and (found := _WHICH_MODE.fullmatch(label)):
         return f"frequencies {1 if found[1] else 2}: {rest}"

@@ -7,6 +7,8 @@ use crate::mechanism::{FrictionSource, Mechanism};
 
 /// Part of the way of a motion within which bodies are in one place.
 const ONE_PLACE: f64 = 1e-12;
+/// What is no length, but round-off of a place: a hundredth of an atom, m.
+const SMALLEST: f64 = 1e-12;
 /// Part of the largest term that what is left of an acceleration has to exceed: below it what balances is off by round-off.
 const BALANCED: f64 = 1e-12;
 
@@ -28,7 +30,7 @@ fn median_length(lengths: impl Iterator<Item = f64>) -> Option<f64> {
 impl Workspace<'_> {
     /// The median distance of the bodies from the origin at the present state, m; None where all are there.
     pub(super) fn extent(&self) -> Option<f64> {
-        median_length(self.k.pose[1..].iter().map(|pose| pose.at.norm()))
+        median_length(self.k.pose[1..].iter().map(|pose| pose.at.norm()).filter(|&way| way > SMALLEST))
     }
 
     /// What makes a length of the gap of unilateral constraint `l`, where that is an angle, and a force of its couple: the
