@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import GROUND, CompiledModel
+from freebody.core import GROUND
 
 from .wording import LASTS
 
@@ -84,7 +84,7 @@ def phase(checker: Checker, words: str) -> Phase | None:
     happened = {change.kind for change in run.changes if change.t > run.t[0]}
     kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
-    begun = _begun(run, checker.sampler.core, _STATES[kind]) if kind in _BEFORE else []
+    begun = _begun(run, _STATES[kind]) if kind in _BEFORE else []
     found += begun
     firsts = {name: (t, part) for t, part, name in sorted(found, reverse=True) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
@@ -105,9 +105,9 @@ def phase(checker: Checker, words: str) -> Phase | None:
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
 
 
-def _begun(run: Any, core: CompiledModel, state: str) -> list[tuple[float, str, str]]:
+def _begun(run: Any, state: str) -> list[tuple[float, str, str]]:
     """When parts touch that are in a state from then on, each with the name of that change."""
-    last = {name: limit.state for name, limit in core.instant(run.motion.end).limits.items()}
+    last = {name: limit.state for name, limit in run.source.instant(run.motion.end).limits.items()}
     found: list[tuple[float, str, str]] = []
     for change in reversed(run.changes):
         for part in change.of:
