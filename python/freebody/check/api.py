@@ -54,6 +54,7 @@ _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?)
 """Words that say of something that it happens."""
 _ROOT = re.compile(r"√|sqrt")
 _BLOW = re.compile(BLOW)
+_ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
@@ -287,7 +288,7 @@ class Checker:
     def happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""
         events = {e["name"]: None for e in self.sampler.spec["events"]}
-        said = re.sub(r"\A(?:the|an?)\s+", "", event)
+        said = _ARTICLE.sub("", event)
         if said in events:
             return said
         run = self.own_motion
@@ -390,10 +391,11 @@ class Checker:
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
+        name = name if name in (events := {e["name"] for e in self.sampler.spec["events"]}) else _ARTICLE.sub("", name)
         until = None if self.mechanism.run_numbers().until is not None else 1.0
         with suppress(ModelProblem):
             until = until and max(until, quantity("at", name, "s"))
-        if until and any(event["name"] == name for event in self.sampler.spec["events"]):
+        if until and name in events:
             until = PATIENT  # it may come late
         run = self._runs.get(until) or self._runs.setdefault(until, self.mechanism.simulate(until))
         times = {"start": float(run.t[0]), "end": float(run.outcome.t)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
@@ -38,15 +39,17 @@ def arranged(
     adjustable: Collection[str],
 ) -> State:
     """The nearest state at which ``conditions`` are 0, with rates other than those given unless it is at rest; where it cannot be so, with
-    another of the ``values`` of those parameters that are ``adjustable``. Raises ``NoMotion`` and ``MotionError``."""
+    other ``values`` of those parameters that are ``adjustable``. Raises ``NoMotion`` and ``MotionError``."""
     kept: list[str] = []
+    fitted: list[str] = []
     for text in (*conditions, *family.vanishing * _AGAIN):
         if not model.vanishes(text, state):
             try:
                 others = [each for each in kept if each != text]
                 state = _vanished(model, text, state, list(rates), others, not family.at_rest)
             except (NoMotion, MotionError):
-                if (found := _fitted(model, text, state, values, adjustable)) is None:
+                fitted = list(dict.fromkeys((*fitted, text)))
+                if (found := _fitted(model, fitted, state, values, adjustable)) is None:
                     raise
                 state = found
         kept += [text] if text in family.vanishing and text not in kept else []  # what is small need not stay just so
@@ -54,30 +57,30 @@ def arranged(
 
 
 def _fitted(
-    model: MotionSampler, text: str, state: State, values: Mapping[str, float], adjustable: Collection[str]
+    model: MotionSampler, texts: Sequence[str], state: State, values: Mapping[str, float], adjustable: Collection[str]
 ) -> State | None:
-    """The same state with another value of one ``adjustable`` parameter, of its sign, at which an expression is 0; first that which matters most."""
-    size = model.size_of(text, state)
+    """The same state with other values of the ``adjustable`` parameters, of their signs and in ratios as near 1 as possible, at which expressions
+    are 0."""
+    names = [name for name in adjustable if values[name]]
+    sizes, ratios = np.array([model.size_of(text, state) or 1.0 for text in texts]), np.zeros(len(names))
+    off = np.inf
 
-    def at(name: str, x: float) -> tuple[State, float]:
-        other = replace(state, p=model.core.bind({**values, name: x}))
-        return other, float(model.core.evaluate([text], other)[0])
+    def at(ratios: Array) -> tuple[State, Array]:
+        fitted = {name: values[name] * ratio for name, ratio in zip(names, np.exp(ratios).tolist(), strict=True)}
+        other = replace(state, p=model.core.bind({**values, **fitted}))
+        return other, model.core.evaluate(list(texts), other) / sizes
 
-    def slope(name: str, x: float) -> float:
-        return (at(name, x * (1 + _STEP))[1] - at(name, x * (1 - _STEP))[1]) / (2 * _STEP * x)
-
-    for name in sorted(
-        (name for name in adjustable if values[name]), key=lambda name: -abs(slope(name, values[name]) * values[name])
-    ):
-        x = values[name]
-        for _ in range(_NEWTON):
-            found, left = at(name, x)
-            if abs(left) <= _DONE * size:
-                return found
-            rises = slope(name, x)
-            x -= left / rises if abs(rises * x) > NOTHING * size else x
-            if not 0 < x / values[name] < _MANY_TIMES:
-                break
+    for _ in range(_NEWTON if names else 0):
+        found, left = at(ratios)
+        before, off = off, float(np.abs(left).max())
+        if off <= _DONE or before / 2 < off <= NOTHING:
+            return found
+        slopes = np.array([at(ratios + step)[1] - at(ratios - step)[1] for step in _STEP * np.eye(len(names))]).T / (2 * _STEP)
+        if not np.isfinite(slopes).all():
+            return None
+        ratios = ratios - np.clip(np.linalg.pinv(slopes, rcond=NOTHING) @ left, -1.0, 1.0)
+        if np.abs(ratios).max() > math.log(_MANY_TIMES):
+            return None
     return None
 
 

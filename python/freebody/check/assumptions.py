@@ -340,12 +340,23 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if part.count("=") != 1:
         raise ModelProblem(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(WORDS)}")
     left, right = (side.strip() for side in part.split("="))
-    if (name := free_parameter(left, checker, declared)) is not None:
-        return replace(given, held=(*given.held, (name, _meant(right, checker, declared))))
+    if (name := free_parameter(left, checker, declared)) is not None and not _moves(
+        value := _meant(right, checker, declared), checker
+    ):
+        return replace(given, held=(*given.held, (name, value)))
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
     asks_past = "⟦" in vanishing or re.search(r"(?<![\w.])t(?![\w.(])", vanishing)
     since = given.since or ("start" if asks_past else "")
     return replace(given, vanishing=(*given.vanishing, vanishing), since=since)
+
+
+def _moves(text: str, checker: Checker) -> bool:
+    """Whether an expression changes as the model moves."""
+    with suppress(ModelError, MotionError):
+        return bool(
+            checker.sampler.core.derivatives([text], checker.sampler.own)[0, 1 : 1 + 2 * len(checker.sampler.names)].any()
+        )
+    return False
 
 
 def _with_limit(given: Family, name: str, value: str, checker: Checker, declared: Declared) -> Family:

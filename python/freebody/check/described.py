@@ -38,6 +38,9 @@ _OF_SPRING = {
 """Of what the length of a spring is least or greatest."""
 _HEIGHT = re.compile(r"\b(?:highest|lowest|height|top|bottom)\b")
 _LETTER = 2  # characters that the name of a quantity has at most: longer ones may be words
+_STOPS = re.compile(
+    r"\b(?:stops|stopped|comes? to (?:rest|a (?:stop|halt|standstill))|stands? still|(?:momentarily|instantaneously) at rest)\b"
+)
 _SPEED = re.compile(r"\b(?:speed|velocity|fast(?:est)?|slow(?:est)?)\b")
 _TURNS = 1e-6  # of what is typical, what a second derivative is at least where something turns: what stays so does not
 _PLACE = re.compile(
@@ -61,14 +64,21 @@ def _way(words: str, checker: Checker) -> Family | None:
 
 
 def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
-    """Motions from the start to where something is first greatest or least."""
-    found = _EXTREME.search(words)
-    if found is None or not (rates := _rates(words, found.lastgroup == "least", checker, declared)):
-        return None
-    given, sampler, (first, *second) = checker.hypothesis, checker.sampler, rates
-    least = _TURNS * sampler.rate * sampler.size_of(first, sampler.own)
-    above = (f"{text} - {least!r}" for text in second)
-    return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
+    """Motions from the start to where something is first greatest or least, or the only coordinate comes to rest."""
+    given, sampler, names = checker.hypothesis, checker.sampler, checker.sampler.names
+    if (found := _EXTREME.search(words)) and (rates := _rates(words, found.lastgroup == "least", checker, declared)):
+        first, *second = rates
+        least = _TURNS * sampler.rate * sampler.size_of(first, sampler.own)
+        above = (f"{text} - {least!r}" for text in second)
+        return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
+    if _STOPS.search(words) and len(names) == 1:
+        place = f"x({quote(body)}.centre)" if (body := _body(words, checker)) else ""
+        side = [
+            f"{sign}({place} - ⟦{place}⟧)" for way, sign in (("right", ""), ("left", "-")) if place and f"on the {way}" in words
+        ]
+        given = replace(given, above=(*given.above, *side))
+        return replace(given, vanishing=(*given.vanishing, f"rate({spell(names[0])})"), since="start")
+    return None
 
 
 def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tuple[str, ...]:

@@ -28,7 +28,7 @@ from .families import ALL, BEFORE, Family, NoMotion, Samples
 from .moments import Moments
 from .sides import changes_side
 from .steady import steady_state
-from .stretches import first_zero, stretches
+from .stretches import stretches, zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
 
 if TYPE_CHECKING:
@@ -59,6 +59,7 @@ _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _PARTS = 4  # stretches of a motion that goes on through what switches
+_ZEROS = 4  # of an expression on a stretch, that are looked at
 _ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
 """What is asked of more than the start."""
 _INSIDE = 0.5, 0.3, 0.8  # parts of a stretch
@@ -327,7 +328,8 @@ class MotionSampler(AskedModel):
                 if family.late and not goes_on:
                     break
                 return self._sampled(motion.state(one + 0.99 * min(usual / self.rate, other - one)), family.through), start
-            if (found := self._first(first[0], motion, parts)) is not None:
+            above = [self._of_now(text, began) for text in family.above]
+            if (found := self._first(first[0], motion, parts, above)) is not None:
                 return self._sampled(found, family.through), start
             if not goes_on and self.vanishes(first[0], motion.end):  # an event ends it there
                 return self._sampled(motion.end, family.through), start
@@ -368,14 +370,17 @@ class MotionSampler(AskedModel):
         """Whether an expression is 0 on all of a stretch."""
         return all(self.vanishes(text, motion.state(begins + part * (ends - begins))) for part in _INSIDE)
 
-    def _first(self, text: str, motion: Trajectory, parts: Sequence[tuple[float, float]]) -> State | None:
-        """Where an expression is first 0 behind the beginning of a motion, which may be just where something switches."""
+    def _first(
+        self, text: str, motion: Trajectory, parts: Sequence[tuple[float, float]], above: Sequence[str] = ()
+    ) -> State | None:
+        """Where an expression is first 0 behind the beginning of a motion, which may be just where something switches, while others are
+        ``above`` 0."""
         for begins, ends in parts:
             if self._stays(text, motion, begins, ends):
                 continue
-            t = first_zero(lambda times: motion.evaluate([text], times)[:, 0], begins, ends)
-            for at in (t, ends):
-                if at is not None and self.vanishes(text, found := motion.state(at)):  # it has not jumped there
+            for t in (*zeros(lambda times: motion.evaluate([text], times)[:, 0], begins, ends, _ZEROS if above else 1), ends):
+                it_has_not_jumped = self.vanishes(text, found := motion.state(t))
+                if it_has_not_jumped and np.all(self.core.evaluate(list(above), found) > 0):
                     return found
         return None
 

@@ -25,7 +25,7 @@ _KINDS = {
     "slack": "slack|loose",
     "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
     r"|blow|impact|collision|shock"
-    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on the \w+\Z"
+    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on the \w+(?: \w+)?\Z|(?:com)?pressed|engaged"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
     r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air",
@@ -38,7 +38,7 @@ _CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("imp
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
 _OF_STRINGS = ("taut", "slack", "off")
-_ON = re.compile(r"(?:(?:the\s+)?\w+\s+)?on the (\w+)\Z")
+_ON = re.compile(r"(?:(?:the\s+)?\w+\s+)?on the (?:\w+ )?(\w+)\Z")
 """``on the floor:``, ``foot on the ground:``."""
 _BEFORE = {"stick": "sliding", "slip": "stuck"}
 """What a joint with friction was in before its first change."""
@@ -93,6 +93,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     parts = {*(part for _, part in firsts.values()), *able} or {*limits}
     surfaces = parts & {contact["name"] for contact in checker.sampler.spec["contacts"]} if kind in _CHANGES else set()
     meant = _meant(words, parts, limits, surfaces or parts)
+    if not lasts and not meant & {part for _, part in firsts.values()}:  # what is called so goes on under another name
+        meant = parts
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times

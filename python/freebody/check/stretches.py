@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
 
 from freebody.core import Array, Trajectory
 
+_BEHIND = 1e-6  # of what is left of a stretch, by which the next zero is looked for behind one
 _NOTHING = 1e-9  # of the largest value
 _LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
 """Times at which it is looked for between two, how often again, and how near they may come."""
@@ -19,6 +20,15 @@ def stretches(motion: Trajectory) -> list[tuple[float, float]]:
     begins, ends = float(motion.steps[0]), motion.end.t
     inside = (change.t for change in motion.changes if begins < change.t < ends)
     return list(pairwise(dict.fromkeys((begins, *inside, ends)))) or [(begins, ends)]
+
+
+def zeros(of: Callable[[Array], Array], begins: float, ends: float, most: int) -> Iterator[float]:
+    """The first of the zeros of a function of time behind its beginning, at ``most`` so many."""
+    for _ in range(most):
+        if (t := first_zero(of, begins, ends)) is None:
+            return
+        yield t
+        begins = t + _BEHIND * (ends - t)
 
 
 def first_zero(of: Callable[[Array], Array], begins: float, ends: float) -> float | None:

@@ -158,9 +158,10 @@ class _OnRun:
     def values(self, texts: Any) -> dict[str, Array]:
         """Each expression, (nt,)."""
         sampler = self.checker.sampler
-        own = {sampler.gravity: sampler.free_parameters.get(sampler.gravity)}
-        read = {text: self._with_start(text) for text in texts}
-        return {text: np.full(len(self.times), own[of]) if of in own else self.read(of, self.times) for text, of in read.items()}
+        gravity = re.compile(rf"(?<![\w.]){sampler.gravity}(?![\w.(])")  # which the model itself has as a number
+        number = repr(sampler.free_parameters.get(sampler.gravity))
+        read = {text: self._with_start(gravity.sub(number, text) if sampler.gravity else text) for text in texts}
+        return {text: self.read(of, self.times) for text, of in read.items()}
 
     def _with_start(self, text: str) -> str:
         """An expression with numbers for what is asked of the start of the run, and of its moments."""

@@ -35,7 +35,7 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
         if beside := _BESIDE.fullmatch(part):
             return beside_event(checker, declared, beside[1], beside[2], beside[3], under)
         if IN_WORDS.fullmatch(part) and (found := phase(checker, part)):
-            return in_phase(checker, declared, found, part, under)
+            return _of_phase(checker, declared, found, part, under, problem)
     known = {*checker.mechanism.parameters, *declared}
     words = [part for part in parts if (IN_WORDS.fullmatch(part) or part in known) and part not in WORDS]
     if not words or len(words) == len(parts):
@@ -51,7 +51,7 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
-        return in_phase(checker, declared, found, words, statement)
+        return _of_phase(checker, declared, found, words, statement, problem)
     if not lasts and kind_of(words) == "reversal" and not NOT_FIRST.search(words) and len(checker.sampler.names) == 1:
         return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
     if not lasts and _OVER.search(words):
@@ -70,14 +70,14 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     stretch = (lasts or placed) and said and not names and _ONE_PART.search(words) is None
     asked = checker.at_first() if lasts or placed else checker
     verdict = asked.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
+    if said and not verdict.ok and (given := described(words, checker, declared)):
+        found = checker.check(statement, declared, given)
+        once = given.since and found.kind is Kind.UNDECIDABLE  # it may come only after something switches
+        return checker.check(statement, declared, replace(given, through=True)) if once else found
     if verdict is None or not (names or stretch or verdict.ok):
         with suppress(ModelProblem):
             if said and (until := _UNTIL.fullmatch(words)):
                 return beside_event(checker, declared, "", "before", until[1], statement)
-        if said and (given := described(words, checker, declared)):
-            found = checker.check(statement, declared, given)
-            once = given.since and found.kind is Kind.UNDECIDABLE  # it may come only after something switches
-            return checker.check(statement, declared, replace(given, through=True)) if once else found
         if lasts and verdict is not None and not (found := _later(checker, declared, words, statement, verdict, problem)).ok:
             return found  # whichever stretch is meant
         raise problem
@@ -88,6 +88,13 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
+
+
+def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, statement: str, problem: ModelProblem) -> Verdict:
+    """On a stretch or at a moment in words; where no part is called as they say, on any later stretch, too."""
+    verdict = in_phase(checker, declared, found, words, statement)
+    unclear = found == Phase(True, (), False) and not verdict.ok
+    return _later(checker, declared, words, statement, verdict, problem) if unclear else verdict
 
 
 def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:

@@ -42,7 +42,7 @@ _NAMED_PLACE = re.compile(r"([A-Za-z][A-Za-z\s-]*?)\s*\(([^()]*[=<>][^()]*)\)")
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
 _UNIFORM = re.compile(
-    r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speed|velocity|motion)|(?:moving\s+)?uniformly"
+    r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speeds?|velocit(?:y|ies)|motion)|(?:moving\s+)?uniformly"
 )
 _SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
 _SMALL = re.compile(
