@@ -54,13 +54,20 @@ def described(words: str, checker: Checker, declared: Declared) -> Family | None
     return _extreme(words, checker, declared) or _way(words, checker)
 
 
+def way_of(words: str, checker: Checker) -> str:
+    """Which way something moves by words, in words that say nothing else; none where they do not tell."""
+    found = [way for way, (_, said) in _WAYS.items() if re.search(rf"\b(?:{said})\b", words)]
+    moving = _MOVING.search(words) or re.search(r"\b(?:ris|fall|sink|climb|ascend|descend)(?:s|es|ing)\b", words)
+    body = _body(words, checker)
+    return f"{body} moves {found[0]}" if len(found) == 1 and moving and body else ""
+
+
 def _way(words: str, checker: Checker) -> Family | None:
     """Motions of a body one way."""
-    found = [speed for speed, said in _WAYS.values() if re.search(rf"\b(?:{said})\b", words)]
-    moving = _MOVING.search(words) or re.search(r"\b(?:ris|fall|sink|climb|ascend|descend)(?:s|es|ing)\b", words)
-    if len(found) != 1 or not moving or (body := _body(words, checker)) is None:
+    if not (way := way_of(words, checker)):
         return None
-    return replace(checker.hypothesis, above=(*checker.hypothesis.above, f"{found[0]}({quote(body)}.centre)"))
+    body, _, way = way.rpartition(" moves ")
+    return replace(checker.hypothesis, above=(*checker.hypothesis.above, f"{_WAYS[way][0]}({quote(body)}.centre)"))
 
 
 def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
@@ -94,8 +101,8 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
             return _signed(letters[word].needed(1)[0], *_second(letters[word]), least=least)
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
-    if _HEIGHT.search(words) and body:
-        return _signed(f"vy({quote(body)}.centre)", f"ay({quote(body)}.centre)", least=least)
+    if _HEIGHT.search(words):
+        return _of(f"y({quote(body)}.centre)" if body else "centre_y()", least)
     return _of(spell(names[0]), least) if _PLACE.search(words) and len(names) == 1 else ()
 
 

@@ -52,8 +52,7 @@ def between(checker: Checker, declared: Declared, label: str, statement: str) ->
 def across_impact(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict | None:
     """``stroke: Δ[J θ' + I φ'] = 0``, ``impact: v_2 = -e v_1``: just before and just after the only thing that there are impacts at; None
     where no letter is of these moments."""
-    statement = _AFTER.sub("₂", _BEFORE.sub("₁", statement))
-    if re.search(r"Δ|\\Delta|[12₁₂]", statement) is None or len(parts := checker.impacts) != 1:
+    if re.search(r"Δ|\\Delta|[12₁₂⁺⁻]|\^\{?[-−+]", statement) is None or len(parts := checker.impacts) != 1:
         return None
     (happening,) = parts
     known, letters = checker.symbols(declared), dict[str, str]()
@@ -75,8 +74,13 @@ def across_impact(checker: Checker, declared: Declared, label: str, statement: s
         name = re.sub(r"\\(?:var)?", "", letter) + "dot" * (re.search("dot|'", dotted) is not None)
         return f" {beside(dotted, name, index)} "
 
+    def signed(found: re.Match[str]) -> str:
+        name = re.sub(r"\\(?:var|d*dot)?|[^A-Za-z]", "", found[1]) + "s"
+        index = "2" if "+" in found[2] or "⁺" in found[2] else "1"
+        return f" {beside(found[1], f'{name}{len(letters)}', index)} "
+
     with suppress(StatementError, ModelProblem):
-        said = _DELTA.sub(change, _INDEXED.sub(at_moment, statement))
+        said = _DELTA.sub(change, _SIGNED.sub(signed, _INDEXED.sub(at_moment, statement)))
         if letters:
             verdict = checker.check(said, {**declared, **letters}, correcting=checker.correcting)
             read = f"`{label}` is read as the impact at {happening}, 1 as just before it and 2 as just after it."
@@ -90,9 +94,10 @@ def _letter(known: Symbols, found: re.Match[str]) -> tuple[str, str, bool]:
     return letter, index, known.spelt(f"{letter}{'' if found[4] else '_'}{index}") is not None
 
 
-_BEFORE = re.compile(r"(?<=[\w'}])(?:⁻|\^\{?[-−]\}?)(?=\s*(?:[-=+−*/·),^²]|\Z|\s[^\W\d]))")
-_AFTER = re.compile(r"(?<=[\w'}])(?:⁺|\^\{?\+\}?)(?=\s*(?:[-=+−*/·),^²]|\Z|\s[^\W\d]))")
-"""``v⁻`` and ``v⁺``, just before and just after."""
+_SIGNED = re.compile(
+    r"((?:\\d*dot\s*\{?\s*)?(?:\\[A-Za-z]+|[^\W\d_]\u0307*)(?:_\{\w+\}|_?\w)?'*\}?)\s*([⁺⁻]|\^(?:\{[-−+]\}|[-−+](?=\s*(?:[-=+−*/·),^]|\Z|\s[^\W\d]))))"
+)
+"""``v⁻`` and ``v_1^+``: just before and just after."""
 _CHANGE = re.compile(r"(?:Δ|\\Delta)\s*(?=\w|\\)")
 """The change of something since the start."""
 _CHANGED = re.compile(r"(?:Δ|\\Delta)\s*((?:\\[A-Za-z]+|[^\W\d_])(?:_\{\w+\}|_?\w+)?)")

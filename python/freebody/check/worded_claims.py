@@ -15,7 +15,7 @@ from freebody.symbolic.errors import StatementError
 
 from . import timed_claims
 from .assumptions import WORDS
-from .described import described
+from .described import described, way_of
 from .families import BEFORE, SINCE_START
 from .phases import NOT_FIRST, Phase, kind_of, phase
 from .user_symbols import INITIAL
@@ -24,6 +24,7 @@ from .wording import LASTS
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
+    from .families import Family
 
 
 def in_words(checker: Checker, declared: Declared, condition: str, statement: str, problem: ModelProblem) -> Verdict:
@@ -47,7 +48,7 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
 def labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
     that is the ``problem``. Raises it."""
-    lasts = LASTS.match(words) is not None
+    lasts, said = LASTS.match(words) is not None, bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
     if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
@@ -60,24 +61,23 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     if not lasts and kind_of(words):
         with suppress(ModelProblem):  # an event by what goes on from there
             return in_phase(checker, declared, Phase(False, (checker.happening(words),), True), words, statement)
+    if said and (until := _UNTIL.fullmatch(words)):
+        with suppress(ModelProblem):
+            return beside_event(checker, declared, "", "before", until[1], statement)
+    if said and (given := described(words, checker, declared)):
+        verdict = _described(checker, declared, given, words, statement)
+        if verdict is not None:
+            return verdict
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
     }
     names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
-    said = bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
     placed = _PLACED.match(words) is not None
     stretch = (lasts or placed) and said and not names and _ONE_PART.search(words) is None
     asked = checker.at_first() if lasts or placed else checker
     verdict = asked.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
-    if said and not verdict.ok and (given := described(words, checker, declared)):
-        found = checker.check(statement, declared, given)
-        once = given.since and found.kind is Kind.UNDECIDABLE  # it may come only after something switches
-        return checker.check(statement, declared, replace(given, through=True)) if once else found
     if verdict is None or not (names or stretch or verdict.ok):
-        with suppress(ModelProblem):
-            if said and (until := _UNTIL.fullmatch(words)):
-                return beside_event(checker, declared, "", "before", until[1], statement)
         if lasts and verdict is not None and not (found := _later(checker, declared, words, statement, verdict, problem)).ok:
             return found  # whichever stretch is meant
         raise problem
@@ -90,8 +90,24 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
 
 
+def _described(checker: Checker, declared: Declared, given: Family, words: str, statement: str) -> Verdict | None:
+    """Of motions that words describe; None where the model's own begins so, and it holds at first."""
+    verdict = checker.check(statement, declared, given)
+    if verdict.kind is Kind.UNDECIDABLE:  # it may come only after something switches
+        later = given.since and checker.check(statement, declared, replace(given, through=True))
+        verdict = later or on_later_stretch(checker, declared, words, statement) or verdict
+    sampler = checker.sampler
+    soon = sampler.run(sampler.own, _SOON / sampler.rate).end
+    begins_so = not given.since and np.all(sampler.core.evaluate(list(given.above), soon) > 0)
+    if not verdict.ok and begins_so and checker.at_first().check(statement, declared, correcting=False).ok:
+        return None
+    return verdict
+
+
 def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """On a stretch or at a moment in words; where no part is called as they say, on any later stretch, too."""
+    if not found.is_moment and (way := way_of(words, checker)):
+        statement = f"if {way}: {statement}"
     verdict = in_phase(checker, declared, found, words, statement)
     unclear = found == Phase(True, (), False) and not verdict.ok
     return _later(checker, declared, words, statement, verdict, problem) if unclear else verdict
@@ -114,7 +130,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
 
 def on_later_stretch(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict | None:
     """Under a hypothesis of which there are no motions as the model is at first, as of what slides back: after what switches."""
-    if checker.sampler.moment:
+    if checker.sampler.moment or checker.is_at_first:
         return None
     for name in checker.switches:
         with suppress(ModelProblem, StatementError):
@@ -150,6 +166,7 @@ def in_phase(
     if not found:
         raise problem
     found = [one for one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
+    found = [one for one in found if not one.reason.startswith("no motion")] or found
     nearest = next((one for one in found if one.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None) or _least_wrong(found)
     how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
     return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
@@ -192,6 +209,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
+_SOON = 0.01  # of the time typical of a model
 IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)

@@ -25,6 +25,8 @@ _FREQUENCIES = re.compile(
 BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump"
 LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
 """``while it slips``: words of a stretch of the motion."""
+_GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
+"""``as it slides down:``."""
 _WORDS = re.compile(r"[\w\s'-]+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
@@ -210,7 +212,10 @@ def as_claim(text: str) -> str:
         before = f"{label[: found.start()]}{label[found.end() :]}".strip()
         return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
-    return _conditional(" ".join(found[1].split()), _plainly(found[2]), found[3]) if found else text
+    if not found:
+        return text
+    word, words = " ".join(found[1].split()), _plainly(found[2])
+    return _conditional("while" if word == "as" and _GOES_ON.match(words) else word, words, found[3])
 
 
 def _conditional(word: str, words: str, statement: str) -> str:
