@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
@@ -132,7 +132,7 @@ class Checker:
         ):
             return alone.check(*how)
         try:
-            if re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", text) and (found := self._of_frequencies(*how)):
+            if re.search(r"\bsmall\b[^:]*:", text) and (found := self._of_frequencies(*how)):
                 return found
             verdict = self._checked(*how)
             as_rate = verdict.kind is Kind.WRONG and any(note.startswith("Here ω is read as") for note in verdict.notes)
@@ -272,6 +272,16 @@ class Checker:
         if key not in self._beside:
             asked = {word: given for word, given in {**self._asked, **held}.items() if word not in ("at", "before", "after")}
             self._beside[key] = type(self)(self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: name})
+        other = copy(self._beside[key])
+        other.correcting = self.correcting
+        return other
+
+    def of_model(self, key: tuple[Any, ...], change: Callable[[Builder], None]) -> Checker:
+        """The same of the model after a ``change``, which a ``key`` tells from others."""
+        if key not in self._beside:
+            mechanism = self.mechanism.copy()
+            change(mechanism)
+            self._beside[key] = type(self)(mechanism, self.declared, self._seed, self.seconds, **self._asked)
         other = copy(self._beside[key])
         other.correcting = self.correcting
         return other

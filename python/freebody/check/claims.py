@@ -27,6 +27,7 @@ from .constant_claims import constant, reading
 from .correction import MOST
 from .families import Samples
 from .frequency_claims import frequencies
+from .held import with_held
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -92,6 +93,10 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     declared = {**declared, **letters}
     if letters and not condition:
         return checker.check(statement, declared, correcting=checker.correcting)
+    if found := with_held(checker, declared, condition):
+        there, others, read = found
+        verdict = there.check(f"if {others}: {statement}" if others else statement, declared, correcting=checker.correcting)
+        return replace(verdict, notes=(*verdict.notes, read))
     try:
         given = family(condition, checker, declared)
     except ModelProblem as problem:

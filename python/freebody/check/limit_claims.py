@@ -23,6 +23,7 @@ from .assumptions import (
 from .case import Case
 from .correction import SECOND, corrections
 from .families import ALL, NoMotion
+from .held import with_held
 from .language.statements import Equation, symbols_in
 from .phases import phase
 from .residual import HOLDS, residual
@@ -41,6 +42,10 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
     *others, words = sorted((part.strip() for part in limits.split(",")), key=lambda part: IN_WORDS.fullmatch(part) is not None)
     if others and IN_WORDS.fullmatch(words) and words not in WORDS and (found := phase(checker, words)):
         return in_phase(checker, declared, found, words, f"limit: {statement} as {', '.join(others)}")
+    if (found_held := with_held(checker, declared, limits)) and found_held[1]:
+        there, others, read = found_held
+        verdict = limit(there, declared, statement, others)
+        return replace(verdict, notes=(*verdict.notes, read))
     given = family(limits, checker, declared)
     case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m

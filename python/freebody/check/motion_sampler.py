@@ -18,7 +18,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.start import evaluate
 from freebody.run.moments import Unreached
 from freebody.solve.perturbed_states import independent, same_mode
-from freebody.symbolic.dimensions import ANGLE
+from freebody.symbolic.dimensions import ANGLE, LENGTH
 
 from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated
@@ -28,7 +28,7 @@ from .families import ALL, BEFORE, Family, NoMotion, Samples
 from .moments import Moments
 from .sides import changes_side
 from .steady import steady_state
-from .stretches import stretches, zeros
+from .stretches import first_zero, stretches, zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
 
 if TYPE_CHECKING:
@@ -239,18 +239,33 @@ class MotionSampler(AskedModel):
         """A random state to which the model comes from its own place, where what rolls is at angle 0; and that start."""
         start = self._at_moment(self.started(values), self._rates(rng, replace(family, at_rest=False)))
         conditions, n = self._conditions(rng, family), len(self.names)
-        places = [text for text in conditions if not self.core.derivatives([text], start)[0, n + 1 : 2 * n + 1].any()]
-        there = start if places and self.vanishes(places[0], start) else None
+        moving = self.core.derivatives(conditions, start)[:, n + 1 : 2 * n + 1].any(axis=1) if conditions else []
+        places = [text for text, moves in zip(conditions, moving, strict=True) if family.at_rest or not moves]
+        rates = self._rates(rng, family)
+
+        def given_rates(state: State) -> State:
+            return self.core.assemble(start.p, state.t, guess=self._named(state.q), rates=rates)[0]
+
+        there = start if places and self.vanishes(places[0], given_rates(start)) else None
         for motion, _ in self._followed(start, _STAGES if places else (rng.uniform(_STAGES[0], _FURTHER),)):
-            found = self._first(places[0], motion, stretches(motion)) if places else motion.end
+            if places and family.at_rest:
+                left = lambda times, motion=motion: np.array(
+                    [self.core.evaluate(places[:1], given_rates(motion.state(t)))[0] for t in times]
+                )
+                t = first_zero(left, float(motion.steps[0]), motion.end.t)
+                found = None if t is None else motion.state(t)
+            else:
+                found = self._first(places[0], motion, stretches(motion)) if places else motion.end
             there = found or there
             if found is not None:
                 break
         if there is None:
             return None, start
-        rates = self._rates(rng, family)
-        state, _ = self.core.assemble(start.p, there.t, guess=self._named(there.q), rates=rates)
-        return self._judging(arranged(self, conditions, state, rates, family, values, values)), start
+        state = given_rates(there)
+        sizes = [name for name, its in self.start.parameters.items() if its == LENGTH]
+        made = arranged(self, conditions, state, rates, family, values, [name for name in values if name not in sizes])
+        rolled_away = np.abs(made.q - state.q).max() > NOTHING * self.length  # to where what rolls is at another angle
+        return None if rolled_away else self._judging(made), start
 
     def _judging(self, state: State) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""

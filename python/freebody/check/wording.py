@@ -27,6 +27,17 @@ LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at re
 """``while it slips``: words of a stretch of the motion."""
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""
+_HELD = r"(?:is\s+|are\s+)?(?:held|fixed|locked|clamped|blocked)(?:\s+(?:still|fixed|fast|in place))?"
+_LISTED = (
+    (re.compile(rf"(?:with\s+)?(?:the\s+)?([\w\s'-]+?)\s+{_HELD}\s*(?:\(|at\s+)\s*(\S+?)\s*=\s*([^()]+?)\)?"), r"\2 held at \3"),
+    (re.compile(rf"(?:with\s+)?(?:the\s+)?([\w\s'-]+?)\s+{_HELD}"), r"\1 held"),
+    (re.compile(r"([^\W\d]\S{0,5}) (?:is )?small"), r"small \1"),
+    (re.compile(r"([^\W\d]\S{0,5}) (?:is )?(?:negligible|neglected)|negligible ([^\W\d]\S{0,5})"), r"\1\2 -> 0"),
+    (re.compile(r"(?:[A-Za-z]+\s+)+\(([^()=]+=[^()]+)\)"), r"\1"),
+)
+"""Conditions in a list without a word before it, ``block held at x = 0, shaker off (h = 0), θ small:``."""
+_PLAIN_ONE = re.compile(r"small\s+\S+|\S+('|\u0307)*\s*=\s*[^=]+")
+"""What may stand beside these."""
 _WORDS = re.compile(r"[\w\s'-]+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
@@ -197,6 +208,7 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
+    text = _listed(text)
     text = _STATE_FIRST.sub(lambda found: f"in {'steady state' if found[1] else 'equilibrium'}", text)
     text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", _GIVEN_SMALL.sub("if ", text)))
     text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
@@ -216,6 +228,18 @@ def as_claim(text: str) -> str:
         return text
     word, words = " ".join(found[1].split()), _plainly(found[2])
     return _conditional("while" if word == "as" and _GOES_ON.match(words) else word, words, found[3])
+
+
+def _listed(text: str) -> str:
+    """A claim with a list of conditions before it, with the word for that."""
+    label, colon, said = text.partition(":")
+    if not colon or said.startswith("=") or re.match(rf"\s*(?:{_STARTS}|{_WHILE})\b", label):
+        return text
+    parts = [part.strip(" $") for part in re.split(r",(?![^()]*\))|;", label)]
+    found = [next((pattern.sub(to, part) for pattern, to in _LISTED if pattern.fullmatch(part)), None) for part in parts]
+    if not any(found) or not all(new or _PLAIN_ONE.fullmatch(part) for part, new in zip(parts, found, strict=True)):
+        return text
+    return f"if {', '.join(new or part for part, new in zip(parts, found, strict=True))}:{said}"
 
 
 def _conditional(word: str, words: str, statement: str) -> str:
