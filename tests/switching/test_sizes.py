@@ -217,3 +217,22 @@ def test_a_motion_is_the_same_at_every_size_gravity_and_mass(name):
         assert happened == known[0], scales
         np.testing.assert_allclose(when, known[1], rtol=1e-7, err_msg=str(scales))
         np.testing.assert_allclose(motion, known[2], rtol=1e-6, atol=1e-6, err_msg=str(scales))
+
+
+def test_what_lands_where_all_is_counted_from_balances_there() -> None:
+    """Before and after a particle lands at the origin on a cart that is there, in a model without a length but that of its inertia."""
+    m = model("""
+gravity: 9.81 m/s^2
+ground: {lines: {rail: {through: O, angle: 0}}}
+bodies: {cart: {mass: 19.6 kg, inertia: 2 kg*m^2, lines: {deck: {through: origin, angle: 0}}}, parcel: {shape: particle, mass: 7.3 kg}}
+joints:
+  rail: {type: slider, along: ground.rail, line: cart.deck, coordinate: X}
+  air: {type: free, of: [ground.O, parcel.centre], coordinates: [x, y]}
+contacts: {deck: {of: [parcel, cart.deck], friction: 0.3}}
+initial: {X: 0, x: -0.4 m, y: 0.36 m, rates: {x: 3 m/s, y: -1.5 m/s, X: 0}}
+run: {until: 1 s}
+""")
+    x, y, fall = 3.0, -1.5, (math.hypot(1.5, math.sqrt(2 * 9.81 * 0.36)) - 1.5) / 9.81
+    m.initial(X=0, x=-x * fall, y=0.36, rates={"x": x, "y": y, "X": 0})
+    for moment in ({"before": "deck"}, {"after": "deck"}):
+        assert m.solve(**moment).residual < 1e-12  # of their largest term, which is a weight

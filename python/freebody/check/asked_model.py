@@ -32,7 +32,7 @@ _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment
 _MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
-_STRIDE = 3.0  # by which a length grows from place to place on the way to where it is far larger
+_STRIDE = 4.0  # by which a length grows from place to place on the way to where it is far larger
 _DEPENDENT = (
     0.05  # part of the motions by which loops stay closed that moves a coordinate: below it loops are near a dead position for it
 )

@@ -7,6 +7,8 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.run.records import quote
@@ -75,7 +77,9 @@ def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
     given, sampler, names = checker.hypothesis, checker.sampler, checker.sampler.names
     if (found := _EXTREME.search(words)) and (rates := _rates(words, found.lastgroup == "least", checker, declared)):
         first, *second = rates
-        least = _TURNS * sampler.rate * sampler.size_of(first, sampler.own)
+        least = float(
+            np.nan_to_num(_TURNS * sampler.rate * sampler.size_of(first, sampler.own))
+        )  # a cord may start with no length
         above = (f"{text} - {least!r}" for text in second)
         return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
     if _STOPS.search(words) and len(names) == 1:
@@ -122,11 +126,14 @@ def _signed(first: str, *second: str, least: bool) -> tuple[str, ...]:
 
 
 def _length(checker: Checker) -> str | None:
-    """That of the only spring."""
-    springs = [force["with"] for force in checker.sampler.spec["forces"] if force["type"] == "spring"]
-    if len(springs) != 1:
+    """That of the only spring, or string that stretches."""
+    spec = checker.sampler.spec
+    springs = [force["with"] for force in spec["forces"] if force["type"] == "spring"]
+    strings = [string for string in spec["strings"] if string.get("stiffness") and not string["over"]]
+    if len(springs) + len(strings) != 1:
         return None
-    return springs[0].get("along") or "distance({}, {})".format(*springs[0]["between"])
+    ends = springs[0].get("between") if springs else [end.get("point") for end in strings[0]["ends"]]
+    return "distance({}, {})".format(*ends) if ends and all(ends) else springs[0].get("along") if springs else None
 
 
 def _body(words: str, checker: Checker) -> str | None:

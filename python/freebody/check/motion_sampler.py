@@ -59,6 +59,7 @@ _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _PARTS = 4  # stretches of a motion that goes on through what switches
+_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
 _ZEROS = 4  # of an expression on a stretch, that are looked at
 _ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
 """What is asked of more than the start."""
@@ -363,7 +364,11 @@ class MotionSampler(AskedModel):
         """A start, put where it has to be for what is asked of its place alone."""
         of_start = [text for text in family.vanishing if OF_START.search(text) and not _ELSE.search(text)]
         moving = slice(1, 1 + 2 * len(self.names))
-        alone = (text for text in of_start if not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any())
+        alone = (
+            text
+            for text in of_start
+            if not _TIME.search(text) and not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any()
+        )
         places = [OF_START.sub(r"(\1)", text) for text in alone]
         if family.since == BEFORE or all(self.vanishes(text, start) for text in places):
             return start

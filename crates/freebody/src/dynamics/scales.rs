@@ -7,8 +7,6 @@ use crate::mechanism::{FrictionSource, Mechanism};
 
 /// Part of the way of a motion within which bodies are in one place.
 const ONE_PLACE: f64 = 1e-12;
-/// What is no length, but round-off of a place: a hundredth of an atom, m.
-const SMALLEST: f64 = 1e-12;
 /// Part of the largest term that what is left of an acceleration has to exceed: below it what balances is off by round-off.
 const BALANCED: f64 = 1e-12;
 
@@ -28,9 +26,12 @@ fn median_length(lengths: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 impl Workspace<'_> {
-    /// The median distance of the bodies from the origin at the present state, m; None where all are there.
+    /// The median radius of gyration of the bodies; else their median distance from the origin at the present state, m; None where all
+    /// are particles there.
     pub(super) fn extent(&self) -> Option<f64> {
-        median_length(self.k.pose[1..].iter().map(|pose| pose.at.norm()).filter(|&way| way > SMALLEST))
+        let turning = (1..self.m.bodies.len()).filter(|&i| !self.m.bodies[i].particle);
+        median_length(turning.map(|i| (self.n.inertia[i] / self.n.mass[i]).sqrt()))
+            .or_else(|| median_length(self.k.pose[1..].iter().map(|pose| pose.at.norm())))
     }
 
     /// What makes a length of the gap of unilateral constraint `l`, where that is an angle, and a force of its couple: the
