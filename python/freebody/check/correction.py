@@ -71,7 +71,7 @@ _BLUR = 1e3  # of what is lacking there, beside round-off
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
-_IN_OTHER_LETTERS = ("missing term", "missing factor", "symbol", "rates")
+_IN_OTHER_LETTERS = ("missing term", "missing factor", "symbol", "rates", "resultant")
 """What may stand in the place of the same part of an equation of motions alone in many letters."""
 _REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"), ("derivative", "missing factor"))
 """Pairs that take something away and put another in its place: no correction."""

@@ -22,7 +22,7 @@ from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
-from .roots import other_sides, rooted
+from .roots import other_sides, resultants, rooted
 from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, required_terms
 from .spans import proportional, spanning
@@ -42,6 +42,7 @@ _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
+_ANOTHER = 0.1  # for the second component of which a resultant consists
 _ONE = Num(1.0, "1")
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
@@ -87,6 +88,10 @@ class FittedEdits:
                 yield from (Edit.at(equation, "factor", node, new) for new in turned)
                 yield from (Edit.at(equation, "share", node, new) for new in shares(required, self.vocabulary, self.values))
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
+            yield from (
+                Edit.at(equation, "resultant", node, new, _ANOTHER * lost + 0.02 * depth(new) * lost)
+                for new, lost in resultants(required, self.values, self.vocabulary, self._monomials(equation))
+            )
             yield from (
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
             )

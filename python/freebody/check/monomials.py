@@ -56,8 +56,8 @@ class Monomials:
         self._columns = np.column_stack(columns)
         self._shapes = [shape for _, shape in zip(range(_MOST_SHAPES), shapes, strict=False)]
 
-    def equal_to(self, wanted: Array) -> Iterator[Node]:
-        """Terms whose values are the ``wanted`` ones."""
+    def equal_to(self, wanted: Array, in_size: bool = False) -> Iterator[Node]:
+        """Terms whose values, or only their sizes, are the ``wanted`` ones."""
         if wanted.ndim != 1 or not np.isfinite(wanted).all() or not wanted.all():
             return
         solve, left, logs, rests = self._solved
@@ -66,7 +66,7 @@ class Monomials:
         for place in np.flatnonzero(off < self.same).tolist():
             whole = _whole((solve @ (log - logs[:, place]))[1:])
             few = whole is not None and max(map(abs, whole), default=0) <= _HIGHEST and sum(map(abs, whole)) <= _MOST_POWERS
-            if few and (found := self._term(whole, place, wanted)):
+            if few and (found := self._term(whole, place, wanted, in_size)):
                 yield found
 
     def powers(self, wanted: Array) -> dict[Node, int] | None:
@@ -106,12 +106,13 @@ class Monomials:
     def _factors(self) -> dict[Node, Array]:
         return {}
 
-    def _term(self, powers: list[int], place: int, wanted: Array) -> Node | None:
+    def _term(self, powers: list[int], place: int, wanted: Array, in_size: bool) -> Node | None:
         """The term of such powers; None where its number is none that a person writes."""
         own = {node: n for node, n in zip(self.bases, powers, strict=True) if n}
         if any(own.get(factor, 0) < 0 for factor in self._shapes[place]):
             return None  # it cancels
         ratio = wanted / sampled(_product(own, self._shapes[place]), self.values)
+        ratio = np.abs(ratio) if in_size else ratio
         if np.ptp(ratio) > self.same * np.abs(ratio).max():
             return None  # of changing sign
         number = float(np.median(ratio))

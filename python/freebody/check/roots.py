@@ -1,20 +1,23 @@
-"""Parts that should be the square root of what stands there, or its square: v = 2 g h."""
+"""Parts that should be the square root of what stands there, or its square, v = 2 g h; and sizes that should be those of two components together."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations, product
 
 import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH
-from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym
+from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, unsigned
 
-from .powers import power_of
+from .monomials import Monomials
+from .powers import power_of, powers_of, written
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative: below it two values are one
+_MOST_TERMS = 4  # of a sum that is that of two components
 
 
 def rooted(required: RequiredTerm) -> Iterator[Node]:
@@ -40,3 +43,48 @@ def other_sides(required: RequiredTerm, values: Mapping[str, Array], vocabulary:
         for sides, value in (((a, Negative(b)), one - two), ((a, b), one + two), ((b, Negative(a)), two - one)):
             if np.allclose(value, needed**2, rtol=_SAME, atol=0):
                 yield Fn("sqrt", (Add(sides),), span=own.span)
+
+
+def resultants(
+    required: RequiredTerm, values: Mapping[str, Array], vocabulary: Vocabulary, terms: Monomials
+) -> Iterator[tuple[Node, int]]:
+    """For components that are simply added, the root of the sum of their squares, also of two at an angle; for one of them alone, the root of its
+    square and that of the other; with how many components are new."""
+    node, value, needed = required.node, required.value, required.needed
+    if value.ndim != 1 or needed.ndim != 1 or not np.isfinite(needed).all() or not np.all(needed > 0):
+        return
+    if isinstance(node, Add):
+        yield from ((Fn("sqrt", (whole,), span=node.span), 0) for whole in _at_angles(node, needed**2, values, vocabulary))
+    elif isinstance(node, Pow) and isinstance(node.base, Add) and node.exponent == Num(2.0):
+        yield from ((whole, 0) for whole in _at_angles(node.base, needed, values, vocabulary))
+    rest = needed**2 - value**2
+    if required.addend and np.all(rest > _SAME * needed**2):
+        for other in terms.equal_to(np.sqrt(rest), in_size=True):
+            yield Fn("sqrt", (Add((_squared(node), _squared(other))),), span=node.span), 1
+
+
+def _at_angles(whole: Add, needed: Array, values: Mapping[str, Array], vocabulary: Vocabulary) -> Iterator[Node]:
+    """The square of the size of two vectors together, of which the sizes were added, at right angles or by the law of cosines."""
+    calls = [n for n in vocabulary.single_factors if isinstance(n, Fn) and {k.key for k in n.symbols} <= values.keys()]
+    for one, two in _halves(whole.terms):
+        a, b = sampled(one, values), sampled(two, values)
+        rest = needed - a**2 - b**2
+        if np.all(np.abs(rest) <= _SAME * needed):
+            yield Add((_squared(one), _squared(two)))
+        for call, sign in product(calls, (2.0, -2.0)):
+            if np.allclose(sign * a * b * sampled(call, values), rest, rtol=_SAME, atol=0):
+                number, powers = powers_of(Mul((one, two, call)))
+                yield Add((_squared(one), _squared(two), written(sign * number, powers)))
+
+
+def _halves(terms: Sequence[Node]) -> Iterator[tuple[Node, Node]]:
+    """A sum as two."""
+    joined = lambda some: some[0] if len(some) == 1 else Add(tuple(some))
+    for count in range(1, len(terms) // 2 + 1):
+        for some in combinations(terms, count) if len(terms) <= _MOST_TERMS else ():
+            if 2 * count < len(terms) or terms[0] in some:
+                yield joined(some), joined([term for term in terms if term not in some])
+
+
+def _squared(node: Node) -> Node:
+    return power_of(unsigned(node), 2)

@@ -43,6 +43,7 @@ _WHY = {
     "angle": "the angle is measured from elsewhere, or is that between others",
     "power": "the power is another: a centripetal term goes with the square of the rate, a moment of inertia with that of the distance",
     "root": "it is the root of this, or its square: what is squared in an energy is not yet so",
+    "resultant": "components add up as vectors do: the size of what two at right angles make together is the root of the sum of their squares",
     "share": "it is only a share: what moved before is a part of all that moves on, or that turns with it",
     "missing factor": "a factor is forgotten: dimensions or an arm tell which",
     "extra factor": "a factor is one too many: dimensions tell which",
