@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -26,6 +27,7 @@ from freebody.check.file import WORDS, judged_alone
 from freebody.check.language.statements import Equation, symbols_in, terms
 from freebody.check.prose import plainly
 from freebody.check.residual import HOLDS, residual
+from freebody.check.two_moments import across_impact
 from freebody.check.verdict import Verdict
 from freebody.check.wording import with_condition_first
 from freebody.mechanism import Mechanism
@@ -103,7 +105,11 @@ class Book:
         try:
             cases = [self.checker.case(text) for text in said]
         except StatementError:  # it has letters of moments that its condition alone gives
-            return False
+            said[1], letters = self._of_impact(said[1])
+            try:
+                cases = [self.checker.case(text, letters) for text in said]
+            except StatementError:
+                return False
         values = {**cases[0].values(), **cases[1].values()}
         count = min(map(len, values.values()), default=0)  # claims of vibrations and of motions are not judged on as many
         values = {key: value[:count] for key, value in values.items()}
@@ -126,6 +132,18 @@ class Book:
         if kinematic and _names(one) <= _names(other) and _differs_in_one_term(one, other):
             return True
         return not kinematic and _proportional(one, other, {**cases[0].admissible, **cases[1].admissible})
+
+    def _of_impact(self, text: str) -> tuple[str, dict[str, str]]:
+        """What is said of just before and just after an impact, with the letters of these moments."""
+        listener, heard = copy(self.checker), [(text, {})]
+
+        def check(said: str, letters: dict[str, str], **_: object) -> Verdict:
+            heard.append((said, letters))
+            return Verdict(Kind.TRUE, said)
+
+        listener.check = check  # type: ignore[method-assign]
+        across_impact(listener, {}, "impact", text)
+        return heard[-1]
 
     @cached_property
     def _has_omega(self) -> bool:

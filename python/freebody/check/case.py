@@ -10,6 +10,7 @@ from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
+from time import thread_time
 
 import numpy as np
 
@@ -304,7 +305,10 @@ class Case:
         """The symbols on true states of a family. Raises ``NoMotion``."""
         key = (family or self.hypothesis, fresh, count)
         if key not in self.known:
+            began = thread_time()
             self.known[key] = self.meaning.values(self.samples(family, fresh, count))
+            if self.meaning.names_moments:  # to which motions are followed
+                self.budget.leaves_out_since(began)
         return self.known[key]
 
     @cached_property

@@ -32,6 +32,7 @@ from .likelihood import PARTNER, Likelihood
 from .marks import Marks
 from .momentum_edits import momentum_edits
 from .powers import powers_of
+from .relative_edits import seen_from_elsewhere
 from .residual import HOLDS, OFTEN, REACH, Edited, Residual, magnitude, residual, unreached
 from .senses import one_sense
 from .slips import is_constraint, why
@@ -216,6 +217,7 @@ class _Search:
             self.differentiated.likely(),
             self._fitted(self.equation) if readable else (),
             conventions(self.equation, self.vocabulary),
+            seen_from_elsewhere(self.equation, self.vocabulary),
             exchanges(self.equation, self.vocabulary),
             self.differentiated.others(),
             momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),

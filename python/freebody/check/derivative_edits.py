@@ -22,6 +22,7 @@ from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation, without_ones
 from .powers import powers_of, written
+from .relative_edits import seen_from_elsewhere
 from .solve_for_term import required_terms
 from .spans import proportional
 
@@ -51,7 +52,9 @@ class DerivativeEdits:
     def others(self) -> Iterator[Edit]:
         """All other edits of what is differentiated."""
         vocabulary = self.fits.vocabulary
-        plain = lambda _, given: chain(*(of(given, vocabulary) for of in (edits, conventions, forgotten_factors)))
+        plain = lambda _, given: chain(
+            *(of(given, vocabulary) for of in (edits, conventions, seen_from_elsewhere, forgotten_factors))
+        )
         for made in (plain, self._missing):
             yield from self._of_differentiated(made)
 

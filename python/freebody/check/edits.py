@@ -32,7 +32,7 @@ from freebody.symbolic.tree import (
 
 from .language.dimensions import dimension
 from .language.spelling import spell
-from .language.statements import Equation, symbols_in
+from .language.statements import Equation
 from .vocabulary import Vocabulary
 
 N = TypeVar("N", bound=Node)
@@ -53,8 +53,6 @@ _LARGER = {
 """By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
 _HALF = 0.05
 """By how much it is less likely that a mass is half of what it is than that it is there twice."""
-_ELSEWHERE = 0.4
-"""By how much an angle is less likely to be measured from a body of which nothing was said."""
 _MOST_CALLS = 6
 """Sines and cosines of an angle, of which two are exchanged."""
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
@@ -65,7 +63,6 @@ _UNSIGNED = (LENGTH, MASS, Dimension(2, 1))
 """Dimensions of lengths, masses and moments of inertia, which have no sense."""
 _OF_BODIES = ((1.0, 12.0), (1.0, 4.0), (1.0, 3.0), (2.0, 5.0), (1.0, 2.0), (2.0, 3.0), (3.0, 2.0), (1.0, 1.0))
 """Numbers of moments of inertia and of kinetic energies."""
-_QUARTER = Quotient(Num(math.pi, "pi"), Num(2.0, "2"))
 
 
 @dataclass(frozen=True)
@@ -257,7 +254,7 @@ def depth(node: Node) -> int:
 
 
 def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """Symbols of the other sense, from another axis, relative for absolute, and two symbols exchanged.
+    """Symbols of the other sense, and two symbols exchanged.
 
     A symbol that stands once is left to the edits of its place.
     """
@@ -271,8 +268,6 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     often = [name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1]
     for name in often:
         plain = Sym(name)
-        if plain in vocabulary.angular and plain in vocabulary.coordinates:
-            yield from _other_angles(equation, plain, vocabulary)
         if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _UNSIGNED:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
     moving = [n for n in dict.fromkeys(found) if n.dots and Sym(n.name) in vocabulary.coordinates]
@@ -383,18 +378,3 @@ def _sizes(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         for other in (Mul((Num(2.0, "2"), one)), Quotient(one, Num(2.0, "2")), *others):
             edit = _everywhere(equation, {one: other}, f"`{spell(one)}` should be `{spell(other)}` each time")
             yield replace(edit, extra=_HALF * (isinstance(other, Quotient) and known[one] != LENGTH))
-
-
-def _other_angles(equation: Equation, plain: Sym, vocabulary: Vocabulary) -> Iterator[Edit]:
-    """An angle from another axis, and relative for absolute."""
-    name = plain.name
-    for words, signed, say in (
-        ("plus", lambda n: n, "absolute where it is relative"),
-        ("minus", Negative, "relative where it is absolute"),
-    ):
-        yield _convention(equation, {plain: Add((plain, signed(_QUARTER)))}, f"`{name}` {words} a quarter turn")
-        for other in vocabulary.alike(plain):
-            shifted = {n: Add((n, signed(o))) for n, o in zip(_with_rates(name), _with_rates(other.name), strict=True)}
-            said = any(n.name == other.name for n in symbols_in(equation))
-            told = f"`{name}` {words} `{other.name}`: {say}, or the other way round"
-            yield replace(_convention(equation, shifted, told), extra=0.0 if said else _ELSEWHERE)

@@ -1,0 +1,61 @@
+"""Motions seen from elsewhere, wherever they stand in an equation: relative where they are absolute, or the other way round, and angles from another axis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from freebody.symbolic.dimensions import LENGTH, TIME
+from freebody.symbolic.tree import Add, Negative, Node, Num, Quotient, Sym, substitute, walk
+
+from .edits import Edit
+from .language.statements import Equation, symbols_in
+from .vocabulary import Vocabulary
+
+_ELSEWHERE = 0.4
+"""By how much a motion is less likely to be measured from a body of which nothing was said."""
+_QUARTER = Quotient(Num(math.pi, "pi"), Num(2.0, "2"))
+_WAYS = (
+    ("plus", lambda n: n, "absolute where it is relative"),
+    ("minus", Negative, "relative where it is absolute"),
+)
+_SPEED = LENGTH.times(TIME, -1)
+_MOMENTS = ("_1", "_2")
+
+
+def seen_from_elsewhere(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """Of coordinates with their rates, and of speeds of just before and just after something, that stand more than once."""
+    found = [n for n in walk(equation) if isinstance(n, Sym)]
+    for name in (name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1):
+        plain = Sym(name)
+        if (plain in vocabulary.coordinates and vocabulary.coordinates[plain] == LENGTH) or plain in vocabulary.angular:
+            for words, signed, _ in _WAYS if plain in vocabulary.angular else ():
+                yield _shifted(equation, {plain: Add((plain, signed(_QUARTER)))}, f"`{name}` {words} a quarter turn")
+            for other in vocabulary.alike(plain) if plain in vocabulary.coordinates else ():
+                yield from _other_frames(
+                    equation, name, other.name, dict(zip(_with_rates(name), _with_rates(other.name), strict=True))
+                )
+    stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == _SPEED)
+    speeds = {stem: [Sym(stem + index) for index in _MOMENTS] for stem in stems}
+    for one, own in speeds.items():
+        for two, others in speeds.items():
+            if one != two and {*own, *others} <= {*vocabulary.others}:
+                yield from _other_frames(equation, one, two, dict(zip(own, others, strict=True)))
+
+
+def _other_frames(equation: Equation, one: str, two: str, pairs: Mapping[Sym, Sym]) -> Iterator[Edit]:
+    """What is measured from one body, measured from another."""
+    said = any(n.name == other.name for n in symbols_in(equation) for other in pairs.values())
+    for words, signed, say in _WAYS:
+        shifted = {n: Add((n, signed(other))) for n, other in pairs.items()}
+        edit = _shifted(equation, shifted, f"`{one}` {words} `{two}`: {say}, or the other way round")
+        yield replace(edit, extra=0.0 if said else _ELSEWHERE)
+
+
+def _shifted(equation: Equation, changes: Mapping[Sym, Node], words: str) -> Edit:
+    return Edit("convention", None, None, substitute(equation, changes), words=words)
+
+
+def _with_rates(name: str) -> list[Sym]:
+    return [Sym(name, dots) for dots in range(3)]
