@@ -28,7 +28,7 @@ from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, BEFORE, SINCE_START, Family, NoMotion
 from .frequency_claims import OMEGA
-from .inner_forces import inner_forces
+from .of_bodies import without_place
 from .language.dimensions import misfit
 from .language.glyphs import CONDITION
 from .language.spelling import spell
@@ -83,7 +83,7 @@ class Checker:
         self.vibration = Vibration(self.sampler)
         self.hypothesis = ALL
         self.correcting, self.is_at_first = True, False
-        self.inner: frozenset[str] = frozenset()  # what acts between the bodies of a balance
+        self.no_place: frozenset[str] = frozenset()  # what is not of a balance of the bodies that are named
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
         self._seed, self._asked = seed, asked
@@ -107,7 +107,7 @@ class Checker:
         Raises ``StatementError`` and ``ModelProblem``."""
         given = hypothesis or self.hypothesis
         known = self.symbols(letters)
-        known.vibration, known.inner = self.vibration_of(given), self.inner
+        known.vibration, known.no_place = self.vibration_of(given), self.no_place
         began = thread_time()
         program = known.read(text, units, tight)
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
@@ -204,7 +204,7 @@ class Checker:
             plain = re.sub(r"\\Delta\s*(?=\w)", "Δ", plain)
         try:
             label, colon, _ = plain.partition(":")
-            checker.inner |= inner_forces(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
+            checker.no_place |= without_place(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))

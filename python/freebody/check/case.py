@@ -176,7 +176,7 @@ class StatementSymbols:
         known = dict.fromkeys([*self.used, *map(Sym, self.symbols.of_kind("declared", "gauge"))])
         others = [n for n in known if n not in taken and not self._one(n).is_vector and n.name != "t"]
         others += self._reactions({_meant(self._one(n).texts) for n in others})
-        others = [n for n in others if n in self.used or not any(_owners(text) & self.symbols.inner for text in self.texts(n))]
+        others = [n for n in others if n in self.used or not any(_owners(text) & self.symbols.no_place for text in self.texts(n))]
         groups = (parameters, coordinates, others, vectors)
         plain = [{n: self._dimension(n) for n in group} for group in groups]
         named = [n for n in others if n in self.used or n.name in self.symbols.own]
@@ -221,6 +221,7 @@ class StatementSymbols:
         derived = {parameter["name"] for parameter in self.sampler.spec["parameters"] if isinstance(parameter["value"], str)}
         named = {n.name for n in self.used} | derived
         own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters or start or name in named]
+        own = [n for n in own if n in self.used or n.name not in self.symbols.no_place]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
         declared = map(Sym, self.symbols.of_kind("declared"))  # some only name a parameter anew
         renamed = [n for n in declared if _meant(self._one(n).texts)[0] in self.sampler.free_parameters]

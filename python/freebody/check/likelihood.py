@@ -215,6 +215,7 @@ class Likelihood:
         strange = len(places) + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
         divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
         bound = _BOUND * (self._at_instant and bool(unsaid))
+        bound += _SOLVED * any(side is old for side in self._sides if isinstance(side, Sym))  # rather one of the terms on the other
         return bound + _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:

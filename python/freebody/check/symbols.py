@@ -94,7 +94,7 @@ class Symbols:
         self.declared: set[str] = set()
         self.own = frozenset(declared or ())
         self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
-        self.inner: frozenset[str] = frozenset()  # joints and forces that have no place in a balance
+        self.no_place: frozenset[str] = frozenset()  # joints, forces and masses that are not of a balance
         self.unjudged: set[str] = set()  # arrows behind what is no vector
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         self._measure_gauges()
