@@ -34,7 +34,7 @@ from .momentum_edits import momentum_edits
 from .powers import powers_of
 from .relative_edits import seen_from_elsewhere
 from .residual import HOLDS, OFTEN, REACH, Edited, Residual, magnitude, residual, unreached
-from .senses import one_sense
+from .senses import of_root, one_sense
 from .slips import is_constraint, why
 from .stated import Correction, stated
 
@@ -114,8 +114,7 @@ def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator
     for names in (*([name] for name in zeros), *([zeros] if len(zeros) > 1 else ())):
         held = replace(given, held=(*given.held, *((name, 0.0) for name in names)))
         families.append((held, ", ".join(f"{name} = 0" for name in names)))
-    if forward := one_sense(case, equation):
-        families.append(forward)
+    families += [forward for sense in (one_sense, of_root) if (forward := sense(case, equation))]
     parts = rows(equation)
     if len(parts) > 1 and (whole := list(_of_row(case, equation, families, _SINGLE, part))):
         yield from whole

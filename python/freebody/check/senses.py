@@ -10,12 +10,13 @@ import numpy as np
 
 from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
-from .language.statements import Equation
+from .language.statements import Equation, symbols_in
 
 if TYPE_CHECKING:
     from .case import Case
     from .families import Family
 
+_SIZE = re.compile(r"speed\(|hypot\(")
 _DEPENDS = re.compile(r"\b(?:abs|sign)\(")
 
 
@@ -32,10 +33,15 @@ def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
 
 
 def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
-    """The same of a rate that is said to be a root, θ' = √(…)."""
-    pairs = ((equation.left, equation.right), (equation.right, equation.left))
+    """The same of a rate that is said to be a root, θ' = √(…), and of those of which a size is made, v_B = L ω."""
+    known, pairs = case.meaning, ((equation.left, equation.right), (equation.right, equation.left))
     rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
-    return _as_at_start(case, {n: case.meaning.read_from(n) for n in rates})
+    sizes = [other for one, other in pairs if isinstance(one, Sym) and any(map(_SIZE.match, known.texts(Sym(one.name))))]
+    linear = (n for other in sizes for n in symbols_in(other) if known.vocabulary.is_rate(n))
+    moving = {n: known.read_from(n) for n in linear if n not in known.vocabulary.parameters}
+    if sizes and not case.sampler.core.evaluate([*moving.values()], case.sampler.own).all():
+        return None  # it has no sense yet
+    return _as_at_start(case, {n: known.read_from(n) for n in rates} | moving)
 
 
 def holds_with_either_root(case: Case, equation: Equation) -> bool:
