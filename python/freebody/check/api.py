@@ -28,13 +28,13 @@ from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, BEFORE, SINCE_START, Family, NoMotion
 from .frequency_claims import OMEGA
-from .of_bodies import without_place
 from .language.dimensions import misfit
 from .language.glyphs import CONDITION
 from .language.spelling import spell
 from .language.statements import Program, symbols_in, terms
 from .laws import without_laws
 from .motion_sampler import MotionSampler
+from .of_bodies import without_place
 from .phases import NOT_FIRST, alike, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly

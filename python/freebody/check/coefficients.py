@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import TypeVar
 
-from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, is_zero, walk
+from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .language.statements import without_ones
 
@@ -16,6 +16,7 @@ N = TypeVar("N", bound=Node)
 _SAME = 1e-8  # relative: below it a number is the one recognised
 _DENOMINATOR = 24
 _NUMERATOR = 60
+_ONE = Num(1.0, "1")
 _BESIDE_PI = {1, 2, 4, 8}
 """Figures beside π² and below the line beside π: other ones are angles of a model, in disguise."""
 
@@ -100,11 +101,40 @@ def more(node: Node, *terms: Node) -> Node:
 
 
 def tidied(node: N) -> N:
-    """The same without factors and denominators 1, and without 0 in sums."""
+    """The same without factors and denominators 1, without 0 in sums, and with what is added to its like gathered."""
     node = without_ones(node)
-    has_zero = lambda n: isinstance(n, Add) and any(map(is_zero, n.terms))
-    while (found := next(filter(has_zero, walk(node)), None)) is not None:
-        left = tuple(term for term in found.terms if not is_zero(term))
+    while (found := next((n for n in walk(node) if isinstance(n, Add) and len(_gathered(n)) < len(n.terms)), None)) is not None:
+        left = _gathered(found)
         new = Add(left, span=found.span) if len(left) > 1 else left[0] if left else Num(0.0, "0")
         node = exchange(node, found, new)
     return node
+
+
+def _gathered(whole: Add) -> tuple[Node, ...]:
+    """The terms of a sum that are not 0, each joined with those that are it but for a number; as they are where that is no number of a person."""
+    alike: dict[Node, list[Node]] = {}
+    for term in whole.terms:
+        alike.setdefault(_split(term)[1], []).append(term)
+    found: list[Node] = []
+    for rest, some in alike.items():
+        number = sum(_split(term)[0] for term in some)
+        if not number:
+            continue
+        joined = some[0] if len(some) == 1 else recognised(number) if rest == _ONE else multiplied(rest, number)
+        if joined is None:
+            return whole.terms
+        found.append(joined)
+    return tuple(found)
+
+
+def _split(term: Node) -> tuple[float, Node]:
+    """The number before a term, and the rest; of a number alone, that and 1."""
+    match term:
+        case Num(value=value):
+            return float(value), _ONE
+        case Negative(of=of):
+            number, rest = _split(of)
+            return -number, rest
+        case Mul((Num(value=value), *rest)):
+            return float(value), product(rest)
+    return 1.0, term

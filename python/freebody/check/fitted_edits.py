@@ -87,7 +87,7 @@ class FittedEdits:
                 turned = about_another_point(required, self._monomials(equation))
                 yield from (Edit.at(equation, "factor", node, new) for new in turned)
                 yield from (Edit.at(equation, "share", node, new) for new in shares(required, self.vocabulary, self.values))
-            yield from (Edit.at(equation, "root", node, new) for new in rooted(required))
+            yield from (Edit.at(equation, "root", node, new) for new in rooted(required, self.values))
             yield from (
                 Edit.at(equation, "resultant", node, new, _ANOTHER * lost + 0.02 * depth(new) * lost)
                 for new, lost in resultants(required, self.values, self.vocabulary, self._monomials(equation))
@@ -231,6 +231,8 @@ class FittedEdits:
         new = written(number * rest, {base: n for base, n in after.items() if n})
         if len(lacked) > 1 and all(n == -2 * own.get(base, 0) for base, n in lacked.items()):
             yield Edit.at(equation, "ratio", node, new)
+        elif all(n == -2 * own.get(base, 0) and isinstance(base, Fn) for base, n in lacked.items()):
+            yield Edit.at(equation, "upside down", node, new)
         elif len(lacked) > 1 and all(n == own.get(base) for base, n in lacked.items()) and {*lacked.values()} == {1, -1}:
             yield Edit.at(equation, "ratio once", node, new)
         else:
@@ -312,6 +314,8 @@ class FittedEdits:
             calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
             every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
             brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
+            falls = [n for n in dict.fromkeys(_calls(equation)) if n.name == "cos"]  # from rest there
+            brackets += [Add((_ONE, Negative(n))) for n in falls if Add((_ONE, Negative(n))) not in brackets]
             every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
             shapes = (shape for shape in every if not any(map(self._has_number, shape)))
             self._terms[equation] = Monomials(

@@ -118,8 +118,11 @@ class Likelihood:
                 )
             case "missing term" | "other term", _, new:
                 undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
+                if undoes and isinstance(new, Add):  # two terms, of which one only takes away what was said
+                    return math.inf
                 odd = _BOUND * self._at_instant + _ODD * undoes
-                return odd + sum(self._of_term(edit.kind, part) for part in _terms_of(new))
+                parts = (new,) if _is_fall(new) else _terms_of(new)
+                return odd + sum(self._of_term(edit.kind, part) for part in parts)
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
             case "angle", _, new:
@@ -215,7 +218,9 @@ class Likelihood:
         strange = len(places) + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
         divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
         bound = _BOUND * (self._at_instant and bool(unsaid))
-        bound += _SOLVED * any(side is old for side in self._sides if isinstance(side, Sym))  # rather one of the terms on the other
+        bound += _SOLVED * any(
+            side is old for side in self._sides if isinstance(side, Sym)
+        )  # rather one of the terms on the other
         return bound + _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:
@@ -251,7 +256,9 @@ class Likelihood:
             *(part for n in walk(term) if isinstance(n, Fn) for part in n.args),
         }
         for part in walk(term):
-            yield from [part] * 2 * (isinstance(part, Add) and part not in usual and part not in self._parts)
+            yield from (
+                [part] * 2 * (isinstance(part, Add) and not _is_fall(part) and part not in usual and part not in self._parts)
+            )
         for symbol in term.symbols:
             yield from [symbol] * 2 * (symbol.dots == 2 and self._is_solved_for_another(symbol))
         if self._is_part_of_mass(term) or self._is_of_another(term):
@@ -415,6 +422,11 @@ def _is_of_motion(powers: Mapping[Node, int], known: Vocabulary) -> bool:
         power == 2 and isinstance(base, Sym) and known.is_rate(base) and base not in known.parameters
         for base, power in powers.items()
     )
+
+
+def _is_fall(node: Node) -> bool:
+    """Whether it is 1 − cos θ, as of what has fallen from there."""
+    return isinstance(node, Add) and len(node.terms) == 2 and isinstance(node.terms[0], Num)
 
 
 def _terms_of(side: Node) -> tuple[Node, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, product
 
@@ -17,10 +18,11 @@ from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative: below it two values are one
+_MOST_FACTORS = 6  # of a product of which some stand below a root
 _MOST_TERMS = 4  # of a sum that is that of two components
 
 
-def rooted(required: RequiredTerm) -> Iterator[Node]:
+def rooted(required: RequiredTerm, values: Mapping[str, Array]) -> Iterator[Node]:
     """The root of a product or a sum, or the square of a root, where that is needed."""
     node, value, needed = required.node, required.value, required.needed
     if value.ndim != 1 or needed.ndim != 1 or not np.isfinite(needed).all():
@@ -31,6 +33,20 @@ def rooted(required: RequiredTerm) -> Iterator[Node]:
         yield Fn("sqrt", (node,), span=node.span)
     elif isinstance(node, Add | Mul | Quotient) and np.allclose(needed, value**2, rtol=_SAME, atol=0):
         yield Pow(node, Num(2.0, "2"), span=node.span)
+    elif isinstance(node, Mul | Quotient):
+        yield from _rooted_in_part(node, needed / value, values)
+
+
+def _rooted_in_part(node: Node, factor: Array, values: Mapping[str, Array]) -> Iterator[Node]:
+    """A product in which some of what stands there is below a root: v √(k m) for v k m."""
+    number, powers = powers_of(node)
+    bases = list(powers) if len(powers) <= _MOST_FACTORS else []
+    for some in (some for count in range(1, len(bases)) for some in combinations(bases, count)):
+        rest = {base: n for base, n in powers.items() if base not in some}
+        for inside, before in ((1.0, number), (abs(number), math.copysign(1.0, number))):
+            below = written(inside, {base: powers[base] for base in some})
+            if np.allclose(factor**2 * np.abs(sampled(below, values)), 1.0, rtol=_SAME, atol=0):
+                yield written(before, {**rest, Fn("sqrt", (below,)): 1})
 
 
 def other_sides(required: RequiredTerm, values: Mapping[str, Array], vocabulary: Vocabulary) -> Iterator[Node]:

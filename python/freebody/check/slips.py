@@ -36,6 +36,7 @@ _WHY = {
     "function": "the component along the other direction is meant: sine and cosine are exchanged",
     "factor": "a number is wrong or forgotten: ½, 2, or one of an inertia or of a rotation that was left out",
     "ratio": "the ratio is upside down: what turns or moves faster has the smaller radius or arm",
+    "upside down": "it is divided by what it should be multiplied by, or the other way round: a component is no longer than the whole",
     "ratio once": "the ratio counts twice: once for the motion and once for the force or moment, or squared with the rate",
     "symbol": "another quantity belongs here",
     "derivative": "the order of the derivative is another",

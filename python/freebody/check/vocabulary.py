@@ -88,7 +88,9 @@ class Vocabulary:
         sums += [Add((Num(1.0, "1"), sign(Fn("cos", (angle,))))) for angle in self.angles for sign in (lambda n: n, Negative)]
         speeds = [n for n in self.letters if n in self.others and self.is_rate(n) and self.dimension(n) == _SPEED]
         speeds = sorted((n for n in speeds if not n.name.endswith(("_1", "_2"))), key=lambda n: n.name)[:_MOST_SPEEDS]
-        sums += [Quotient(*pair) for pair in permutations(speeds, 2)]  # of what rubs along its velocity, not of two bodies or moments
+        sums += [
+            Quotient(*pair) for pair in permutations(speeds, 2)
+        ]  # of what rubs along its velocity, not of two bodies or moments
         return [*apart, *squares, *(_square(Add((a, Negative(b)))) for a, b in rates), *(Mul(pair) for pair in rates), *sums]
 
     # -- terms
