@@ -218,8 +218,12 @@ class StatementSymbols:
         there = self.symbols.of_kind("parameter", "gravity")  # of them those that are said, or more than numbers of the start
         used = (name == "g" or _named(name, self.mechanics) for name in there)
         start = self._of_instant or bool(self.sampler.own.moment)  # then its numbers count, too
-        derived = {parameter["name"] for parameter in self.sampler.spec["parameters"] if isinstance(parameter["value"], str)}
-        named = {n.name for n in self.used} | derived
+        derived = {each["name"]: each["value"] for each in self.sampler.spec["parameters"] if isinstance(each["value"], str)}
+        named = {n.name for n in self.used} | derived.keys()
+        made_of = [n.name for n in self.used]
+        for name in made_of:  # the numbers of the start of which a letter is made count, too
+            made_of += [word for word in _WORD.findall(derived.get(name, "")) if word not in made_of]
+        named |= {*made_of}
         own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters or start or name in named]
         own = [n for n in own if n in self.used or n.name not in self.symbols.no_place]
         own.sort(key=lambda n: n.name not in self.sampler.free_parameters)
