@@ -352,14 +352,16 @@ class _Search:
 
     def _oddness(self, found: _Found) -> tuple[bool, int, int, float]:
         """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
-        nothing was said, long, and large."""
+        nothing was said, or places of the start that have letters of their own, long, and large."""
         sides = [unsigned(side) for side in (self.equation.left, self.equation.right)]
         alone = [side for side in sides if isinstance(side, Sym)]
         length = len(spell(tidied(found.after))) + _WORTH * self.likely_size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
         solved = any(edit.old in alone and edit.old is not None for edit in found.edits) or self._is_no_answer(found.after)
-        return solved or any(map(self._is_elsewhere, found.edits)), len(new & {n.name for n in strange}), len(new), length
+        solved |= any(side not in map(unsigned, (found.after.left, found.after.right)) for side in alone)
+        moved = sum(n in self.vocabulary.coordinates for n in found.after.symbols - self.equation.symbols) * self.family.at_start
+        return solved or any(map(self._is_elsewhere, found.edits)), moved + len(new & {n.name for n in strange}), len(new), length
 
     def _is_no_answer(self, after: Equation) -> bool:
         """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""

@@ -158,7 +158,12 @@ class Likelihood:
         made = [_numbers(term, self.values) for term in expanded if term not in self._expanded]
         own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
         whole = len(terms(self.equation)) > 1 and len(expanded) > len(self._expanded)  # not within one of two that are equal
-        return whole and any(np.allclose(np.abs(one), np.abs(value), rtol=_SAME, atol=0) for one in made for value in own)
+        if whole and any(np.allclose(np.abs(one), np.abs(value), rtol=_SAME, atol=0) for one in made for value in own):
+            return True
+        before, now = ([*_signed(equation)] for equation in (self.equation, after))
+        parts = [sign * value for sign, term in before if (value := _numbers(term, self.values)).any()]
+        new = [sign * _numbers(term, self.values) for sign, term in now if (sign, term) not in before]
+        return len(now) > len(before) and any(np.allclose(one, -part, rtol=_SAME, atol=0) for one in new for part in parts)
 
     def _of_extra_term(self, term: Node) -> float:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
@@ -431,6 +436,12 @@ def _is_fall(node: Node) -> bool:
 
 def _terms_of(side: Node) -> tuple[Node, ...]:
     return side.terms if isinstance(side, Add) else (side,)
+
+
+def _signed(equation: Equation) -> Iterator[tuple[int, Node]]:
+    """The terms of an equation with the signs that they have on its left side, multiplied out."""
+    yield from addends(equation.left, expand=True)
+    yield from ((-sign, term) for sign, term in addends(equation.right, expand=True))
 
 
 def _cancels(equation: Equation) -> bool:
