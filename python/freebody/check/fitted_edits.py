@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, unsigned, walk
 
@@ -355,11 +355,12 @@ class FittedEdits:
                 return
             nodes, rows = self.dictionary(equation, NUMBER_ONLY)
             arms, of_arms = [], rows[:0]
-            if self._of(equation) == FORCE:
+            if (its := self._of(equation)) == FORCE:
                 turning, of_turning = wheels(equation, self.vocabulary, self.values)
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
+            if its in (FORCE, ENERGY):
                 turning = [n for n in self.vocabulary.accelerations if not self._has_number(n)]
-                arms, of_arms = mass_centres(self.vocabulary, self.values, turning)
+                arms, of_arms = mass_centres(self.vocabulary, self.values, turning, its == ENERGY)
             said = np.array(
                 [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
             )

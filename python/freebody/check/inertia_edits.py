@@ -81,13 +81,15 @@ def wheels(equation: Equation, vocabulary: Vocabulary, values: Mapping[str, Arra
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
 
 
-def mass_centres(vocabulary: Vocabulary, values: Mapping[str, Array], parts: Sequence[Node]) -> tuple[list[Node], Array]:
+def mass_centres(
+    vocabulary: Vocabulary, values: Mapping[str, Array], parts: Sequence[Node], of_moment: bool
+) -> tuple[list[Node], Array]:
     """A mass times each of some components of the acceleration of the end of an arm that turns: one for each of the two arms to what is off the axes of
-    a body; and their values."""
+    a body, or with these arms again ``of_moment`` about the end of the first; and their values."""
     masses, lengths = ([n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH))
-    found: list[Node] = [
-        product_of([mass, arm, part]) for mass in masses[:_MOST_WHEELS] for arm in lengths[:_MOST_ARMS] for part in parts
-    ]
+    arms = [(arm,) for arm in lengths[:_MOST_ARMS]]
+    arms = [(arm, *other) for arm in lengths[:_MOST_ARMS] for other in arms] if of_moment else arms
+    found: list[Node] = [product_of([mass, *arm, part]) for mass in masses[:_MOST_WHEELS] for arm in arms for part in parts]
     count = len(next(iter(values.values())))
     return found, np.array([sampled(node, values) for node in found]).reshape(len(found), count)
 
