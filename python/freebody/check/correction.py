@@ -291,7 +291,10 @@ class _Search:
             idle = any(self._is_idle(edit, len(each.edits) > 1) for edit in each.edits)
             # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
             own = self.said & {n.key for n in symbols_in(each.after)}
-            vacuous = own and self._worst(each.after, self.few | {key: self.free[key] for key in own}) < HOLDS
+            free = (own, own & {n.key for n in self._answers})  # nor of what it is solved for
+            vacuous = any(
+                keys and self._worst(each.after, self.few | {key: self.free[key] for key in keys}) < HOLDS for keys in free
+            )
             if mark is None or idle or vacuous or self._changes_the_subject(each) or not self.fit(each.after):
                 continue
             place = self._place(each)
@@ -331,7 +334,8 @@ class _Search:
         two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
         gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
         given = two and any((its := self.vocabulary.dimension(n)) is not None and its.time for n in gone)
-        return (two and bool(solved) and not solved & own) or (
+        kept_answers = not self._answers or not self._answers.isdisjoint(found.after.symbols)
+        return (two and ((bool(solved) and not solved & own) or not kept_answers)) or (
             (given or (((two and lost) or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
         )
 
@@ -353,15 +357,19 @@ class _Search:
     def _oddness(self, found: _Found) -> tuple[bool, int, int, float]:
         """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
         nothing was said, or places of the start that have letters of their own, long, and large."""
-        sides = [unsigned(side) for side in (self.equation.left, self.equation.right)]
-        alone = [side for side in sides if isinstance(side, Sym)]
         length = len(spell(tidied(found.after))) + _WORTH * self.likely_size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
-        solved = any(edit.old in alone and edit.old is not None for edit in found.edits) or self._is_no_answer(found.after)
-        solved |= any(side not in map(unsigned, (found.after.left, found.after.right)) for side in alone)
+        solved = any(edit.old in self._answers for edit in found.edits) or self._is_no_answer(found.after)
+        solved |= not self._answers <= {*map(unsigned, (found.after.left, found.after.right))}
         moved = sum(n in self.vocabulary.coordinates for n in found.after.symbols - self.equation.symbols) * self.family.at_start
         return solved or any(map(self._is_elsewhere, found.edits)), moved + len(new & {n.name for n in strange}), len(new), length
+
+    @cached_property
+    def _answers(self) -> set[Node]:
+        """The symbols that stand alone on a side."""
+        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
+        return {side for side in sides if isinstance(side, Sym)}
 
     def _is_no_answer(self, after: Equation) -> bool:
         """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""

@@ -125,6 +125,8 @@ class Likelihood:
                 return odd + sum(self._of_term(edit.kind, part) for part in parts)
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
+            case "resultant", Node() as old, Fn(args=(Add(terms=(*_, Pow(base=other))),)) if not other.symbols <= old.symbols:
+                return self._of_term("missing term", other) if other.symbols.isdisjoint(self._sides) else math.inf
             case "angle", _, new:
                 return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
