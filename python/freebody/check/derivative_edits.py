@@ -16,7 +16,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym, addends, exchange, is_zero, walk
 
-from .coefficients import more, multiplied
+from .coefficients import more, multiplied, tidied
 from .edits import Edit, conventions, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
@@ -121,7 +121,7 @@ class DerivativeEdits:
         """An edit of what is differentiated as one of the equation."""
         inside = edit.after.left
         after = exchange(self.equation, node, rate(inside, self._constants))
-        shown = exchange(self.equation, node, Sym(f"d/dt({spell(inside)})"))
+        shown = exchange(self.equation, node, Sym(f"d/dt({spell(tidied(inside))})"))
         extra = edit.extra + _TAKEN * (edit.kind == "extra term")
         return Edit(edit.kind, edit.old, edit.new, after, extra, edit.words, shown)
 

@@ -24,7 +24,7 @@ from .monomials import Monomials
 from .powers import powers_of, written
 from .roots import other_sides, resultants, rooted
 from .shared_ratios import shared_ratios
-from .solve_for_term import RequiredTerm, required_terms
+from .solve_for_term import RequiredTerm, is_asked, required_terms
 from .spans import proportional, spanning
 from .square_edits import SquareEdits
 from .sum_edits import SumEdits
@@ -282,7 +282,7 @@ class FittedEdits:
                 yield Add(tuple(Mul((term, unit)) for term, unit in zip(along, units, strict=True)))
 
     def _denominator(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten; where it is one symbol,
+        """A side that should be divided by 1 and a term, as where what turns beside what moves is forgotten; where it is what is asked,
         the other side is multiplied by that."""
         if required.factor is None or not np.isfinite(required.factor).all() or not required.factor.all():
             return
@@ -290,8 +290,8 @@ class FittedEdits:
         for term in self._monomials(equation).equal_to(1 / required.factor - 1):
             if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
                 more = Add((Num(1.0, "1"), term))
-                old, new = (other, Mul((more, other))) if isinstance(node, Sym) else (node, Quotient(node, more))
-                answers = any(isinstance(unsigned(side), Sym) for side in (equation.left, equation.right))
+                old, new = (other, Mul((more, other))) if is_asked(node) else (node, Quotient(node, more))
+                answers = any(map(is_asked, (equation.left, equation.right)))
                 size = 0.02 * depth(term) + _NO_ANSWER * (not answers)
                 yield Edit("missing term", None, term, exchange(equation, old, new), size)
 

@@ -22,6 +22,7 @@ from .language.dimensions import dimension
 from .language.statements import Equation, terms
 from .powers import powers_of
 from .slips import is_constraint
+from .solve_for_term import is_asked
 from .vocabulary import Vocabulary
 
 _NATURAL = (
@@ -94,7 +95,8 @@ class Likelihood:
         """By how much an edit is larger than its kind says; without bound where it would be no correction: a mass or an inertia below
         0, another name of the same or of its opposite."""
         if edit.new is None:
-            return self._of_extra_term(edit.old) if edit.kind == "extra term" and edit.old is not None else 0.0
+            asked = any(not side.symbols <= edit.after.symbols for side in self.differences)
+            return self._of_extra_term(edit.old) + _ODD * asked if edit.kind == "extra term" and edit.old is not None else 0.0
         if _cancels(edit.after) and not _cancels(self.equation):
             return math.inf
         if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
@@ -113,8 +115,11 @@ class Likelihood:
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
-                return self._of_symbols(new) + _ODD * all(
-                    isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right)
+                undoes = isinstance(new, Add) and self._undoes(edit.after)
+                return (
+                    self._of_symbols(new)
+                    + _ODD * undoes
+                    + _ODD * all(isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right))
                 )
             case "missing term" | "other term", _, new:
                 undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
@@ -156,16 +161,32 @@ class Likelihood:
             its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))
         ):
             return False
-        expanded = terms(after, expand=True)
-        made = [_numbers(term, self.values) for term in expanded if term not in self._expanded]
-        own = [value for term in terms(self.equation) if (value := _numbers(term, self.values)).any()]
-        whole = len(terms(self.equation)) > 1 and len(expanded) > len(self._expanded)  # not within one of two that are equal
-        if whole and any(np.allclose(np.abs(one), np.abs(value), rtol=_SAME, atol=0) for one in made for value in own):
-            return True
+        asked = {unsigned(term) for side in self.differences for term in _terms_of(side)}
         before, now = ([*_signed(equation)] for equation in (self.equation, after))
-        parts = [sign * value for sign, term in before if (value := _numbers(term, self.values)).any()]
-        new = [sign * _numbers(term, self.values) for sign, term in now if (sign, term) not in before]
-        return len(now) > len(before) and any(np.allclose(one, -part, rtol=_SAME, atol=0) for one in new for part in parts)
+        if len(now) <= len(before):
+            return False
+        whole = terms(self.equation)
+        own = [(term, sign * value) for sign, term in before if (value := _numbers(term, self.values)).any()]
+        parts = [(term, value) for term in whole if len(whole) > 1 and (value := _numbers(term, self.values)).any()]
+        same = lambda one, other: np.allclose(one, other, rtol=_SAME, atol=0)
+        for sign, term in (each for each in now if each not in before):
+            value = sign * _numbers(term, self.values)
+            kept = (
+                asked if term.symbols <= {*self.vocabulary.parameters} else ()
+            )  # what is asked for is not taken away by what it is
+            if any(same(value, -its) for part, its in own if unsigned(part) not in kept) or any(
+                same(np.abs(value), np.abs(its)) for part, its in parts if unsigned(part) not in kept
+            ):
+                return True
+        return False
+
+    @cached_property
+    def differences(self) -> list[Node]:
+        """Motions of two parts beside each other, of which an equation says what that is."""
+        sides = [side for side in self._sides if isinstance(side, Add) and is_asked(side)]
+        still = {*self.vocabulary.parameters}
+        moves = lambda n: (its := self.vocabulary.dimension(n)) is not None and its.mass == 0 and n not in still
+        return [] if is_constraint(self.equation, self.vocabulary) else [side for side in sides if all(map(moves, side.symbols))]
 
     def _of_extra_term(self, term: Node) -> float:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from freebody.symbolic.evaluate import Array, sampled, spread
-from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, is_zero
+from freebody.symbolic.tree import Add, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, unsigned
 
 from .language.statements import Equation
 
@@ -44,6 +44,11 @@ class RequiredTerm:
         off = np.linalg.norm(self.needed - along[:, None] * self.value, axis=1)
         size = np.linalg.norm(self.needed, axis=1) + np.linalg.norm(self.value, axis=1)
         return along if np.all(off <= _PARALLEL * size) else None
+
+
+def is_asked(side: Node) -> bool:
+    """Whether an equation may be solved for a side: a symbol, or the sum or difference of some."""
+    return all(isinstance(unsigned(term), Sym) for term in (side.terms if isinstance(side, Add) else (side,)))
 
 
 def required_terms(equation: Equation, values: Mapping[str, Array]) -> Iterator[RequiredTerm]:
