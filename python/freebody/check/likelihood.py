@@ -169,7 +169,8 @@ class Likelihood:
         own = [(term, sign * value) for sign, term in before if (value := _numbers(term, self.values)).any()]
         parts = [(term, value) for term in whole if len(whole) > 1 and (value := _numbers(term, self.values)).any()]
         same = lambda one, other: np.allclose(one, other, rtol=_SAME, atol=0)
-        for sign, term in (each for each in now if each not in before):
+        turned = {(-sign, term) for sign, term in before if (sign, term) not in now}
+        for sign, term in (each for each in now if each not in before and each not in turned):
             value = sign * _numbers(term, self.values)
             kept = (
                 asked if term.symbols <= {*self.vocabulary.parameters} else ()
