@@ -96,6 +96,8 @@ class FittedEdits:
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
             )
             yield from self._squares.edits(equation, required)
+            at_angle = self._squares.with_another(required)
+            yield from (Edit.at(equation, "resultant", node, new, _ANOTHER + 0.02 * depth(new)) for new in at_angle)
             if isinstance(node, Add) and required.missing.ndim == 1:
                 yield from self._squares.of_components(equation, [(term, _ONE) for term in node.terms], required.missing)
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))

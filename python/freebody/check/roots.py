@@ -81,7 +81,7 @@ def resultants(
 
 def _at_angles(whole: Add, needed: Array, values: Mapping[str, Array], vocabulary: Vocabulary) -> Iterator[Node]:
     """The square of the size of two vectors together, of which the sizes were added, at right angles or by the law of cosines."""
-    calls = [n for n in vocabulary.single_factors if isinstance(n, Fn) and {k.key for k in n.symbols} <= values.keys()]
+    calls = [call for call, _ in calls_of(vocabulary, values)]
     for one, two in _halves(whole.terms):
         a, b = sampled(one, values), sampled(two, values)
         rest = needed - a**2 - b**2
@@ -91,6 +91,12 @@ def _at_angles(whole: Add, needed: Array, values: Mapping[str, Array], vocabular
             if np.allclose(sign * a * b * sampled(call, values), rest, rtol=_SAME, atol=0):
                 number, powers = powers_of(Mul((one, two, call)))
                 yield Add((_squared(one), _squared(two), written(sign * number, powers)))
+
+
+def calls_of(vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[tuple[Fn, Array]]:
+    """The sines and cosines of angles that change, and their values."""
+    known = (n for n in vocabulary.single_factors if isinstance(n, Fn) and {k.key for k in n.symbols} <= values.keys())
+    yield from ((call, value) for call in known if np.ptp(value := sampled(call, values)) > _SAME)
 
 
 def _halves(terms: Sequence[Node]) -> Iterator[tuple[Node, Node]]:

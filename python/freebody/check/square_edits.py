@@ -10,13 +10,14 @@ import numpy as np
 
 from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, unsigned
 
 from .coefficients import more, multiplied, product, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
 from .language.statements import Equation
-from .powers import powers_of, written
+from .powers import power_of, powers_of, written
+from .roots import calls_of
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
@@ -54,6 +55,20 @@ class SquareEdits:
             if (part := multiplied(nodes[place], snapped(float(k[place]), _NEARLY))) is not None:
                 new = Pow(more(base, part), node.exponent, span=node.span)
                 yield Edit.at(equation, "symbol", node, new, 0.1 + 0.02 * depth(part))
+
+    def with_another(self, required: RequiredTerm) -> Iterator[Node]:
+        """The size of a speed of which only one part was said: with that of what turns or moves along, at an angle to it."""
+        value, needed = required.value, required.needed
+        if not required.addend or dimension(required.node, self.vocabulary.dimensions) != _SPEEDS[0] or value.ndim > 1:
+            return
+        nodes, rows = self._parts_of_speeds(_SPEEDS[0])
+        cosines = (needed**2 - value**2 - rows**2) / (2 * value * rows)  # of the angle between both
+        for call, its in calls_of(self.vocabulary, self.values):
+            for place, sign in ((place, sign) for sign in (2.0, -2.0) for place in range(len(nodes))):
+                if np.all(needed > 0) and np.abs(cosines[place] - sign / 2 * its).max() <= _NEARLY:
+                    number, powers = powers_of(Mul((required.node, nodes[place], call)))
+                    squares = (power_of(unsigned(node), 2) for node in (required.node, nodes[place]))
+                    yield Fn("sqrt", (Add((*squares, written(sign * number, powers))),), span=required.node.span)
 
     def of_components(
         self,
