@@ -255,7 +255,8 @@ class _Search:
         yield from self._both(near)
         for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
             found = self._promising(self._fitted(first.after))
-            yield from (_Found((first, edit)) for edit in found if (first.kind, edit.kind) not in _REPLACED)
+            found = (edit for edit in found if edit.kind != "resultant" and (first.kind, edit.kind) not in _REPLACED)
+            yield from (_Found((first, edit)) for edit in found)
 
     def _both(self, found: Sequence[Edit]) -> Iterator[_Found]:
         """Two edits of other places."""

@@ -131,7 +131,9 @@ class Likelihood:
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
             case "resultant", Node() as old, Fn(args=(Add(terms=(*_, Pow(base=other))),)) if not other.symbols <= old.symbols:
-                return self._of_term("missing term", other) if other.symbols.isdisjoint(self._sides) else math.inf
+                if not other.symbols.isdisjoint(self._sides) or (old in self._sides and not isinstance(other, Sym)):
+                    return math.inf  # what it is solved for
+                return self._of_term("missing term", other)
             case "angle", _, new:
                 return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
