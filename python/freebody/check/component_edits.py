@@ -80,7 +80,7 @@ def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabu
     said = (n for n in walk(equation) if isinstance(n, Add) and dimension(n, vocabulary.dimensions) == LENGTH)
     moving = [*dict.fromkeys((*said, *moving))]
     every = [*still, *moving]
-    sizes = np.array([sampled(n, values) for n in every]).reshape(len(every), -1)
+    sizes = [sampled(n, values) for n in every]
     ratios, fixed = [], [1.0, *(sizes[i] / sizes[k] for i, k in permutations(range(len(still)), 2))]
     for i, k in permutations(range(len(every)), 2):
         # where it is a number, or the ratio of two lengths, on all motions, the speeds of two parts are in that ratio: no component

@@ -115,6 +115,8 @@ class Likelihood:
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new)
             case "symbol", _, new:
+                if not (new.symbols & self._answers).issubset(() if edit.old is None else edit.old.symbols):
+                    return math.inf  # what it is solved for, for something else
                 undoes = isinstance(new, Add) and self._undoes(edit.after)
                 return (
                     self._of_symbols(new)
@@ -130,13 +132,21 @@ class Likelihood:
                 return odd + sum(self._of_term(edit.kind, part) for part in parts)
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
-            case "resultant", Node() as old, Fn(args=(Add(terms=(*_, Pow(base=other))),)) if not other.symbols <= old.symbols:
-                if not other.symbols.isdisjoint(self._sides) or (old in self._sides and not isinstance(other, Sym)):
-                    return math.inf  # what it is solved for
-                return self._of_term("missing term", other)
+            case "resultant", Node() as old, new:
+                return self._of_resultant(old, new)
             case "angle", _, new:
                 return _NEW * len({n.name for n in new.symbols} - {n.name for n in self._said})
         return 0.0
+
+    def _of_resultant(self, old: Node, new: Node) -> float:
+        """Of a component beside one that was said; none is made of what the equation is solved for, or stands beside that but by a letter."""
+        squares = (n.base for n in walk(new) if isinstance(n, Pow) and n.base != unsigned(old))
+        other = next((base for base in squares if not base.symbols <= old.symbols), None)
+        if other is None:
+            return 0.0
+        if not other.symbols.isdisjoint(self._sides) or (old in self._sides and not isinstance(other, Sym)):
+            return math.inf
+        return self._of_term("missing term", other)
 
     def _opens(self, edit: Edit) -> float:
         """Of what brings a reaction or another coordinate into an equation of motion of one alone, which can be solved by itself; more where the
@@ -184,6 +194,11 @@ class Likelihood:
         return False
 
     @cached_property
+    def _answers(self) -> set[Node]:
+        """The symbols for which an equation, or for whose power, is solved."""
+        return {side.base if isinstance(side, Pow) else side for side in self._sides if _is_answer(side)}
+
+    @cached_property
     def differences(self) -> list[Node]:
         """Motions of two parts beside each other, of which an equation says what that is."""
         sides = [side for side in self._sides if isinstance(side, Add) and is_asked(side)]
@@ -194,8 +209,8 @@ class Likelihood:
     def _of_extra_term(self, term: Node) -> float:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
         other = next((side for side in self._sides if side is not unsigned(term)), None)
-        alone = isinstance(other, Sym) and any(side is term for side in self._sides)  # X = 0 is left
-        solved = alone or (isinstance(unsigned(term), Sym) and unsigned(term) in self._sides)
+        alone = _is_answer(other) and any(side is term for side in self._sides)  # X = 0 is left
+        solved = alone or (_is_answer(unsigned(term)) and unsigned(term) in self._sides)
         inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
         its = dimension(term, self.vocabulary.dimensions)
         inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
@@ -314,7 +329,7 @@ class Likelihood:
         """Whether it is of parameters alone, and of two or more of which nothing was said: in a balance, of which no side is an answer, a letter
         for all of it is likelier."""
         unsaid = term.symbols - self._said
-        if any(isinstance(side.base if isinstance(side, Pow) else side, Sym) for side in self._sides):
+        if self._answers:
             return False
         return term.symbols <= {*self.vocabulary.parameters} and len([n for n in unsaid if n.name != "g"]) > 1
 
@@ -453,6 +468,11 @@ def _is_of_motion(powers: Mapping[Node, int], known: Vocabulary) -> bool:
         power == 2 and isinstance(base, Sym) and known.is_rate(base) and base not in known.parameters
         for base, power in powers.items()
     )
+
+
+def _is_answer(side: Node | None) -> bool:
+    """Whether it is a symbol, or a power of one."""
+    return isinstance(side.base if isinstance(side, Pow) else side, Sym)
 
 
 def _is_fall(node: Node) -> bool:

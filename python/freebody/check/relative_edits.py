@@ -28,14 +28,15 @@ def seen_from_elsewhere(equation: Equation, vocabulary: Vocabulary) -> Iterator[
     """Of coordinates with their rates, and of speeds of just before and just after something, that stand more than once."""
     found = [n for n in walk(equation) if isinstance(n, Sym)]
     for name in (name for name in dict.fromkeys(n.name for n in found) if sum(n.name == name for n in found) > 1):
-        plain = Sym(name)
-        if (plain in vocabulary.coordinates and vocabulary.coordinates[plain] == LENGTH) or plain in vocabulary.angular:
-            for words, signed, _ in _WAYS if plain in vocabulary.angular else ():
-                yield _shifted(equation, {plain: Add((plain, signed(_QUARTER)))}, f"`{name}` {words} a quarter turn")
-            for other in vocabulary.alike(plain) if plain in vocabulary.coordinates else ():
-                yield from _other_frames(
-                    equation, name, other.name, dict(zip(_with_rates(name), _with_rates(other.name), strict=True))
-                )
+        plain, turns = Sym(name), Sym(name) in vocabulary.angular
+        if plain not in vocabulary.coordinates or not (turns or vocabulary.coordinates[plain] == LENGTH):
+            continue
+        for words, signed, _ in _WAYS if turns else ():
+            yield _shifted(equation, {plain: Add((plain, signed(_QUARTER)))}, f"`{name}` {words} a quarter turn")
+        for other in vocabulary.alike(plain):
+            if turns or any(n.name == other.name for n in found):
+                pairs = dict(zip(_with_rates(name), _with_rates(other.name), strict=True))
+                yield from _other_frames(equation, name, other.name, pairs)
     stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == _SPEED)
     speeds = {stem: [Sym(stem + index) for index in _MOMENTS] for stem in stems}
     for one, own in speeds.items():

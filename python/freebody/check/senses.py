@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from freebody.core import quote
 from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .language.statements import Equation, symbols_in
@@ -39,8 +40,6 @@ def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
     sizes = [other for one, other in pairs if isinstance(one, Sym) and any(map(_SIZE.match, known.texts(Sym(one.name))))]
     linear = (n for other in sizes for n in symbols_in(other) if known.vocabulary.is_rate(n))
     moving = {n: known.read_from(n) for n in linear if n not in known.vocabulary.parameters}
-    if sizes and not case.sampler.core.evaluate([*moving.values()], case.sampler.own).all():
-        return None  # it has no sense yet
     return _as_at_start(case, {n: known.read_from(n) for n in rates} | moving)
 
 
@@ -57,7 +56,10 @@ def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[Family, str] | None
     """The motions in which rates have the sense that they have at the start, in words."""
     if not texts:
         return None
-    began = dict(zip(texts, case.sampler.core.evaluate([*texts.values()], case.sampler.own), strict=True))
+    read, own = case.sampler.core.evaluate, case.sampler.own
+    began = dict(zip(texts, read([*texts.values()], own), strict=True))
+    for n in (n for n in texts if not began[n] and n.name in case.sampler.names):  # as it is at once
+        began[n] = float(read([f"accel({quote(n.name)})"], own)[0])
     words = ", ".join(f"{n.key} {'<' if began[n] < 0 else '>'} 0" for n in texts)
     above = tuple(f"-({text})" if began[n] < 0 else text for n, text in texts.items())
     return replace(case.hypothesis, above=(*case.hypothesis.above, *above)), words
