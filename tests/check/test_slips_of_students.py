@@ -546,6 +546,78 @@ SLIPS = {
         "δ'' + (k/m)(1 + a²/i²) δ = 0",
         "left out",
     ),
+    "components simply added": ("skid_pan", "a = dv/dt + v²/R", "a = √((dv/dt)² + (v²/R)²)", "as vectors do"),
+    "one of two components": (
+        "skid_pan",
+        "at the moment it skids: m v²/R = μ m g",
+        "at the moment it skids: √(P² + (m v²/R)²) = μ m g",
+        "as vectors do",
+    ),
+    "speeds at an angle": (
+        "two_arms",
+        "v_E = a θ' + b (θ' + φ')",
+        "v_E = √(a² θ'² + b² (θ' + φ')² + 2 a b θ' (θ' + φ') cos φ)",
+        "as vectors do",
+    ),
+    "the square of a sum of speeds": (
+        "dragged_log",
+        "v_B² = (x' + l θ')²",
+        "v_B² = x'² + l² θ'² − 2 l x' θ' sin θ",
+        "as vectors do",
+    ),
+    "the speed of what carries alone": ("dragged_log", "v_B = x'", "v_B = √(x'² + l² θ'² − 2 l x' θ' sin θ)", "as vectors do"),
+    "a size beside a rate": ("charpy_tester", "v_S = d θ'", "v_S = b θ'", "constraint"),
+    "a root of a part": (
+        "battering_ram",
+        "just after the impact: M h v + ⅓ m H² ω = 2 M h g L (1 − cos φ₀)",
+        "just after the impact: M h v + ⅓ m H² ω = M h √(2 g L (1 − cos φ₀))",
+        "root",
+    ),
+    "divided by a cosine": ("collar_drawn_along_arm", "s' = −(l h/(d cos θ)) θ'", "s' = −(l h cos θ/d) θ'", "divided by"),
+    "relative velocity at a blow": (
+        "impact_damper",
+        "knock: M x'₁ + m u'₁ = M x'₂ + m u'₂",
+        "knock: M x'₁ + m (x'₁ + u'₁) = M x'₂ + m (x'₂ + u'₂)",
+        "throughout",
+    ),
+    "a share of an energy at a blow": (
+        "impact_damper",
+        "lost at a knock: E₁ − E₂ = ½ M m/(M + m) (1 − e) u'₁²",
+        "lost at a knock: E₁ − E₂ = ½ M m/(M + m) (1 − e²) u'₁²",
+        "a factor",
+    ),
+    "one body alone gets no masses of others": (
+        "escalator",
+        "step alone, along the track: D − c s' − M g sin β = M s''",
+        "step alone, along the track: D − c s' − M g sin β − N sin β − F cos β = M s''",
+        "a force",
+    ),
+    "an answer stays alone": ("escalator", "N = m g cos β", "N = m (g + s'' sin β)", "left out"),
+    "what two parts move beside each other": (
+        "parcel_on_cart",
+        "while it slides: d/dt(v_x − V) = −μ g",
+        "while it slides: d/dt(v_x − V) = −μ g (1 + m/M)",
+        "left out",
+    ),
+    "a point that accelerates, with both parts of two arms": (
+        "roberval_balance",
+        "left post with load, ΣM_A: S1 h cos θ + m1 g e = 0",
+        "S1 h cos θ + m1 g e = m1 a e (θ'' cos θ − θ'² sin θ) − m1 a q (θ'' sin θ + θ'² cos θ)",
+        "r × m a",
+    ),
+    "a number of the start": ("parcel_on_cart", "w² = v₀² sin² β", "w² = v₀² sin² β + 2 g h", "left out"),
+    "the fall to the lowest place": (
+        "pendulum_hits_block",
+        "just before the impact: O_y = m g (2 − cos θ0)",
+        "just before the impact: O_y = m g (5 − 3 cos θ0)/2",
+        "left out",
+    ),
+    "what is too much in a bracket": (
+        "unwinding_puck",
+        "H_O: (I + m a²) φ' + m (l² + a²) β' = (I + m a² + m l₀²) ω₀",
+        "H_O: (I + m a²) φ' + m l² β' = (I + m a² + m l₀²) ω₀",
+        "no place",
+    ),
 }
 
 
