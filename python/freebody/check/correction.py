@@ -362,7 +362,9 @@ class _Search:
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
         solved = any(edit.old in self._answers for edit in found.edits) or self._is_no_answer(found.after)
-        solved |= not self._answers.union(self._likelihood.differences) <= {*map(unsigned, (found.after.left, found.after.right))}
+        solved |= not self._answers.union(self._likelihood.taken.differences) <= {
+            *map(unsigned, (found.after.left, found.after.right))
+        }
         moved = sum(n in self.vocabulary.coordinates for n in found.after.symbols - self.equation.symbols) * self.family.at_start
         return solved or any(map(self._is_elsewhere, found.edits)), moved + len(new & {n.name for n in strange}), len(new), length
 

@@ -6,23 +6,20 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from functools import cached_property
-from itertools import combinations
 
 import numpy as np
 
 from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
-from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, addends, is_zero, unsigned, walk
+from freebody.symbolic.evaluate import Array
+from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, unsigned, walk
 
 from .edits import FIGURES, Edit
 from .language.dimensions import dimension
 from .language.statements import Equation, terms
 from .powers import powers_of
 from .slips import is_constraint
-from .solve_for_term import is_asked
+from .taken_away import TakenAway, cancels, cancels_within, numbers, terms_of
 from .vocabulary import Vocabulary
 
 _NATURAL = (
@@ -88,6 +85,7 @@ class Likelihood:
     ) -> None:
         self._at_instant = at_instant
         self.equation, self.vocabulary, self.values, self.elsewhere = equation, vocabulary, values, elsewhere
+        self.taken = TakenAway(equation, vocabulary, values)
         self._said = equation.symbols
         self._sides = [unsigned(side) for side in (equation.left, equation.right)]
 
@@ -95,9 +93,9 @@ class Likelihood:
         """By how much an edit is larger than its kind says; without bound where it would be no correction: a mass or an inertia below
         0, another name of the same or of its opposite."""
         if edit.new is None:
-            asked = any(not side.symbols <= edit.after.symbols for side in self.differences)
+            asked = any(not side.symbols <= edit.after.symbols for side in self.taken.differences)
             return self._of_extra_term(edit.old) + _ODD * asked if edit.kind == "extra term" and edit.old is not None else 0.0
-        if _cancels(edit.after) and not _cancels(self.equation):
+        if cancels(edit.after) and not cancels(self.equation):
             return math.inf
         if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
             return math.inf
@@ -117,18 +115,18 @@ class Likelihood:
             case "symbol", _, new:
                 if not (new.symbols & self._answers).issubset(() if edit.old is None else edit.old.symbols):
                     return math.inf  # what it is solved for, for something else
-                undoes = isinstance(new, Add) and self._undoes(edit.after)
+                undoes = isinstance(new, Add) and self.taken.by(edit.after)
                 return (
                     self._of_symbols(new)
                     + _ODD * undoes
                     + _ODD * all(isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right))
                 )
             case "missing term" | "other term", _, new:
-                undoes = edit.kind == "missing term" and (self._undoes(edit.after) or self._undoes_within(edit.after, new))
+                undoes = edit.kind == "missing term" and (self.taken.by(edit.after) or self.taken.within(edit.after, new))
                 if undoes and isinstance(new, Add):  # two terms, of which one only takes away what was said
                     return math.inf
                 odd = _BOUND * self._at_instant + _ODD * undoes
-                parts = (new,) if _is_fall(new) else _terms_of(new)
+                parts = (new,) if _is_fall(new) else terms_of(new)
                 return odd + sum(self._of_term(edit.kind, part) for part in parts)
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
@@ -167,52 +165,17 @@ class Likelihood:
         whole = next((term for term in terms(self.equation) if any(each is part for each in walk(term))), part)
         return any(self.vocabulary.dimension(Sym(n.name)) in (MASS, INERTIA) for n in whole.symbols)
 
-    def _undoes(self, after: Equation) -> bool:
-        """Whether what is new takes away, at every true state, one of several terms as it is written. A power may: that of what turns is the
-        change of its energy."""
-        if any(
-            its is not None and its.time == -3 for its in (dimension(term, self.vocabulary.dimensions) for term in terms(after))
-        ):
-            return False
-        asked = {unsigned(term) for side in self.differences for term in _terms_of(side)}
-        before, now = ([*_signed(equation)] for equation in (self.equation, after))
-        if len(now) <= len(before):
-            return False
-        whole = terms(self.equation)
-        own = [(term, sign * value) for sign, term in before if (value := _numbers(term, self.values)).any()]
-        parts = [(term, value) for term in whole if len(whole) > 1 and (value := _numbers(term, self.values)).any()]
-        same = lambda one, other: np.allclose(one, other, rtol=_SAME, atol=0)
-        turned = {(-sign, term) for sign, term in before if (sign, term) not in now}
-        for sign, term in (each for each in now if each not in before and each not in turned):
-            value = sign * _numbers(term, self.values)
-            kept = (
-                asked if term.symbols <= {*self.vocabulary.parameters} else ()
-            )  # what is asked for is not taken away by what it is
-            if any(same(value, -its) for part, its in own if unsigned(part) not in kept) or any(
-                same(np.abs(value), np.abs(its)) for part, its in parts if unsigned(part) not in kept
-            ):
-                return True
-        return False
-
     @cached_property
     def _answers(self) -> set[Node]:
         """The symbols for which an equation, or for whose power, is solved."""
         return {side.base if isinstance(side, Pow) else side for side in self._sides if _is_answer(side)}
-
-    @cached_property
-    def differences(self) -> list[Node]:
-        """Motions of two parts beside each other, of which an equation says what that is."""
-        sides = [side for side in self._sides if isinstance(side, Add) and is_asked(side)]
-        still = {*self.vocabulary.parameters}
-        moves = lambda n: (its := self.vocabulary.dimension(n)) is not None and its.mass == 0 and n not in still
-        return [] if is_constraint(self.equation, self.vocabulary) else [side for side in sides if all(map(moves, side.symbols))]
 
     def _of_extra_term(self, term: Node) -> float:
         """What an equation is solved for does not go, nor all but that; what is counted twice does."""
         other = next((side for side in self._sides if side is not unsigned(term)), None)
         alone = _is_answer(other) and any(side is term for side in self._sides)  # X = 0 is left
         solved = alone or (_is_answer(unsigned(term)) and unsigned(term) in self._sides)
-        inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in _terms_of(side))
+        inside = all(part is not term and unsigned(part) is not term for side in self._sides for part in terms_of(side))
         its = dimension(term, self.vocabulary.dimensions)
         inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
         return _ODD * solved + _ONCE * (not self._is_there(term, but=term)) + _INSIDE * inside
@@ -235,7 +198,7 @@ class Likelihood:
         """Of a sum or a square for a symbol, or of a force for a weight."""
         known, unsaid = self.vocabulary, new.symbols - self._said
         if isinstance(new, Pow):
-            return _NEW * len(unsaid) + _ODD * self._cancels_within(new.base)
+            return _NEW * len(unsaid) + _ODD * cancels_within(new.base, self.values)
         if isinstance(new, Add):
             stems = {_STEM.match(n.name)[0] for n in new.symbols & self._said}  # type: ignore[index]
             twins = {n for n in unsaid & {*known.parameters} if _STEM.match(n.name)[0] in stems}  # type: ignore[index]
@@ -244,16 +207,6 @@ class Likelihood:
                 for n in unsaid - twins
             )
         return sum(_PRESSES if n in known.letters else _UNDECLARED for n in unsaid if n in known.others)
-
-    def _undoes_within(self, after: Equation, term: Node) -> bool:
-        """Whether a term that stands in a bracket takes away another of it at every true state."""
-        inner = (n for n in walk(after) if isinstance(n, Add) and n not in (after.left, after.right))
-        return any(any(part is term for part in n.terms) and self._cancels_within(n) for n in inner)
-
-    def _cancels_within(self, whole: Node) -> bool:
-        """Whether one part of a sum takes another away at every true state: then that is what has no place."""
-        values = [_numbers(part, self.values) for part in _terms_of(whole)]
-        return any(np.allclose(one, -other, rtol=_SAME, atol=0) for one, other in combinations(values, 2))
 
     def _of_factor(self, old: Node, new: Node) -> float:
         """Of a factor that is no parameter and of which nothing was said, or a place below a line, and of a term for a quite other one."""
@@ -265,9 +218,7 @@ class Likelihood:
         strange = len(places) + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
         divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
         bound = _BOUND * (self._at_instant and bool(unsaid))
-        bound += _SOLVED * any(
-            side is old for side in self._sides if isinstance(side, Sym)
-        )  # rather one of the terms on the other
+        bound += _SOLVED * any(side is old for side in self._sides if isinstance(side, Sym))  # rather on the other side
         return bound + _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:
@@ -378,11 +329,11 @@ class Likelihood:
 
     @cached_property
     def _terms(self) -> list[tuple[Node, Array]]:
-        return [(term, _numbers(term, self.elsewhere)) for term in terms(self.equation)]
+        return [(term, numbers(term, self.elsewhere)) for term in terms(self.equation)]
 
     def _is_there(self, term: Node, but: Node | None = None) -> bool:
         """Whether it is another term of the equation times a number."""
-        own = _numbers(term, self.elsewhere)
+        own = numbers(term, self.elsewhere)
         with np.errstate(all="ignore"):
             ratios = [own / value for other, value in self._terms if but is None or other is not unsigned(but)]
             return any(np.isfinite(r).all() and np.ptp(r) <= _SAME * np.abs(r).max() for r in ratios)
@@ -481,25 +432,6 @@ def _is_fall(node: Node) -> bool:
     return isinstance(node, Add) and len(node.terms) == 2 and isinstance(node.terms[0], Num)
 
 
-def _terms_of(side: Node) -> tuple[Node, ...]:
-    return side.terms if isinstance(side, Add) else (side,)
-
-
-def _signed(equation: Equation) -> Iterator[tuple[int, Node]]:
-    """The terms of an equation with the signs that they have on its left side, multiplied out."""
-    yield from addends(equation.left, expand=True)
-    yield from ((-sign, term) for sign, term in addends(equation.right, expand=True))
-
-
-def _cancels(equation: Equation) -> bool:
-    """Whether a term stands in a sum beside its opposite, or on both sides."""
-    sums = [addends(node) for node in walk(equation) if isinstance(node, Add)]
-    if any(sign > 0 and (-1, term) in found for found in sums for sign, term in found):
-        return True
-    left, right = (addends(side) for side in (equation.left, equation.right))
-    return len(left) + len(right) > 2 and any(each in right and not is_zero(each[1]) for each in left)
-
-
 def _is_place(base: Node, known: Vocabulary) -> bool:
     """Whether a coordinate stands in it, or an expression with one."""
     return any(n in known.coordinates for n in base.symbols)
@@ -507,7 +439,7 @@ def _is_place(base: Node, known: Vocabulary) -> bool:
 
 def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) -> float:
     """How unlikely a number is to be taken for another; ``usual``: one that is usual before terms, for another."""
-    before, after = (float(_numbers(node, values)[0]) for node in (old, new))
+    before, after = (float(numbers(node, values)[0]) for node in (old, new))
     if before * after < 0:  # another sign and another number are two slips
         return 2 * _ODD
     before, after = abs(before), abs(after)
@@ -520,12 +452,3 @@ def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) 
         return 0.0
     figures = [abs(powers_of(node)[0]) for node in (old, new)]
     return usual if all(np.isclose(figure, _NATURAL).any() for figure in figures) else _ODD
-
-
-def _numbers(node: Node, values: Mapping[str, Array]) -> Array:
-    """The values of a number; NaN of a vector, and where there is none."""
-    if not is_zero(node) and {n.key for n in node.symbols} <= values.keys():
-        with suppress(StatementError):
-            found = sampled(node, values)
-            return found if found.ndim == 1 else np.full(1, np.nan)
-    return np.full(1, np.nan)
