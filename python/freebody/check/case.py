@@ -50,6 +50,7 @@ _ADMISSIBLE = 24  # states at which no balance holds
 _KINEMATIC = 1e-8  # what is left there of an equation that is none
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
 _FEWER = 16  # states, where each takes long
+_OF_MOMENTS = 32  # states, where for each a motion is followed
 _EXTREME = re.compile(rf"⟦(?:{LARGEST}|{LEAST}): ")
 _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
@@ -304,7 +305,8 @@ class Case:
 
     def samples(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Samples:
         """True states of a family. Raises ``NoMotion``."""
-        return self.sampler.samples(family or self.hypothesis, min(count, _FEWER) if self.meaning.takes_long else count, fresh)
+        most = _FEWER if self.meaning.takes_long else _OF_MOMENTS if self.meaning.names_moments else count
+        return self.sampler.samples(family or self.hypothesis, min(count, most), fresh)
 
     def values(self, family: Family | None = None, fresh: int = 0, count: int = SAMPLES) -> Mapping[str, Array]:
         """The symbols on true states of a family. Raises ``NoMotion``."""
