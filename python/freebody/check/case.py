@@ -314,7 +314,7 @@ class Case:
         if key not in self.known:
             began = thread_time()
             self.known[key] = self.meaning.values(self.samples(family, fresh, count))
-            if self.meaning.names_moments:  # to which motions are followed
+            if self.meaning.names_moments and key[0] == self.hypothesis:  # to which motions are followed: that is no search
                 self.budget.leaves_out_since(began)
         return self.known[key]
 
