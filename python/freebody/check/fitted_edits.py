@@ -42,7 +42,7 @@ _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
-_ANOTHER = 0.1  # for the second component of which a resultant consists
+_ANOTHER = 0.3  # for the second component of which a resultant consists
 _ONE = Num(1.0, "1")
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 

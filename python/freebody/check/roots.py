@@ -8,16 +8,18 @@ from itertools import combinations, product
 
 import numpy as np
 
-from freebody.symbolic.dimensions import LENGTH
+from freebody.symbolic.dimensions import FORCE, LENGTH, TIME
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, unsigned
 
+from .language.dimensions import dimension
 from .monomials import Monomials
 from .powers import power_of, powers_of, written
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative: below it two values are one
+_OF_VECTORS = (LENGTH, LENGTH.times(TIME, -1), LENGTH.times(TIME, -2), FORCE, FORCE.times(TIME, 1))
 _MOST_FACTORS = 6  # of a product of which some stand below a root
 _MOST_TERMS = 4  # of a sum that is that of two components
 
@@ -73,8 +75,8 @@ def resultants(
         yield from ((Fn("sqrt", (whole,), span=node.span), 0) for whole in _at_angles(node, needed**2, values, vocabulary))
     elif isinstance(node, Pow) and isinstance(node.base, Add) and node.exponent == Num(2.0):
         yield from ((whole, 0) for whole in _at_angles(node.base, needed, values, vocabulary))
-    rest = needed**2 - value**2
-    if required.addend and np.all(rest > _SAME * needed**2):
+    rest, its = needed**2 - value**2, dimension(node, vocabulary.dimensions)
+    if required.addend and its in _OF_VECTORS and np.all(rest > _SAME * needed**2):
         for other in terms.equal_to(np.sqrt(rest), in_size=True):
             yield Fn("sqrt", (Add((_squared(node), _squared(other))),), span=node.span), 1
 
