@@ -142,7 +142,7 @@ class Likelihood:
         other = next((base for base in squares if not base.symbols <= old.symbols), None)
         if other is None:
             return 0.0
-        alone = old in self._sides and not all(map(_is_answer, self._sides))
+        alone = old in self._sides and _is_answer(old) and not all(map(_is_answer, self._sides))
         if not other.symbols.isdisjoint(self._sides) or (alone and not isinstance(other, Sym)):
             return math.inf
         return self._of_term("missing term", other)
