@@ -289,6 +289,38 @@ def test_what_the_model_language_measures_stands_in_statements(text: str, kind: 
     assert system("S19.16/model").check(text).kind is kind
 
 
+PENDULUM = """
+freebody: 1
+parameters: {m: 2 kg, l: 0.7 m}
+bodies: {bob: {shape: particle, mass: m}}
+joints: {O: {type: link, of: [ground.O, bob.centre], length: l, coordinate: {name: θ, zero: down}}}
+initial: {θ: -0.5, at_rest: true}
+"""
+
+
+@pytest.mark.parametrize(("text", "kind"), [("v = l θ'", Kind.TRUE), ("v = −l θ'", Kind.WRONG), ("v = 2 l θ'", Kind.WRONG)])
+def test_a_size_beside_a_rate_has_the_sense_in_which_it_sets_off(text: str, kind: Kind) -> None:
+    assert Checker(Mechanism.loads(PENDULUM), {"v": "speed(bob.centre)"}).check(text).kind is kind
+
+
+SHAFT = """
+freebody: 1
+parameters: {I: 2 kg*m^2, J: 3 kg*m^2, k: 5 N*m, c: 1 N*m*s, Q: 4 N*m}
+gravity: none
+bodies: {hub: {mass: 1 kg, inertia: I}, ring: {mass: 1 kg, inertia: J}}
+joints: {a: {type: hinge, of: [ground.O, hub.G], coordinate: θ}, b: {type: hinge, of: [ground.O, ring.G], coordinate: φ}}
+forces:
+  oil: {type: law, along: φ - θ, value: -c*(rate(φ) - rate(θ))}
+  motor: {type: law, along: θ, value: Q - k*θ}
+initial: {rates: {θ: 1}}
+"""
+
+
+def test_corrections_without_lengths() -> None:
+    """Where a model has none there are no components by ratios of them."""
+    assert Checker(Mechanism.loads(SHAFT)).check("(I + J) θ'' = Q − k θ").kind is Kind.WRONG
+
+
 SPRING = """
 freebody: 1
 gravity: none
