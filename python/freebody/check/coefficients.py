@@ -107,6 +107,12 @@ def tidied(node: N) -> N:
         left = _gathered(found)
         new = Add(left, span=found.span) if len(left) > 1 else left[0] if left else Num(0.0, "0")
         node = exchange(node, found, new)
+    for whole in [n for n in walk(node) if isinstance(n, Mul)]:
+        for plus in whole.factors:
+            match plus:  # (1 + e) (1 − e) is 1 − e²
+                case Add(terms=(Num(value=1.0), other)) if (minus := Add((_ONE, Negative(other)))) in whole.factors:
+                    rest = [n for n in whole.factors if n not in (plus, minus)]
+                    node = exchange(node, whole, product([*rest, Add((_ONE, Negative(Pow(other, Num(2.0, "2")))))]))
     return node
 
 

@@ -44,6 +44,7 @@ _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for somet
 _MOST_LETTERS = 3  # of rates of which the equation says nothing
 _ANOTHER = 0.3  # for the second component of which a resultant consists
 _ONE = Num(1.0, "1")
+_MOST_SHARES = 2  # parameters without a dimension, of which 1 + e and 1 − e are thought of
 _MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
 
@@ -307,6 +308,8 @@ class FittedEdits:
             alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
             alike += [Add((a, c)) for a, b in combinations(lengths[:_MOST_LENGTHS], 2) for c in (Negative(b), b)]
+            kept = [n for n, its in known.parameters.items() if its == NUMBER_ONLY and n not in known.angular]
+            alike += [Add((_ONE, c)) for n in kept[:_MOST_SHARES] for c in (n, Negative(n))]  # 1 − e² of a blow
             own = [n for n in (*bases, Sym("t")) if n in said]
             moving = [n for n in said if n in known.others]
             answers = [side for side in map(unsigned, (equation.left, equation.right)) if isinstance(side, Sym)]
