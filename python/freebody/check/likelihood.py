@@ -111,7 +111,9 @@ class Likelihood:
                 odd = min(odd, _USUAL) if self._at_instant and answers else odd
                 return odd + _FORGOTTEN * (odd > 0 and self._has_load and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
-                return self._of_symbol(old, new)
+                return self._of_symbol(old, new) + _ODD * any(
+                    isinstance(side, Add) and cancels_within(side, self.values) for side in (edit.after.left, edit.after.right)
+                )
             case "symbol", _, new:
                 if not (new.symbols & self._answers).issubset(() if edit.old is None else edit.old.symbols):
                     return math.inf  # what it is solved for, for something else
