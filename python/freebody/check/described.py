@@ -69,7 +69,7 @@ def _way(words: str, checker: Checker) -> Family | None:
     if not (way := way_of(words, checker)):
         return None
     body, _, way = way.rpartition(" moves ")
-    return replace(checker.hypothesis, above=(*checker.hypothesis.above, f"{_WAYS[way][0]}({quote(body)}.centre)"))
+    return replace(checker.hypothesis, above=(*checker.hypothesis.above, f"{_WAYS[way][0]}({quote(body)}.G)"))
 
 
 def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
@@ -83,7 +83,7 @@ def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
         above = (f"{text} - {least!r}" for text in second)
         return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
     if _STOPS.search(words) and len(names) == 1:
-        place = f"x({quote(body)}.centre)" if (body := _body(words, checker)) else ""
+        place = f"x({quote(body)}.G)" if (body := _body(words, checker)) else ""
         side = [
             f"{sign}({place} - ⟦{place}⟧)" for way, sign in (("right", ""), ("left", "-")) if place and f"on the {way}" in words
         ]
@@ -106,7 +106,7 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):
-        return _of(f"y({quote(body)}.centre)" if body else "centre_y()", least)
+        return _of(f"y({quote(body)}.G)" if body else "centre_y()", least)
     return _of(spell(names[0]), least) if _PLACE.search(words) and len(names) == 1 else ()
 
 

@@ -65,6 +65,6 @@ def _coordinate(checker: Checker, declared: Declared, what: str) -> str | None:
     if len(bodies) != 1:
         return None
     body = quote(bodies[0])
-    by = sampler.core.derivatives([f"x({body}.centre)", f"y({body}.centre)", f"angle({body})"], sampler.own)
+    by = sampler.core.derivatives([f"x({body}.G)", f"y({body}.G)", f"angle({body})"], sampler.own)
     moves = np.abs(by[:, 1 : 1 + len(sampler.names)]).max(axis=0) > _MOVED
     return sampler.names[int(np.argmax(moves))] if moves.sum() == 1 else None
