@@ -30,8 +30,8 @@ _WAYS = {
     "down": ("-vy", r"down(?:wards?|hill)?|fall(?:s|ing)|sink(?:s|ing)|descend(?:s|ing)"),
 }
 """Which way a body moves: the component of its velocity that is above 0 then, and words for it."""
-_GREATEST = r"(?:greatest|largest|biggest|highest|farthest|longest|maximal|maximum|max\.?|most|fullest|full)"
-_LEAST = r"(?:least|smallest|lowest|shortest|minimal|minimum|min\.?)"
+_GREATEST = r"(?:greatest|largest|biggest|highest|farthest|longest|maximal|maximum|max\.?|most|fastest|fullest|full)"
+_LEAST = r"(?:least|smallest|lowest|shortest|minimal|minimum|min\.?|slowest)"
 _EXTREME = re.compile(rf"\b(?:(?P<greatest>{_GREATEST}|top(?!\s+of\b))|(?P<least>{_LEAST}|bottom(?!\s+of\b)))(?!\w)")
 _OF_SPRING = {
     "least": re.compile(r"\bcompress(?:ed|ion)\b"),

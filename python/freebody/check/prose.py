@@ -87,6 +87,8 @@ _CALLED = re.compile(
     rf"(?m)(?:(?<=^)|(?<=[,;:]\s))\s*(?:the\s+)?(initial\s+)?((?:(?:{_NOUN}|the)\s+)+)(?=\\?[^\s=<>]+\s*[=<>])", re.I
 )
 """``the natural period T = …``."""
+_DOTS = re.compile("(?<=[^\\W\\d])[¨˙]")
+"""``x¨``, with dots that stand behind a letter."""
 _SPACES = re.compile(r"(?<!\\)\\(?:[,;:!>]| (?![^{}]*\}))")
 _SIDE_OF_ZERO = re.compile(r"(=\s*0)\s*(?:\^?\s*\{?\s*\+\s*\}?|⁺)(?=\s*(?:[:,)]|\\q?quad|\Z))")
 """``t = 0⁺``, just after."""
@@ -129,7 +131,7 @@ _STOP = re.compile(
 )
 _EVER = (
     r"(?:\b(?:for|at)\s+(?:all|any|every|each)\s+(?:(?:time|instant|moment|angle|position|motion)s?\b|\\\w+|[A-Za-z]\w?\b|[^\W\x00-\x7f]\w*)(?:\s+(?:t\b|\\?theta\b|θ))?"
-    r"(?:\s*(?:>=?|≥|\\geq?\b)\s*0)?|\balways|\bidentically|\b(?:throughout|during) the motion)"
+    r"(?:\s*(?:>=?|≥|\\geq?\b)\s*0)?|\balways|\bidentically|\ball the (?:way|time)|\b(?:throughout|during) the motion)"
 )
 _ALWAYS = re.compile(rf"(?:,|\\q?quad)?\s*{_EVER}{_CLOSES}|\A\s*{_EVER}\s*[,:]", re.IGNORECASE)
 _BEHIND = r"(?<=[^\s=+*/·<>≈-])"
@@ -159,7 +161,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
         is_comment = _is_comment(found[1] or found[2], known, measured)
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
-    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", text))
+    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), text)))
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(r"_{\1}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)

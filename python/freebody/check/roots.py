@@ -47,7 +47,8 @@ def _rooted_in_part(node: Node, factor: Array, values: Mapping[str, Array]) -> I
         rest = {base: n for base, n in powers.items() if base not in some}
         for inside, before in ((1.0, number), (abs(number), math.copysign(1.0, number))):
             below = written(inside, {base: powers[base] for base in some})
-            if np.allclose(factor**2 * np.abs(sampled(below, values)), 1.0, rtol=_SAME, atol=0):
+            size = np.abs(sampled(below, values))
+            if size.shape == factor.shape and np.allclose(factor**2 * size, 1.0, rtol=_SAME, atol=0):
                 yield written(before, {**rest, Fn("sqrt", (below,)): 1})
 
 

@@ -103,10 +103,15 @@ _BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s
 _BEHIND = re.compile(
     rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS}|while|during|until)(?:\s[^:;\n]+)?)"
 )
+_AT_LAST = re.compile(r"\A\s*(?:in the end|eventually|finally|at last)\s*,\s*(?=[^:;\n]*:(?!=))")
 _HAPPENS_WHEN = re.compile(
     rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,4}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
 )
 """``the block breaks loose when k x = μ m g``."""
+_EXTREME_WHERE = re.compile(
+    r"(?:(?:it|he|she|the \w+) (?:is|moves|goes) )?((?:fastest|slowest|(?:\w+ ){0,2}(?:greatest|largest|least|smallest|highest|lowest)(?: speed)?))\s+(?:when|where|at|if)\s+([^:;\n]+=[^:;\n]+)"
+)
+"""``fastest where c/s² = m g sin β``."""
 _PARTS = re.compile(r",|\band\b")
 _WHEN = re.compile(r"\s+(?:when|where|while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
 _ABOUT = re.compile(r"\s*about\s[^=]*=")
@@ -197,6 +202,8 @@ def with_condition_first(text: str) -> str:
         return f"constant: {same}"
     if (found := _NAMED_VALUE.fullmatch(said)) and (name := _quantity(found[1])):
         return f"{name} = {found[2]}"
+    if found := _EXTREME_WHERE.fullmatch(said):
+        return f"when it is {found[1]}: {found[2]}"
     if found := _SAID_OF_MOMENT.fullmatch(said):
         return f"{found[2]}: {found[1]} {found[3]}"
     if found := _HAPPENS_WHEN.fullmatch(said):
@@ -208,7 +215,7 @@ def with_condition_first(text: str) -> str:
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _listed(text)
+    text = _listed(_AT_LAST.sub("", text))
     text = _STATE_FIRST.sub(lambda found: f"in {'steady state' if found[1] else 'equilibrium'}", text)
     text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", _GIVEN_SMALL.sub("if ", text)))
     text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
@@ -273,7 +280,7 @@ def _conditional(word: str, words: str, statement: str) -> str:
         if "->" in others or "small motions" in others:
             return as_claim(f"{beside.strip()}: as {others}: {statement}")
         return as_claim(f"if {others}: {beside.strip()}: {statement}")
-    if side == "after" and re.fullmatch(r"(?:(?:the|a) )?time t", said):
+    if side == "after" and re.fullmatch(r"(?:(?:the|a) )?time t|t (?:s|sec|seconds)", said):
         word, side, said = "if", "", "from the start"
     is_start = word == "initially" or (" " in word and side == "after" and (not said or _START.fullmatch(said)))
     if side in ("after", "before") and not is_start:
@@ -334,7 +341,11 @@ def _condition(part: str) -> str:
         return f"{found[1]}, from the start"
     if found := _THROUGHOUT.fullmatch(said):  # so are its rates
         return f"{found[1]} = {found[2]}, ({found[1]})' = ({found[2]})'"
-    return "at rest" if re.fullmatch(r"(?:at )?rest(?: in (?:the|its) [\w ]*frame)?", said) else said
+    return (
+        "at rest"
+        if re.fullmatch(r"(?:(?:it|all|everything) (?:is|has come) )?(?:at |to )?rest(?: in (?:the|its) [\w ]*frame)?", said)
+        else said
+    )
 
 
 def named(name: str, said: str) -> tuple[str, str]:
