@@ -215,12 +215,52 @@ def test_neither_threads_nor_neighbours_change_a_bit(text, q0, p):
     assert alone[["q", "u", "outcome"]].identical(m.batch(q0, p=p, **STEP)[["q", "u", "outcome"]])
 
 
-def test_in_lanes_reactions_have_the_bits_that_one_alone_has():
-    """With a route of its own each is made by itself."""
-    m = fb.Mechanism.loads(CART)
-    p = {"L": np.linspace(0.3, 0.6, 9)}
-    made, alone = (m.batch(p=p, reactions=True, **STEP, **how) for how in ({}, {"route": "minimal"}))
-    assert made.identical(alone)
+@pytest.mark.parametrize("text, p", [(PENDULUMS, ("L", "m2")), (CART, ("L", "k"))])
+def test_side_by_side_all_has_the_bits_that_one_alone_has(text, p):
+    """With no step to spare each is made by itself."""
+    m = fb.Mechanism.loads(text)
+    core, (state, _), columns = m.compile(), m.start(), members(70, *p)
+    rows = [core.bind_rows({name: 0.3 + 0.1 * column for name, column in columns.items()})]
+    rows += [np.tile(row, (70, 1)) for row in (state.q, state.u)]
+    settings = {"method": "rk4", "step": 1 / 64, "rtol": 1e-9, "max_step": None, "route": "auto", "reactions": True}
+    settings |= {"impacts": "stop", "painleve": "stop"}
+    (made, _), (alone, ends) = (
+        core.batch(*rows, 0.0, 0.5, np.array([0, 0.1, 0.5]), 1, max_steps=steps, **settings) for steps in (33, 32)
+    )
+    assert all(end.ok for end in ends)
+    np.testing.assert_array_equal(made, alone)
+
+
+@pytest.mark.parametrize("text, p", [(PENDULUMS, ("L", "m2")), (CART, ("L", "k"))])
+def test_motions_by_recorded_equations_are_those_of_instants_solved_one_by_one(text, p):
+    """Those of a route. Each of 30 steps adds round-off, 1e-16 of what is largest, and the motion multiplies it by less than a hundred."""
+    m = fb.Mechanism.loads(text)
+    p = {name: 0.3 + 0.1 * column for name, column in members(5, *p).items()}
+    made, solved = (m.batch(p=p, reactions=True, **STEP, **how) for how in ({}, {"route": "minimal"}))
+    for name in ("q", "u", "accelerations", "reactions"):
+        np.testing.assert_allclose(made[name], solved[name], 0, 3e-13 * abs(solved[name]).max().item())
+    assert not made.identical(solved)  # else they are not by another way
+
+
+def test_a_formula_that_goes_by_the_value_of_a_number_is_that_of_each_member():
+    """A body without mass has its mass centre by another formula; a spring of no length has no direction, and pulls a moment later."""
+    pieces = "[{shape: rod, length: L, mass: m}, {shape: disk, radius: 0.1 m, mass: m, at: [0.2 m, 0]}]"
+    rod = f"rod: {{pieces: {pieces}, points: {{start: [-0.25 m, 0], end: [0.25 m, 0]}}}}"
+    text = CART.replace("rod: {shape: rod, length: L, mass: 1 kg}", rod).replace("{L:", "{m: 1 kg, L:")
+    text = text.replace(
+        "between: [rod.end, plate.centre], stiffness: 20 N/m, rest_length: 0.3 m",
+        "between: [ground.O, plate.centre], stiffness: 20 N/m",
+    )
+    m = fb.Mechanism.loads(text)
+    x, mass = np.array([0, 0, 0.5, 0.5]), np.array([0, 1, 0, 1])
+    made = m.batch({"x": x, "y": 0.0}, p={"m": mass}, **STEP)
+    assert made.ok.all()
+    for i in range(4):
+        run = m.simulate(t_eval=made.time, x=x[i].item(), y=0.0, m=mass[i].item(), **STEP)
+        np.testing.assert_array_equal(made.q[i], run.q)
+        np.testing.assert_array_equal(made.u[i], run.u)
+        solved = m.simulate(t_eval=made.time, x=x[i].item(), y=0.0, m=mass[i].item(), route="minimal", **STEP)
+        np.testing.assert_allclose(run.q, solved.q, 0, 3e-13 * abs(solved.q).max())
 
 
 def test_energy_of_pendulums_is_kept_to_the_fourth_power_of_the_step():

@@ -327,7 +327,7 @@ fn mass_properties<S: Scalar>(body: &Body, bound: &[S]) -> (S, Vec2<S>, S) {
         moment += *c * *m;
     }
     let centre = match placed.first() {
-        Some((_, first, _)) if !mass.any(|mass| mass != 0.0) => *first,
+        Some((_, first, _)) if mass.value() == 0.0 => *first,
         Some(_) => moment * (S::one() / mass),
         None => Vec2::zero(),
     };

@@ -267,7 +267,7 @@ fn dot<S: Scalar>(a: [S; 3], b: [S; 3]) -> S {
 /// Whether an inertia is none beside one of this size.
 #[inline(always)]
 fn is_nothing<S: Scalar>(inertia: S, size: S) -> bool {
-    (inertia - size.scale(NO_INERTIA)).any(|left| left <= 0.0) || inertia.any(|inertia| inertia <= 0.0)
+    inertia.value() - NO_INERTIA * size.value() <= 0.0 || inertia.value() <= 0.0
 }
 
 /// Inverse of the leading `n × n` block by Gauss–Jordan; None when a motion has no inertia.

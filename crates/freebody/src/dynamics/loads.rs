@@ -53,8 +53,7 @@ pub fn pulled<'a, S: Scalar>(
 /// The load of a unit pull on a body; none where what pulls with no force has no direction, as a spring without length.
 fn direction<S: Scalar>(at: StateView<'_, S>, gauge_force: &GaugeForce, body: usize, value: S) -> Wrench<S> {
     let along = gradient(at, &gauge_force.gauge, body);
-    // Of lanes that differ the one without a direction is not finite, and so its load.
-    match value.any(|value| value != 0.0) || (along.f.x + along.f.y + along.m).any(f64::is_finite) {
+    match value.value() != 0.0 || (along.f.x + along.f.y + along.m).value().is_finite() {
         true => along,
         false => Wrench::zero(),
     }

@@ -1,8 +1,8 @@
-//! The motion of a tree over any scalar: of several mechanisms at once over lanes.
+//! The motion of a tree over any scalar, to be recorded.
 
 use super::articulated_body::ArticulatedBody;
 use super::loads::{centre_arms, loads, unaccounted_power};
-use super::{DynamicsError, SolvedView};
+use super::DynamicsError;
 use crate::bound_values::BoundValues;
 use crate::gauges::ModelExpr;
 use crate::joints::Joint as _;
@@ -12,7 +12,7 @@ use crate::mode::Mode;
 use crate::plane::{Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
 
-/// A tree in motion. Its equations are those of [`super::Workspace`], to the same bits.
+/// A tree in motion.
 pub struct TreeMotion<'m, S> {
     /// The mechanism.
     pub m: &'m Mechanism,
@@ -72,11 +72,10 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
     /// Writes the rates of y = [q, u, states] at a time.
     ///
     /// # Errors
-    /// `singular_mass`, where that is so of any of the mechanisms.
-    #[inline(always)]
+    /// `singular_mass`.
     pub fn rate(&mut self, t: S, y: &[S], dy: &mut [S]) -> Result<(), DynamicsError> {
         let n = self.m.freedom();
-        self.solve(t, y, &mut dy[n..2 * n], |_, _| {})?;
+        self.solve(t, y, &mut dy[n..2 * n])?;
         dy[..n].copy_from_slice(&y[n..2 * n]);
         for (rate, law) in dy[2 * n..].iter_mut().zip(&self.m.state_rates) {
             *rate = law.eval(&State(self.at(t, y)));
@@ -84,31 +83,8 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
         Ok(())
     }
 
-    /// Writes accelerations, and reactions in the order of [`super::reaction_names`], at y and a time.
-    ///
-    /// # Errors
-    /// As [`TreeMotion::rate`].
-    #[inline(always)]
-    pub fn write_solution(&mut self, t: S, y: &[S], out: &mut [S]) -> Result<(), DynamicsError> {
-        let (accelerations, reactions) = out.split_at_mut(self.m.freedom());
-        let mut joint_wrenches = vec![Wrench::zero(); self.m.bodies.len()];
-        self.solve(t, y, accelerations, |body, wrench| joint_wrenches[body] = wrench)?;
-        // No row closes anything, nothing rubs, and no length is asked for.
-        let (at, joint_wrenches, length) = (self.at(t, y), &joint_wrenches[..], f64::NAN);
-        let solved = SolvedView { at, joint_wrenches, rows: &[], lambda: &[], sliding_friction: &[], length };
-        solved.write_reactions(None, reactions);
-        Ok(())
-    }
-
-    /// Writes the accelerations at y and a time; `passed` is told the load that each body's joint puts on it.
-    #[inline(always)]
-    fn solve(
-        &mut self,
-        t: S,
-        y: &[S],
-        accelerations: &mut [S],
-        passed: impl FnMut(usize, Wrench<S>),
-    ) -> Result<(), DynamicsError> {
+    /// Writes the accelerations at y and a time.
+    fn solve(&mut self, t: S, y: &[S], accelerations: &mut [S]) -> Result<(), DynamicsError> {
         let (m, n) = (self.m, self.m.freedom());
         let (q, u) = (&y[..n], &y[n..2 * n]);
         self.n.p[m.first_state()..].copy_from_slice(&y[2 * n..]);
@@ -116,7 +92,7 @@ impl<'m, S: Scalar> TreeMotion<'m, S> {
         let at = StateView { m, n: &self.n, k: &self.k, q, u, t, mode: &self.mode };
         centre_arms(at, &mut self.arms);
         loads(at, &self.arms, &mut self.loads);
-        self.sweep.solve(at, &self.arms, &self.loads, &mut self.nu_dot, &mut self.bodies, passed)?;
+        self.sweep.solve(at, &self.arms, &self.loads, &mut self.nu_dot, &mut self.bodies, |_, _| {})?;
         self.k.user_rates(m, &self.n, &self.bodies, &self.nu_dot, accelerations);
         Ok(())
     }

@@ -15,6 +15,7 @@ mod mode_changes;
 mod mode_resolution;
 mod parts;
 mod record;
+mod recorded;
 mod reference;
 mod rest;
 mod scales;
@@ -26,6 +27,7 @@ mod works;
 pub use canonical::mass_matrix;
 pub use impacts::Rule;
 pub use mode_changes::{ContactImpulse, Impulses, ModeChange};
+pub use recorded::Recorded;
 pub use reference::reference;
 pub use system::HybridSystem;
 pub use trajectory::{Ledger, MotionState, Trajectory};
@@ -72,6 +74,11 @@ impl Settings {
             impacts: chosen("law of impacts", impacts, rules)?,
             jam_by_impact: chosen("answer to a jam of friction", painleve, [("stop", false), ("impact", true)])?,
         })
+    }
+
+    /// Whether motions go by steps that are the same for all, as [`crate::motion::march`] does.
+    pub fn marches(&self) -> bool {
+        self.method == "rk4" && self.route.is_none()
     }
 
     /// The integrator chosen.
@@ -134,6 +141,9 @@ pub fn simulate(
     system.set_scales(start.t, until, &y);
     crate::motion::System::project(&mut system, start.t, &mut y)?;
     system.begin(start, until, &mut y)?;
+    if settings.marches() {
+        system.record_equations(start.t, &y);
+    }
     let opening = system.energy(start.t, &y);
     let run = run(&mut system, integrator, (start.t, &y), until, &settings.options, progress);
     Ok(Trajectory::new(system, run, opening, settings.clone()))

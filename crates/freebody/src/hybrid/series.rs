@@ -17,18 +17,15 @@ pub(super) fn equations(
     (t, y): (f64, &[f64]),
 ) -> Result<Tape<DoubleDouble>, DynamicsError> {
     let (n, states) = (m.freedom(), 2 * m.freedom() + works.count());
-    recorded(t, y, |t, y, dy| {
+    recorded([&[t], y].concat(), |x| {
+        let (t, y) = (x[0], &x[1..]);
         let given: Vec<(usize, Traced)> = m.overruled(p).into_iter().map(|(i, x)| (i, Traced::of(x))).collect();
         let mut tree = TreeMotion::new(m, m.bind(&m.parameters_with(&given)));
         let moving = [&y[..2 * n], &y[states..]].concat();
         let mut rates = vec![Traced::zero(); moving.len()];
         tree.rate(t, &moving, &mut rates)?;
-        dy[..2 * n].copy_from_slice(&rates[..2 * n]);
-        dy[states..].copy_from_slice(&rates[2 * n..]);
-        for (power, &force) in dy[2 * n..states].iter_mut().zip(&works.forces) {
-            *power = tree.unaccounted_power(t, &moving, force);
-        }
-        Ok(())
+        let powers = works.forces.iter().map(|&force| tree.unaccounted_power(t, &moving, force)).collect();
+        Ok([rates[..2 * n].to_vec(), powers, rates[2 * n..].to_vec()].concat())
     })
 }
 

@@ -3,6 +3,7 @@
 use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
+use super::recorded::Motion;
 use super::scales::ROUNDOFF;
 use super::works::Works;
 use crate::dynamics::{DynamicsError, TreeMotion, Workspace};
@@ -97,6 +98,8 @@ pub struct HybridSystem<'m> {
     pub(super) roundoff_scale: f64,
     /// The Taylor series of the phase with this number.
     pub(super) series: Option<(usize, Solution<f64>)>,
+    /// Its equations as a program, where that carries it.
+    pub(super) recorded: Option<Motion>,
 }
 
 impl<'m> HybridSystem<'m> {
@@ -136,6 +139,7 @@ impl<'m> HybridSystem<'m> {
             units: vec![],
             roundoff_scale: 1.0,
             series: None,
+            recorded: None,
         }
     }
 
@@ -273,6 +277,9 @@ impl System for HybridSystem<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         let (n, states) = (self.workspace.m.freedom(), self.first_state());
+        if self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy)) {
+            return Ok(());
+        }
         if self.mode.resting {
             dy[..states].fill(0.0);
             if states < dy.len() {

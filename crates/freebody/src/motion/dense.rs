@@ -1,33 +1,29 @@
 //! The motion between the steps.
 
-use crate::scalar::Scalar;
-
 /// The solution over one step.
 ///
 /// Every dense output here is the cubic Hermite interpolant plus θ²(1−θ)² times a polynomial,
 /// written as in HNW I, II.6: with θ = (t−t0)/(t1−t0),
 /// y = y0 + θ(F₀ + (1−θ)(F₁ + θ(F₂ + (1−θ)(F₃ + …)))).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Segment<S = f64> {
+pub struct Segment {
     /// Time at which the step starts.
     pub t0: f64,
     /// Time at which it ends; less than `t0` when the run goes backward.
     pub t1: f64,
-    y0: Vec<S>,
-    y1: Vec<S>,
+    y0: Vec<f64>,
+    y1: Vec<f64>,
     /// F₁, F₂, … one after the other; F₀ = y1 − y0.
-    bends: Vec<S>,
+    bends: Vec<f64>,
 }
 
-impl<S: Scalar> Segment<S> {
+impl Segment {
     /// The cubic with the values `y0`, `y1` and the slopes `slope0`, `slope1` (dy/dt) at its ends.
-    pub(super) fn hermite((t0, y0, slope0): (f64, &[S], &[S]), (t1, y1, slope1): (f64, &[S], &[S])) -> Self {
-        let (n, h) = (y0.len(), t1 - t0);
-        let mut bends = vec![S::zero(); 2 * n];
+    pub(super) fn hermite((t0, y0, slope0): (f64, &[f64], &[f64]), (t1, y1, slope1): (f64, &[f64], &[f64])) -> Self {
+        let n = y0.len();
+        let mut bends = vec![0.0; 2 * n];
         for i in 0..n {
-            let rise = y1[i] - y0[i];
-            bends[i] = slope0[i].scale(h) - rise;
-            bends[n + i] = rise.scale(2.0) - (slope0[i] + slope1[i]).scale(h);
+            [bends[i], bends[n + i]] = cubic(t1 - t0, [y0[i], y1[i]], [slope0[i], slope1[i]]);
         }
         Self { t0, t1, y0: y0.to_vec(), y1: y1.to_vec(), bends }
     }
@@ -38,13 +34,13 @@ impl<S: Scalar> Segment<S> {
     }
 
     /// Adds the next F, replacing those beyond `index` (F₃ has index 3).
-    pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = S>) {
+    pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = f64>) {
         self.bends.truncate((index - 1) * self.y0.len());
         self.bends.extend(values);
     }
 
     /// Writes the state at time `t`; exact at both ends.
-    pub fn at(&self, t: f64, y: &mut [S]) {
+    pub fn at(&self, t: f64, y: &mut [f64]) {
         if t == self.t1 {
             y.copy_from_slice(&self.y1);
             return;
@@ -52,12 +48,8 @@ impl<S: Scalar> Segment<S> {
         let theta = (t - self.t0) / (self.t1 - self.t0);
         let n = self.y0.len();
         for (i, value) in y.iter_mut().enumerate() {
-            let mut sum = S::zero();
-            for k in (0..self.bends.len() / n).rev() {
-                let factor = if k % 2 == 0 { 1.0 - theta } else { theta };
-                sum = (sum + self.bends[k * n + i]).scale(factor);
-            }
-            *value = self.y0[i] + (self.y1[i] - self.y0[i] + sum).scale(theta);
+            let bends = self.bends.chunks_exact(n).map(|bends| bends[i]);
+            *value = between(theta, [self.y0[i], self.y1[i]], bends);
         }
     }
 
@@ -69,24 +61,43 @@ impl<S: Scalar> Segment<S> {
     /// Part `k` of how far component `i` goes from the middle of the step at most: it goes there by the sum of all parts, each
     /// times a factor from −1 to 1 that is the same for all components. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to
     /// below twice its value 2⁻ᵃ⁻ᵇ at the middle.
-    pub fn part(&self, k: usize, i: usize) -> S {
+    pub fn part(&self, k: usize, i: usize) -> f64 {
         let full = if k == 0 { self.y1[i] - self.y0[i] } else { self.bends[(k - 1) * self.y0.len() + i] };
-        full.scale(1.0 / f64::from(2_u32 << k))
+        full * (1.0 / f64::from(2_u32 << k))
     }
 
     /// State at the start of the step.
-    pub fn start(&self) -> &[S] {
+    pub fn start(&self) -> &[f64] {
         &self.y0
     }
 
     /// State at the end of the step.
-    pub fn end(&self) -> &[S] {
+    pub fn end(&self) -> &[f64] {
         &self.y1
     }
 
     fn spans(&self, t: f64) -> bool {
         (t - self.t0) * (t - self.t1) <= 0.0
     }
+}
+
+/// F₁ and F₂ of the cubic over a time with these values and slopes at its ends.
+#[inline(always)]
+pub(super) fn cubic(h: f64, [y0, y1]: [f64; 2], [slope0, slope1]: [f64; 2]) -> [f64; 2] {
+    let rise = y1 - y0;
+    [slope0 * h - rise, rise * 2.0 - (slope0 + slope1) * h]
+}
+
+/// The value at θ between those at the ends, with F₁, F₂, ….
+#[inline(always)]
+pub(super) fn between(
+    theta: f64,
+    [y0, y1]: [f64; 2],
+    bends: impl DoubleEndedIterator<Item = f64> + ExactSizeIterator,
+) -> f64 {
+    let factor = |k: usize| if k % 2 == 0 { 1.0 - theta } else { theta };
+    let sum = bends.enumerate().rev().fold(0.0, |sum, (k, bend)| (sum + bend) * factor(k));
+    y0 + (y1 - y0 + sum) * theta
 }
 
 /// The solution over a run, step after step.

@@ -3,7 +3,7 @@
 use super::dense::Segment;
 use super::method::{Counted, Failure, Point, Stepper};
 use super::norm::{measure, Norm};
-use crate::scalar::{real, Scalar};
+use crate::scalar::real;
 
 /// Weight of the second error estimate (HNW I, II.10).
 const TEMPERING: f64 = 0.1;
@@ -89,8 +89,7 @@ impl Explicit {
 }
 
 /// Writes Σ aⱼ kⱼ, stage after stage; those without weight are left out.
-#[inline(always)]
-pub(super) fn combine<S: Scalar>(a: &[f64], k: &[Vec<S>], sum: &mut [S]) {
+fn combine(a: &[f64], k: &[Vec<f64>], sum: &mut [f64]) {
     let (fours, rest) = sum.as_chunks_mut::<4>();
     let (twos, last) = rest.as_chunks_mut::<2>();
     let mut from = 0;
@@ -101,11 +100,11 @@ pub(super) fn combine<S: Scalar>(a: &[f64], k: &[Vec<S>], sum: &mut [S]) {
 
 /// The next few components, which stay in registers.
 #[inline(always)]
-fn combined<S: Scalar, const N: usize>(a: &[f64], k: &[Vec<S>], from: &mut usize) -> [S; N] {
-    let mut sum = [S::zero(); N];
+fn combined<const N: usize>(a: &[f64], k: &[Vec<f64>], from: &mut usize) -> [f64; N] {
+    let mut sum = [0.0; N];
     for (&a, k) in a.iter().zip(k).filter(|(&a, _)| a != 0.0) {
         let part = &k[*from..*from + N];
-        sum.iter_mut().zip(part).for_each(|(sum, k)| *sum += k.scale(a));
+        sum.iter_mut().zip(part).for_each(|(sum, k)| *sum += k * a);
     }
     *from += N;
     sum

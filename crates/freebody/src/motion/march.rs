@@ -1,11 +1,10 @@
 //! Many motions at once by the classical Runge–Kutta method: nothing is looked for on the way.
 
-use super::dense::Segment;
-use super::explicit::combine;
+use super::dense::{between, cubic};
 use super::rk4::TABLE;
 use super::run::end_of_step;
-use super::system::DynamicsError;
-use crate::scalar::Scalar;
+use crate::scalar::Block;
+use std::iter::empty;
 
 /// When a march begins, ends, and shows its state, s; and the length of its steps.
 #[derive(Clone, Copy, Debug)]
@@ -20,24 +19,19 @@ pub struct Span<'a> {
     pub times: &'a [f64],
 }
 
-/// Carries `y` along a span by the method `rk4` and shows the state at each of its times: over `f64` what [`super::run()`] gives for the
-/// same system without events, to the same bits.
-///
-/// # Errors
-/// That of the rate; a state or rate that is not finite.
+/// Carries states side by side along a span by the method `rk4` and shows them at each of its times: each what [`super::run()`] gives
+/// for the same system without events, to the same bits. Answers which of them were finite all the way.
 #[inline(always)]
-pub fn march<S: Scalar>(
+pub fn march<const B: usize>(
     span: Span,
-    start: &[S],
-    mut rate: impl FnMut(S, &[S], &mut [S]) -> Result<(), DynamicsError>,
-    mut show: impl FnMut(&[S]),
-) -> Result<(), DynamicsError> {
-    let n = start.len();
-    let mut k = vec![vec![S::zero(); n]; TABLE.b.len()];
-    let (mut y, mut next) = (start.to_vec(), start.to_vec());
-    let (mut stage, mut slope) = (start.to_vec(), vec![S::zero(); n]);
+    start: &[Block<B>],
+    mut rate: impl FnMut(f64, &[Block<B>], &mut [Block<B>]),
+    mut show: impl FnMut(&[Block<B>]),
+) -> [bool; B] {
+    let mut k = vec![start.to_vec(); TABLE.b.len()];
+    let [mut y, mut next, mut stage, mut slope] = [(); 4].map(|()| start.to_vec());
     let (mut t, mut shown) = (span.from, 0);
-    rate(S::of(t), &y, &mut k[0])?;
+    rate(t, &y, &mut k[0]);
     while shown < span.times.len() && span.times[shown] == t {
         show(&y);
         shown += 1;
@@ -47,24 +41,21 @@ pub fn march<S: Scalar>(
         let h = end - t;
         for (j, (&c, a)) in TABLE.c.iter().zip(TABLE.a).enumerate() {
             let (known, rest) = k.split_at_mut(j + 1);
-            combine(a, known, &mut stage);
-            stage.iter_mut().zip(&y).for_each(|(stage, &y)| *stage = y + stage.scale(h));
-            rate(S::of(t + c * h), &stage, &mut rest[0])?;
+            go_ahead(&y, h, a, known, &mut stage);
+            rate(t + c * h, &stage, &mut rest[0]);
         }
-        combine(TABLE.b, &k, &mut next);
-        next.iter_mut().zip(&y).for_each(|(next, &y)| *next = y + next.scale(h));
-        rate(S::of(end), &next, &mut slope)?;
-        let mut is_finite = true;
-        for i in 0..n {
-            is_finite &= !(next[i].any(|x| !x.is_finite()) || slope[i].any(|x| !x.is_finite()));
-        }
-        if !is_finite {
-            return Err(DynamicsError::NoFiniteAcceleration);
-        }
-        let mut segment = None;
+        go_ahead(&y, h, TABLE.b, &k, &mut next);
+        rate(end, &next, &mut slope);
         while shown < span.times.len() && (span.times[shown] - end) * h <= 0.0 {
-            let segment = segment.get_or_insert_with(|| Segment::hermite((t, &y, &k[0]), (end, &next, &slope)));
-            segment.at(span.times[shown], &mut stage);
+            let theta = (span.times[shown] - t) / h;
+            for (i, stage) in stage.iter_mut().enumerate() {
+                match span.times[shown] == end {
+                    true => *stage = next[i],
+                    false => stage.write([&y[i], &next[i], &k[0][i], &slope[i]], |[y0, y1, slope0, slope1]| {
+                        between(theta, [y0, y1], cubic(h, [y0, y1], [slope0, slope1]).into_iter())
+                    }),
+                }
+            }
             show(&stage);
             shown += 1;
         }
@@ -72,5 +63,18 @@ pub fn march<S: Scalar>(
         std::mem::swap(&mut k[0], &mut slope);
         t = end;
     }
-    Ok(())
+    // What is not finite once does not become so again.
+    std::array::from_fn(|i| y.iter().chain(&k[0]).all(|x| x.0[i].is_finite()))
+}
+
+/// Writes y + h Σ aⱼ kⱼ; stages without weight are left out.
+#[inline(always)]
+fn go_ahead<const B: usize>(y: &[Block<B>], h: f64, a: &[f64], k: &[Vec<Block<B>>], to: &mut [Block<B>]) {
+    for (i, to) in to.iter_mut().enumerate() {
+        let stages = a.iter().zip(k).filter(|(&a, _)| a != 0.0).map(|(&a, k)| (a, &k[i]));
+        to.write_sum(0.0, stages, empty());
+        for (to, y) in to.0.iter_mut().zip(&y[i].0) {
+            *to = y + h * *to;
+        }
+    }
 }

@@ -1,11 +1,12 @@
 //! The number. Every formula of mechanics is written once over [`Scalar`] and read as
-//! `f64` (values), [`Lanes`] (the values of several mechanisms at once), [`Dual`] (exact gradients),
-//! [`Jet`] (exact time derivatives), [`Ball`] (bounds) or, in `algebra`, as a symbol (equations).
+//! `f64` (values), [`Dual`] (exact gradients), [`Jet`] (exact time derivatives), [`Ball`] (bounds),
+//! in `series` as what is written down or, in `algebra`, as a symbol (equations).
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 mod ball;
+mod block;
 #[allow(
     clippy::suspicious_arithmetic_impl,
     reason = "a difference is a sum with the opposite, a quotient is a long division"
@@ -14,19 +15,18 @@ mod double_double;
 #[allow(clippy::suspicious_arithmetic_impl, reason = "the product rule adds, the quotient rule subtracts")]
 mod dual;
 mod jet;
-mod lanes;
 pub mod real;
 
 pub use ball::Ball;
+pub use block::Block;
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use jet::Jet;
-pub use lanes::{Lanes, LANES};
 
 /// What a formula of mechanics may do with a number.
 ///
 /// There is no comparison: a value-dependent choice is [`Scalar::select`], so that numbers which
-/// hold several values at once (lanes) or none (symbols) can take part. Both arms of a `select`
+/// hold no value (symbols) can take part. Both arms of a `select`
 /// are evaluated; give them arguments that are safe on either side.
 pub trait Scalar:
     Copy
@@ -59,10 +59,6 @@ pub trait Scalar:
     }
     /// The plain value, without derivatives; decisions (pivots, branches, modes) read this.
     fn value(self) -> f64;
-    /// Whether something holds of a plain value in it: of any of them, where it has several.
-    fn any(self, holds: impl Fn(f64) -> bool) -> bool {
-        holds(self.value())
-    }
     /// `a` where `mask`, else `b`.
     fn select(mask: bool, a: Self, b: Self) -> Self {
         if mask {

@@ -2,8 +2,6 @@
 //! are our own; the others are those of the crate `libm` (after FreeBSD's msun), where the platform's differ in the
 //! last place.
 
-use super::{Lanes, Scalar, LANES};
-
 /// Up to here the quadrant is below 2²⁰, so its products with the 33-bit parts of π/2 are exact.
 const CAREFUL_ABOVE: f64 = 1.0e6;
 /// Adding and subtracting 1.5·2⁵² rounds to the nearest integer and leaves it in the low bits.
@@ -27,24 +25,26 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
 
 /// The same side by side: each to the same bits as alone.
 #[inline(always)]
-pub(super) fn sin_cos_lanes(x: Lanes) -> (Lanes, Lanes) {
-    let (mut sin, mut cos) = (x, x);
-    if x.any(|x| x.abs() > CAREFUL_ABOVE) {
-        for i in 0..LANES {
-            (sin.0[i], cos.0[i]) = sin_cos(x.0[i]);
+pub(super) fn write_sin_cos<const B: usize>(x: &[f64; B], sin: &mut [f64; B], cos: &mut [f64; B]) {
+    let mut any_far = false;
+    for x in x {
+        any_far |= x.abs() > CAREFUL_ABOVE;
+    }
+    if any_far {
+        for i in 0..B {
+            (sin[i], cos[i]) = sin_cos(x[i]);
         }
-        return (sin, cos);
+        return;
     }
-    let (shifted, s, c) = within_quadrant(x);
-    for i in 0..LANES {
-        (sin.0[i], cos.0[i]) = into_quadrant(shifted.0[i], s.0[i], c.0[i]);
+    for i in 0..B {
+        let (shifted, s, c) = within_quadrant(x[i]);
+        (sin[i], cos[i]) = into_quadrant(shifted, s, c);
     }
-    (sin, cos)
 }
 
 /// Sine and cosine of what is left of an angle by whole quarter turns, and their number in the low bits.
 #[inline(always)]
-fn within_quadrant<S: Scalar>(x: S) -> (S, S, S) {
+fn within_quadrant(x: f64) -> (f64, f64, f64) {
     let (shifted, hi, lo) = reduce(x);
     (shifted, kernel_sin(hi, lo), kernel_cos(hi, lo))
 }
@@ -117,21 +117,21 @@ pub fn powi(base: f64, n: i32) -> f64 {
 
 /// The quadrant (modulo 4 in the low bits of a number) and x − quadrant·π/2 as an unevaluated sum.
 #[inline(always)]
-fn reduce<S: Scalar>(x: S) -> (S, S, S) {
-    let shifted = x.scale(std::f64::consts::FRAC_2_PI) + S::of(ROUNDER);
-    let n = shifted - S::of(ROUNDER);
-    let first = x - n.scale(HALF_PI[0]);
+fn reduce(x: f64) -> (f64, f64, f64) {
+    let shifted = x * std::f64::consts::FRAC_2_PI + ROUNDER;
+    let n = shifted - ROUNDER;
+    let first = x - n * HALF_PI[0];
     // Where the second part is the larger of the two, the difference is exact: no error to collect.
-    let part = n.scale(HALF_PI[1]);
+    let part = n * HALF_PI[1];
     let second = first - part;
-    let rest = n.scale(HALF_PI[2]);
+    let rest = n * HALF_PI[2];
     let hi = second - rest;
     (shifted, hi, ((second - hi) - rest) + ((first - second) - part))
 }
 
 /// sin(x + y) for |x| ≤ π/4 and y a rounding error of x.
 #[inline(always)]
-fn kernel_sin<S: Scalar>(x: S, y: S) -> S {
+fn kernel_sin(x: f64, y: f64) -> f64 {
     const C: [f64; 6] = [
         -0.166_666_666_666_666_32,
         0.008_333_333_333_322_49,
@@ -142,12 +142,12 @@ fn kernel_sin<S: Scalar>(x: S, y: S) -> S {
     ];
     let z = x * x;
     // Subtracted, not added, so that −0 stays −0.
-    x - ((z.scale(0.5) * y - y) - z * x * even(z, C))
+    x - ((z * 0.5 * y - y) - z * x * even(z, C))
 }
 
 /// cos(x + y) for |x| ≤ π/4 and y a rounding error of x.
 #[inline(always)]
-fn kernel_cos<S: Scalar>(x: S, y: S) -> S {
+fn kernel_cos(x: f64, y: f64) -> f64 {
     const C: [f64; 6] = [
         0.041_666_666_666_666_6,
         -0.001_388_888_888_887_411,
@@ -157,16 +157,16 @@ fn kernel_cos<S: Scalar>(x: S, y: S) -> S {
         -1.135_964_755_778_819_5e-11,
     ];
     let z = x * x;
-    let half = z.scale(0.5);
-    let top = S::one() - half;
-    top + (z * z * even(z, C) + (((S::one() - top) - half) - x * y))
+    let half = z * 0.5;
+    let top = 1.0 - half;
+    top + (z * z * even(z, C) + (((1.0 - top) - half) - x * y))
 }
 
 /// A polynomial in z by Estrin's rule: half the waiting of Horner's.
 #[inline(always)]
-fn even<S: Scalar>(z: S, c: [f64; 6]) -> S {
+fn even(z: f64, c: [f64; 6]) -> f64 {
     let w = z * z;
-    let line = |i: usize| S::of(c[i]) + z.scale(c[i + 1]);
+    let line = |i: usize| c[i] + z * c[i + 1];
     (line(0) + w * line(2)) + w * w * line(4)
 }
 

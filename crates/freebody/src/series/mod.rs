@@ -2,9 +2,10 @@
 //! solution order by order (Jorba & Zou, *Experimental Mathematics* 14, 2005; Griewank & Walther, *Evaluating Derivatives*, ch. 13).
 //!
 //! It knows no mechanics. A formula over [`Scalar`](crate::scalar::Scalar) is [`recorded`] by calling it with [`Traced`] numbers;
-//! what comes out is a [`Tape`], valid as long as the formula would be the same operations. [`Solution`] runs it, over doubles or
-//! [`DoubleDouble`](crate::scalar::DoubleDouble)s.
+//! what comes out is a [`Tape`], valid as long as the formula would be the same operations. [`Solution`] runs it as series, over doubles or
+//! [`DoubleDouble`](crate::scalar::DoubleDouble)s, [`Program`] for its values alone, of many states side by side.
 
+mod program;
 mod recorder;
 mod solution;
 mod tape;
@@ -13,6 +14,7 @@ mod traced;
 #[cfg(test)]
 mod tests;
 
+pub use program::Program;
 pub use solution::{Coefficient, Solution};
 pub use tape::Tape;
 pub use traced::{recorded, Traced};

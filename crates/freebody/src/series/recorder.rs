@@ -56,6 +56,8 @@ fn number(x: Bits) -> DoubleDouble {
 
 /// Most products that a product of sums is multiplied out to: then what cancels is seen to.
 const EXPANDED: usize = 2;
+/// Most terms of a sum that others take over term by term: what runs along a chain does not grow with it.
+const TERMS: usize = 8;
 /// Most factors of a product.
 const FACTORS: usize = 4;
 
@@ -130,7 +132,11 @@ impl Recorder {
     }
     /// a + factor·b.
     pub fn combine(&mut self, a: FormId, b: FormId, factor: f64) -> FormId {
-        let sum = self.read(a).plus(self.read(b), DoubleDouble::of(factor));
+        let mut sum = self.read(a).plus(self.read(b), DoubleDouble::of(factor));
+        if sum.terms.len() > TERMS {
+            let (atom, factor) = self.factor(&sum);
+            sum = Form::atom(atom).scaled(factor);
+        }
         self.form(sum)
     }
 
@@ -260,15 +266,12 @@ impl Recorder {
     }
 
     /// The operations that the results need, in an order in which each is known before it is used.
-    pub fn tape(mut self, results: &[FormId]) -> Tape<DoubleDouble> {
+    pub fn tape(mut self, inputs: usize, results: &[FormId]) -> Tape<DoubleDouble> {
         let results: Vec<AtomId> = results.iter().map(|&result| self.argument(result)).collect();
-        let mut rows = FxHashMap::default();
-        let mut tape = Tape::new(results.len());
-        for input in 0..=results.len() as AtomId {
-            rows.insert(input, Row(input));
-        }
-        let rates = results.iter().map(|&result| self.lower(result, &mut rows, &mut tape)).collect();
-        Tape { rates, ..tape }
+        let mut tape = Tape::new(inputs);
+        let mut rows = (0..inputs as AtomId).map(|input| (input, Row(input))).collect();
+        let results = results.iter().map(|&result| self.lower(result, &mut rows, &mut tape)).collect();
+        Tape { results, ..tape }
     }
 
     /// The row of an atom, its operation written to the tape where it is new.

@@ -142,7 +142,7 @@ impl<S: Coefficient> Solution<S> {
                     _ => inner = &inner[at.advance(*row, op, k, inverse[k - 1], inner)..],
                 }
             }
-            for (i, &rate) in tape.rates.iter().enumerate() {
+            for (i, &rate) in tape.results.iter().enumerate() {
                 at.set(component(i), k + 1, at.get(rate, k) * inverse[k]);
             }
         }

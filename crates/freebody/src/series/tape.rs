@@ -2,9 +2,16 @@
 
 use crate::scalar::{DoubleDouble, Scalar};
 
-/// The place of a number of the tape: time, the state, then what the operations give.
+/// The place of a number of the tape: the inputs, as time and the state, then what the operations give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row(pub(super) u32);
+
+impl Row {
+    #[inline(always)]
+    pub(super) fn at(self) -> usize {
+        self.0 as usize
+    }
+}
 
 /// A multiple of a number.
 #[derive(Clone, Copy, Debug)]
@@ -36,19 +43,30 @@ pub(super) enum Op<S> {
     },
 }
 
-/// ẏ as a function of t and y.
+/// Results as functions of inputs, as ẏ of t and y.
 #[derive(Clone, Debug)]
 pub struct Tape<S> {
     /// Each with the place of its first number.
     pub(super) ops: Vec<(Row, Op<S>)>,
     pub(super) rows: u32,
-    /// Where ẏ stands.
-    pub(super) rates: Vec<Row>,
+    /// Where the results stand.
+    pub(super) results: Vec<Row>,
+}
+
+impl<S> Op<S> {
+    /// The numbers that its value follows from.
+    pub fn operands(&self) -> Vec<Row> {
+        match *self {
+            Op::Sum { ref terms, .. } => terms.iter().map(|term| term.row).collect(),
+            Op::Product(a, b) | Op::Quotient(a, b) | Op::Atan2 { y: a, x: b, .. } => vec![a, b],
+            Op::Inverse(x) | Op::SinCos(x) | Op::Sqrt(x) | Op::Exp(x) | Op::Ln(x) => vec![x],
+        }
+    }
 }
 
 impl<S> Tape<S> {
-    pub(super) fn new(size: usize) -> Self {
-        Tape { ops: vec![], rows: size as u32 + 1, rates: vec![] }
+    pub(super) fn new(inputs: usize) -> Self {
+        Tape { ops: vec![], rows: inputs as u32, results: vec![] }
     }
 
     pub(super) fn push(&mut self, op: Op<S>) -> Row {
@@ -82,7 +100,7 @@ impl<S: Copy> Tape<S> {
             &Op::Atan2 { y, x, radius2 } => Op::Atan2 { y: row(y), x: row(x), radius2: row(radius2) },
         };
         let ops = self.ops.iter().map(|(at, op)| (row(*at), replaced(op))).collect();
-        Tape { ops, rows: self.rows, rates: self.rates.iter().map(|&rate| row(rate)).collect() }
+        Tape { ops, rows: self.rows, results: self.results.iter().map(|&result| row(result)).collect() }
     }
 
     /// The same with rows this far apart.

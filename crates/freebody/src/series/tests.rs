@@ -1,15 +1,16 @@
 //! Series beside their closed forms, and 32 digits beside those of others.
 
 use super::*;
-use crate::scalar::{DoubleDouble, Scalar};
+use crate::scalar::{Block, DoubleDouble, Scalar};
 
 const ORDER: usize = 20;
 
 /// The coefficients of the solution of ẏ = rate(t, y) through y at t.
 fn expanded(t: f64, y: &[f64], rate: impl FnOnce(Traced, &[Traced], &mut [Traced])) -> Vec<Vec<DoubleDouble>> {
-    let tape = recorded(t, y, |t, y, dy| {
-        rate(t, y, dy);
-        Ok::<(), ()>(())
+    let tape = recorded([&[t], y].concat(), |x| {
+        let mut dy = vec![Traced::zero(); y.len()];
+        rate(x[0], &x[1..], &mut dy);
+        Ok::<_, ()>(dy)
     });
     let tape = tape.unwrap();
     let mut rounded = Solution::new(tape.rounded(), ORDER);
@@ -73,17 +74,52 @@ fn an_oscillation_has_the_coefficients_of_sine_and_cosine() {
 
 #[test]
 fn what_cancels_is_not_computed() {
-    let tape = recorded(0.0, &[0.4, 1.0], |_, y, dy| {
+    let tape = recorded([0.4, 1.0], |y| {
         let (sin, cos) = y[0].sin_cos();
         let radius = Traced::of(2.0);
         let (x, z) = (radius * cos, radius * sin);
         let pull = y[1] * y[1];
-        dy[0] = x * x + z * z;
-        dy[1] = x * (z * pull) - z * (x * pull);
-        Ok::<(), ()>(())
+        Ok::<_, ()>(vec![x * x + z * z, x * (z * pull) - z * (x * pull)])
     });
     let tape = tape.unwrap();
     assert!(tape.ops.iter().all(|(_, op)| matches!(op, tape::Op::Sum { terms, .. } if terms.is_empty())), "{tape:?}");
+}
+
+/// Every operation; products that only a sum needs; parts that do not move.
+fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
+    let (t, y, p) = (x[0], x[1], x[2]);
+    let (sin, cos) = (y * p).sin_cos();
+    let (still, open) = ((p * p + S::of(2.0)).sqrt(), y * y + t);
+    vec![
+        (t * y).scale(3.0) - still * sin * (y + S::of(0.5)) + cos.scale(0.1) + S::of(0.7),
+        still.exp() / open,
+        S::one() / (open + p),
+        (open * open + S::one()).ln(),
+        sin.atan2(cos + still),
+        p * still,
+        S::of(4.0),
+    ]
+}
+
+#[test]
+fn a_program_gives_the_formula_to_the_same_bits_alone_and_side_by_side() {
+    let tape = recorded([0.4, 0.3, 0.9], |x| Ok::<_, ()>(every_operation(x))).unwrap();
+    let program = Program::new(tape.rounded(), 2);
+    let (mut beside, mut alone) = (program.memory::<64>(), program.memory::<1>());
+    let (mut all, mut one) = (vec![Block::of(0.0); 7], vec![Block::of(0.0); 7]);
+    let [y, p] = [0.3, 0.7].map(|from| Block(std::array::from_fn(|i| from + 0.11 * i as f64)));
+    program.fix(&mut beside, &[p]);
+    for t in [0.4, 1.7] {
+        program.run(&mut beside, t, &[y], &mut all);
+        for i in 0..64 {
+            program.fix(&mut alone, &[Block([p.0[i]])]);
+            program.run(&mut alone, t, &[Block([y.0[i]])], &mut one);
+            for ((all, one), exact) in all.iter().zip(&one).zip(every_operation(&[t, y.0[i], p.0[i]])) {
+                assert_eq!(all.0[i].to_bits(), one.0[0].to_bits());
+                assert!((one.0[0] - exact).abs() <= 1e-14 * exact.abs().max(1.0), "{} {exact}", one.0[0]);
+            }
+        }
+    }
 }
 
 /// Digits by mpmath 1.3 at 50 digits, of the doubles written here.

@@ -21,23 +21,19 @@ fn with<T>(work: impl FnOnce(&mut Recorder) -> T) -> T {
     RECORDER.with(|recorder| work(&mut recorder.borrow_mut()))
 }
 
-/// Records ẏ = rate(t, y), which `rate` writes, as it is at one time and state.
+/// Records a formula of inputs as it is at their values: for a [`Solution`](super::Solution), ẏ of time and y.
 ///
 /// # Errors
-/// That of the rate.
+/// That of the formula.
 pub fn recorded<E>(
-    t: f64,
-    y: &[f64],
-    rate: impl FnOnce(Traced, &[Traced], &mut [Traced]) -> Result<(), E>,
+    inputs: impl IntoIterator<Item = f64>,
+    formula: impl FnOnce(&[Traced]) -> Result<Vec<Traced>, E>,
 ) -> Result<Tape<DoubleDouble>, E> {
     with(|recorder| *recorder = Recorder::default());
-    let input = |value: f64| Traced { form: with(Recorder::input), value };
-    let time = input(t);
-    let y: Vec<Traced> = y.iter().map(|&value| input(value)).collect();
-    let mut dy = vec![Traced::zero(); y.len()];
-    let done = rate(time, &y, &mut dy);
+    let inputs: Vec<Traced> = inputs.into_iter().map(|value| Traced { form: with(Recorder::input), value }).collect();
+    let results = formula(&inputs);
     let recorder = with(std::mem::take);
-    done.map(|()| recorder.tape(&dy.iter().map(|rate| rate.form).collect::<Vec<_>>()))
+    results.map(|results| recorder.tape(inputs.len(), &results.iter().map(|x| x.form).collect::<Vec<_>>()))
 }
 
 impl Traced {
