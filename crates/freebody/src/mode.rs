@@ -3,6 +3,7 @@
 use crate::mechanism::{Mechanism, Part};
 use crate::motion::Spent;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Which branches, parts and unilateral constraints are active.
 #[derive(Clone, Debug, Default)]
@@ -11,8 +12,8 @@ pub struct Mode {
     off: Vec<Part>,
     /// Zero of each row of which only the change counts, by joint and row; none before a motion starts.
     pub row_offsets: HashMap<(usize, usize), f64>,
-    /// How each unilateral constraint is held.
-    pub contacts: Vec<ContactState>,
+    /// How each unilateral constraint is held; copies share it until one is changed.
+    pub contacts: Arc<[ContactState]>,
     /// How each joint with friction is held: stuck, sliding, or open while nothing is decided.
     pub joint_friction: Vec<ContactMode>,
     /// The gear pairs whose teeth bear on the other flank than that of the model, by joint.
@@ -33,7 +34,7 @@ impl PartialEq for Mode {
         same(&self.branches, &other.branches)
             && same(&self.off, &other.off)
             && self.row_offsets == other.row_offsets
-            && same(&self.contacts, &other.contacts)
+            && (Arc::ptr_eq(&self.contacts, &other.contacts) || same(&self.contacts, &other.contacts))
             && same(&self.joint_friction, &other.joint_friction)
             && same(&self.other_flank, &other.other_flank)
             && self.resting == other.resting
@@ -162,10 +163,15 @@ impl Mode {
             _ => self.has(part),
         }
     }
+    /// How each unilateral constraint is held, to be changed.
+    pub fn contacts_mut(&mut self) -> &mut [ContactState] {
+        Arc::make_mut(&mut self.contacts)
+    }
     /// This mode with some unilateral constraints held in another way.
     pub fn with_contacts(&self, constraints: &[usize], held: ContactMode) -> Mode {
         let mut mode = self.clone();
-        constraints.iter().for_each(|&l| mode.contacts[l].mode = held);
+        let contacts = mode.contacts_mut();
+        constraints.iter().for_each(|&l| contacts[l].mode = held);
         mode
     }
     /// Whether a joint, a drive or a force is in place.

@@ -60,7 +60,7 @@ impl ClosedContacts {
     /// The mode that a decision about them makes.
     fn decided(&self, decision: &ContactDecision) -> Mode {
         let mut mode = self.opened.clone();
-        self.constraints.iter().zip(&decision.modes).for_each(|(&l, &held)| mode.contacts[l].mode = held);
+        self.constraints.iter().zip(&decision.modes).for_each(|(&l, &held)| mode.contacts_mut()[l].mode = held);
         mode
     }
 
@@ -142,7 +142,10 @@ impl Workspace<'_> {
         let along: Vec<Vec<f64>> = (0..2 * k).map(|i| self.along(contacts.row(i))).collect();
         let rest_speed = vec![0.0; self.rows.len()];
         contacts.responses = along.iter().map(|f| self.dense.saddle.solve(f, &rest_speed).a).collect();
-        contacts.g = Matrix::from_fn(2 * k, 2 * k, |i, j| dot(&along[i], &contacts.responses[j]));
+        let felt = |force: &Vec<f64>| force.iter().copied().enumerate().filter(|(_, x)| *x != 0.0).collect();
+        let felt: Vec<Vec<(usize, f64)>> = along.iter().map(felt).collect();
+        let moved = |i: usize, by: &[f64]| felt[i].iter().map(|&(k, x)| x * by[k]).sum::<f64>();
+        contacts.g = Matrix::from_fn(2 * k, 2 * k, |i, j| moved(i, &contacts.responses[j]));
         Ok(contacts)
     }
 
@@ -300,14 +303,14 @@ impl Workspace<'_> {
             return Ok(mode);
         }
         for &(l, friction) in &sticking {
-            mode.contacts[l].mode = ContactMode::PartialFriction(friction);
+            mode.contacts_mut()[l].mode = ContactMode::PartialFriction(friction);
         }
         for &(l, friction) in &sticking {
-            mode.contacts[l].mode = ContactMode::Stick;
+            mode.contacts_mut()[l].mode = ContactMode::Stick;
             self.enter(&mode);
             let fails = self.solve_by(super::Route::Minimal).is_err();
             if fails && self.dense.saddle.actuation_rank() >= self.dense.saddle.rank().rank {
-                mode.contacts[l].mode = ContactMode::PartialFriction(friction);
+                mode.contacts_mut()[l].mode = ContactMode::PartialFriction(friction);
             }
         }
         self.enter(&mode);
@@ -354,8 +357,4 @@ pub(super) fn force_on_first<S: Scalar>(
         Some((_, load)) => load.f,
         None => -loads.iter().fold(Vec2::zero(), |sum, (_, load)| sum + load.f),
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -62,14 +62,14 @@ impl Workspace<'_> {
     pub fn start_contacts(&mut self) -> Result<Mode, DynamicsError> {
         let mut mode = self.mode().clone();
         for l in 0..self.m.unilateral.len() {
-            mode.contacts[l].feature = self.initial_feature(l);
+            mode.contacts_mut()[l].feature = self.initial_feature(l);
         }
         self.enter(&mode);
         for l in 0..self.m.unilateral.len() {
             let (gap, is_off) = (self.constraint_gap(l), mode.contacts[l].mode == ContactMode::Off);
             if self.m.unilateral[l].soft.is_some() {
                 let pressed = gap < 0.0 && compliant_force(self.at(), l) > 0.0;
-                mode.contacts[l].mode = match (is_off, pressed) {
+                mode.contacts_mut()[l].mode = match (is_off, pressed) {
                     (true, _) => ContactMode::Off,
                     (_, true) => ContactMode::Compliant,
                     _ => ContactMode::Open,
@@ -236,7 +236,7 @@ impl Workspace<'_> {
     /// `moment`, s, is short beside any of the motion.
     pub fn find_features(&self, moment: f64) -> Mode {
         let (mut mode, apart) = (self.mode().clone(), self.apart());
-        for (constraint, contact) in self.m.unilateral.iter().zip(&mut mode.contacts) {
+        for (constraint, contact) in self.m.unilateral.iter().zip(mode.contacts_mut()) {
             if contact.mode == ContactMode::Open && apart[constraint.group].is_none() {
                 let feature = constraint.gap.feature(self.m, &self.at(), contact.feature);
                 contact.feature = self.next_feature(&constraint.gap, feature, moment);
@@ -353,7 +353,7 @@ impl Workspace<'_> {
         let switched: Vec<usize> =
             constraints.filter(|&l| (mode.contacts[l].mode != ContactMode::Off) != there).collect();
         for &l in &switched {
-            mode.contacts[l] = match there {
+            mode.contacts_mut()[l] = match there {
                 true => ContactState { mode: ContactMode::Open, feature: self.initial_feature(l) },
                 false => ContactState { mode: ContactMode::Off, ..mode.contacts[l] },
             };

@@ -226,7 +226,7 @@ impl Workspace<'_> {
     fn rows_with_closed_contacts(&self) -> Vec<Row> {
         let rest_speed = REST * self.length * self.rate_of_motion();
         let mut mode = self.at().mode.clone();
-        for (l, contact) in mode.contacts.iter_mut().enumerate().filter(|(_, contact)| contact.mode.is_closed()) {
+        for (l, contact) in mode.contacts_mut().iter_mut().enumerate().filter(|(_, contact)| contact.mode.is_closed()) {
             let rests = self.slide_rate(l).abs() <= rest_speed;
             match (contact.mode, self.m.unilateral[l].friction) {
                 (ContactMode::Frictionless, _) => {}

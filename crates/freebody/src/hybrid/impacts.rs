@@ -168,7 +168,7 @@ impl HybridSystem<'_> {
         let mut mode = contacts.opened.clone();
         for &i in &impacting {
             let friction = self.workspace.friction_of(contacts.constraints[i]);
-            mode.contacts[contacts.constraints[i]].mode = held(impact.normal[i], impact.tangent[i], friction);
+            mode.contacts_mut()[contacts.constraints[i]].mode = held(impact.normal[i], impact.tangent[i], friction);
         }
         let unloaded: Vec<usize> = unloaded.iter().map(|&i| contacts.constraints[i]).collect();
         let restitution = self.restitutions(contacts);

@@ -69,7 +69,7 @@ impl HybridSystem<'_> {
     ) -> Result<(), DynamicsError> {
         self.place(t, y);
         let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
-        let contact = &mut mode.contacts[l];
+        let contact = &mut mode.contacts_mut()[l];
         if guard == ContactGuard::Border {
             let (_, beyond) = self.workspace.border(l).expect("a guard of a border belongs to one");
             contact.feature.index = beyond;

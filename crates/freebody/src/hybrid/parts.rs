@@ -131,7 +131,7 @@ impl HybridSystem<'_> {
     /// The present mode with no load on what is closed.
     fn with_unloaded_contacts(&self) -> Mode {
         let mut mode = self.mode.clone();
-        let carrying = mode.contacts.iter_mut().filter(|contact| contact.mode.carries());
+        let carrying = mode.contacts_mut().iter_mut().filter(|contact| contact.mode.carries());
         carrying.for_each(|contact| contact.mode = ContactMode::ClosedUnloaded);
         mode
     }

@@ -69,7 +69,7 @@ impl HybridSystem<'_> {
             return Ok(None);
         }
         self.place_in(mode, t, y);
-        self.workspace.solve()?;
+        self.workspace.solve_motion()?;
         let shortest = if is_pile { SHORTEST_IN_PILE } else { SHORTEST_FLIGHT };
         let (brief, before) = (shortest * self.workspace.length / self.speed, self.bounce_interval.take());
         let mut over = self.flights(contacts, parting);

@@ -370,9 +370,12 @@ impl EventDetector {
                 continue;
             }
             if place.side == -sign {
-                // What holds may start within its round-off, or within its leeway.
+                // What holds may start within its round-off, or within its leeway. Where it has just acted it may stay there for a
+                // while: it falls where it leaves that.
+                let has_stayed = memory.is_spent && last.value.abs() <= noise;
+                let is_from_zero = memory.is_guard && (place.begins || has_stayed);
                 let shifts = match memory.is_guard {
-                    true if place.begins => [noise; 2],
+                    true if is_from_zero => [noise; 2],
                     true => [0.0, NOISE * memory.size],
                     false => [0.0; 2],
                 };

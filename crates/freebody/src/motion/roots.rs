@@ -2,6 +2,7 @@
 
 use crate::scalar::real;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Samples per step of each switching function.
 pub(super) const SAMPLES: usize = 9;
@@ -17,14 +18,17 @@ pub(super) fn chebyshev_points() -> [f64; SAMPLES] {
     })
 }
 
+/// cos(jπ/8), a whole turn.
+static COSINES: LazyLock<[f64; 2 * (SAMPLES - 1)]> =
+    LazyLock::new(|| std::array::from_fn(|j| real::sin_cos(PI * j as f64 / (SAMPLES - 1) as f64).1));
+
 /// Coefficients in the Chebyshev basis of the interpolant through `values` at the points
 /// (Trefethen, *Approximation Theory and Approximation Practice*, ch. 3).
 pub(super) fn chebyshev(values: &[f64; SAMPLES]) -> [f64; SAMPLES] {
-    let last = SAMPLES - 1;
+    let (last, cosines) = (SAMPLES - 1, &*COSINES);
     let end = |index: usize| if index == 0 || index == last { 0.5 } else { 1.0 };
     std::array::from_fn(|k| {
-        let angle = |j: usize| PI * ((k * (last - j)) % (2 * last)) as f64 / last as f64;
-        let sum: f64 = (0..SAMPLES).map(|j| end(j) * values[j] * real::sin_cos(angle(j)).1).sum();
+        let sum: f64 = (0..SAMPLES).map(|j| end(j) * values[j] * cosines[k * (last - j) % (2 * last)]).sum();
         2.0 / last as f64 * end(k) * sum
     })
 }

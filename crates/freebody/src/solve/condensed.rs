@@ -16,16 +16,22 @@ pub struct Condensed {
     lower: Matrix,
     /// Of each row of L its first entry.
     first: Vec<usize>,
+    /// Of each row of L where its block ends: what lies beyond shares no inertia with it.
+    ends: Vec<usize>,
     inverse_pivots: Vec<f64>,
     /// L⁻¹ Gᵀ and L⁻¹ Bᵀ, column after column, as far as they are not 0.
     rows: Vec<Sparse>,
     forces: Vec<Sparse>,
     has_own_forces: bool,
+    /// Of each unknown what acts on it.
+    acting: Vec<Sparse>,
     /// What makes the rows of order one.
     scale: Vec<f64>,
     /// W in its factors, rows and columns in the order of their pivots.
     condensed: Matrix,
     order: [Vec<usize>; 2],
+    /// Of each row that is not eliminated its largest entry.
+    largest: Vec<f64>,
     rank: usize,
     side: Vec<f64>,
     x: Vec<f64>,
@@ -62,6 +68,13 @@ impl Condensed {
         self.lower.clone_from(mass);
         self.first.clear();
         self.first.extend((0..n).map(|i| mass.row(i)[..i].iter().position(|&x| x != 0.0).unwrap_or(i)));
+        self.ends.clear();
+        self.ends.resize(n, n);
+        let mut least = n;
+        for i in (1..n).rev() {
+            least = least.min(self.first[i]);
+            self.ends[i - 1] = if least == i { i } else { self.ends[i] };
+        }
         self.inverse_pivots.clear();
         for i in 0..n {
             let (above, from) = self.lower.split_rows_mut(i, n);
@@ -85,66 +98,80 @@ impl Condensed {
         true
     }
 
-    /// L⁻¹ of the rows of a matrix.
+    /// L⁻¹ of the rows of a matrix, block of M by block.
     fn half_solve(&mut self, of: &Matrix, out: &mut Vec<Sparse>) {
         out.resize_with(of.rows(), Sparse::new);
         for (i, out) in out.iter_mut().enumerate() {
+            out.clear();
             self.x.clear();
             self.x.extend_from_slice(of.row(i));
-            forward(&self.lower, &self.first, &mut self.x);
-            out.clear();
-            out.extend(self.x.iter().copied().enumerate().filter(|(_, x)| *x != 0.0));
+            let mut end = 0;
+            while let Some(more) = self.x[end..].iter().position(|&x| x != 0.0) {
+                let begin = end + more;
+                end = self.ends[begin];
+                for k in begin..end {
+                    let first = self.first[k].max(begin);
+                    self.x[k] -= dot(&self.lower.row(k)[first..k], &self.x[first..k]);
+                }
+                out.extend((begin..end).map(|k| (k, self.x[k])).filter(|(_, x)| *x != 0.0));
+            }
         }
     }
 
     /// W, made of order one; false where a row moves nothing.
     fn condense(&mut self) -> bool {
-        let Condensed { rows, inverse_pivots, scale, .. } = self;
+        let Condensed { rows, forces, inverse_pivots, scale, acting, condensed, .. } = self;
         let size = |row: &Sparse| row.iter().map(|&(k, x)| x * x * inverse_pivots[k]).sum::<f64>();
         scale.clear();
         scale.extend(rows.iter().map(|row| 1.0 / size(row).sqrt()));
-        let m = rows.len();
-        self.condensed.reset(m, m);
-        for j in 0..m {
-            let force = if self.has_own_forces { &self.forces[j] } else { &self.rows[j] };
-            self.x.fill(0.0);
-            force.iter().for_each(|&(k, x)| self.x[k] = x * self.inverse_pivots[k] * self.scale[j]);
-            for (i, row) in self.rows.iter().enumerate() {
-                self.condensed[(i, j)] = row.iter().map(|&(k, x)| x * self.x[k]).sum::<f64>() * self.scale[i];
-            }
+        acting.iter_mut().for_each(Sparse::clear);
+        acting.resize_with(inverse_pivots.len(), Sparse::new);
+        for (j, force) in if self.has_own_forces { forces } else { &*rows }.iter().enumerate() {
+            force.iter().for_each(|&(k, x)| acting[k].push((j, x * inverse_pivots[k] * scale[j])));
         }
-        self.condensed.data().iter().all(|entry| entry.is_finite())
+        condensed.reset(rows.len(), rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            let out = condensed.row_mut(i);
+            for &(k, x) in row {
+                acting[k].iter().for_each(|&(j, force)| out[j] += x * force);
+            }
+            out.iter_mut().for_each(|entry| *entry *= scale[i]);
+        }
+        condensed.data().iter().all(|entry| entry.is_finite())
     }
 
     /// W = L U with the largest pivot of all that is left (Golub & Van Loan, *Matrix Computations*, 4th ed., §3.4.6), down to what is
     /// round-off; false where a pivot is neither large nor that.
     fn eliminate(&mut self) -> bool {
-        let (w, m) = (&mut self.condensed, self.rows.len());
+        let (w, m, largest) = (&mut self.condensed, self.rows.len(), &mut self.largest);
         self.order.iter_mut().for_each(|order| order.splice(.., 0..m).for_each(drop));
-        let mut next = (0..m).fold(Largest::default(), |next, i| next.or_in(w.row(i), i, 0));
+        largest.clear();
+        largest.extend((0..m).map(|i| magnitude(w.row(i))));
         for k in 0..m {
-            let Largest { size, at: [i, j] } = next;
+            let i = (k..m).fold(k, |best, i| if largest[i] > largest[best] { i } else { best });
             self.rank = k;
-            if size <= DEPENDENT {
+            if largest[i] <= DEPENDENT {
                 return true;
             }
-            if !(size > CLEAR) {
+            if !(largest[i] > CLEAR) {
                 return false;
             }
+            let at = w.row(i)[k..].iter().position(|x| x.abs() == largest[i]);
+            let j = k + at.expect("the largest is an entry");
             w.swap_rows(k, i);
             (0..m).for_each(|row| w.row_mut(row).swap(k, j));
             self.order[0].swap(k, i);
             self.order[1].swap(k, j);
+            largest.swap(k, i);
             let (above, below) = w.split_rows_mut(k + 1, m);
             let pivot = &above[k * m..];
-            next = Largest::default();
-            for (i, row) in below.chunks_exact_mut(m).enumerate() {
+            for (row, largest) in below.chunks_exact_mut(m).zip(&mut largest[k + 1..]) {
                 row[k] /= pivot[k];
-                let part = row[k];
-                if part != 0.0 {
-                    axpy(-part, &pivot[k + 1..], &mut row[k + 1..]);
+                // What shares no body with the pivot stays as it is.
+                if row[k] != 0.0 {
+                    axpy(-row[k], &pivot[k + 1..], &mut row[k + 1..]);
+                    *largest = magnitude(&row[k + 1..]);
                 }
-                next = next.or_in(row, k + 1 + i, k + 1);
             }
         }
         self.rank = m;
@@ -254,22 +281,12 @@ impl Condensed {
     }
 }
 
-/// The largest entry so far.
-#[derive(Clone, Copy, Default)]
-struct Largest {
-    size: f64,
-    at: [usize; 2],
-}
-
-impl Largest {
-    /// It, or one of row `i` from a place on.
-    fn or_in(self, row: &[f64], i: usize, from: usize) -> Largest {
-        let larger = |best: Largest, (j, x): (usize, &f64)| match x.abs() > best.size {
-            true => Largest { size: x.abs(), at: [i, j] },
-            false => best,
-        };
-        row.iter().enumerate().skip(from).fold(self, larger)
-    }
+/// The largest magnitude, by lanes.
+fn magnitude(x: &[f64]) -> f64 {
+    let (most, rest) = x.as_chunks::<8>();
+    let larger = |a: f64, b: f64| if b.abs() > a { b.abs() } else { a };
+    let lanes = most.iter().fold([0.0; 8], |all, x| std::array::from_fn(|i| larger(all[i], x[i])));
+    lanes.iter().chain(rest).fold(0.0, |all, &x| larger(all, x))
 }
 
 /// x ← L⁻¹ x.

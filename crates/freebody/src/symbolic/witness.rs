@@ -38,7 +38,7 @@ fn without_direction(at: StateView<'_, f64>) -> usize {
         let mut along = pull.bodies.iter().flat_map(|&body| gradient(at, &pull.gauge, body).parts());
         !along.all(f64::is_finite)
     });
-    let strings = at.m.unilateral.iter().zip(&at.mode.contacts).filter(|(constraint, contact)| {
+    let strings = at.m.unilateral.iter().zip(at.mode.contacts.iter()).filter(|(constraint, contact)| {
         let Gap::Cable(cable) = &constraint.gap else { return false };
         contact.mode.is_closed() && cable.is_without_free_length(at.m, &at, contact.feature)
     });

@@ -394,7 +394,7 @@ fn how_hard_walls_pinch_what_slides_is_not_decided() {
     // The normal of the upper wall is turned round, and so is its tangent.
     let mut mode = Mode::free(&m);
     for (l, sense) in [1.0, -1.0, 1.0].into_iter().enumerate() {
-        mode.contacts[l].mode = ContactMode::Slip(sense);
+        mode.contacts_mut()[l].mode = ContactMode::Slip(sense);
     }
     workspace.enter(&mode);
     let trouble = workspace.solve().expect_err("any pinch");

@@ -337,3 +337,28 @@ fn sliding_on_a_kink_is_named() {
     assert!(matches!(run.outcome, Outcome::Chatter { .. }));
     assert!((run.t - 1.0).abs() < 1e-12);
 }
+
+/// What opens so slowly that it stays within its round-off for a while and then falls has fallen where it leaves that, whatever signs its
+/// round-off has before.
+#[test]
+fn a_guard_falls_where_it_leaves_its_roundoff() {
+    let (opens, falls) = (0.1, 0.1 + 5e-8);
+    let acted = std::cell::RefCell::new(vec![]);
+    let mut system = clock()
+        .watching(&[-1], |_, y, g| {
+            g[0] = match acted.borrow().len() {
+                0 => opens - y[0],
+                1 if y[0] < falls => 1e-17 * (opens + 1e-12 - y[0]).signum(),
+                1 => -0.02 * (y[0] - falls),
+                _ => 1.0,
+            }
+        })
+        .acting(|_, t, _| {
+            acted.borrow_mut().push(t);
+            After::Restart
+        });
+    system.watches[0] = EventSpec::guard(1.0);
+    let run = system.run("dop853", (0.0, &[0.0]), 1.0, &rtol(1e-9));
+    let acted = acted.borrow();
+    assert!(run.outcome.is_ok() && acted.len() == 2 && (acted[1] - falls).abs() < 1e-12, "{} {acted:?}", run.outcome);
+}

@@ -49,6 +49,46 @@ impl Pile {
         Pile { blocks, compiled }
     }
 
+    /// Boxes of one size on one another over the floor, each turned and shifted by a little, that are let go some height, m, apart.
+    pub fn stack(count: usize, apart: f64) -> Pile {
+        let [half, side] = [0.1, 0.06];
+        let corners = [[-half, -side], [half, -side], [half, side], [-half, side]];
+        let block = |i: usize| {
+            let outline = Outline::Polygon(corners.map(|[x, y]| vec2(x, y)).into());
+            let off = if i % 2 == 0 { 0.01 } else { -0.01 };
+            Block { outline, at: [off, (2 * i + 1) as f64 * side + (i + 1) as f64 * apart, off], rates: [0.0; 3] }
+        };
+        Pile::of((0..count).map(block).collect(), [0.5, 0.3])
+    }
+
+    /// Some bodies of one surface.
+    pub fn of(blocks: Vec<Block>, surfaces: Surfaces) -> Pile {
+        let compiled = model(&blocks, &mut |_| surfaces).compile();
+        Pile { blocks, compiled }
+    }
+
+    /// Mass and inertia of each body about its mass centre, of its outline alone.
+    pub fn inertias(&self) -> Vec<[f64; 2]> {
+        let of = |block: &Block| match &block.outline {
+            Outline::Disk(r) => [0.5 * TAU * r * r * DENSITY, 0.25 * TAU * r.powi(4) * DENSITY],
+            Outline::Polygon(corners) => {
+                let sides = || corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (a.cross(*b), a, b));
+                let second = |(cross, a, b): (f64, &Vec2, &Vec2)| cross * (a.dot(*a) + a.dot(*b) + b.dot(*b)) / 12.0;
+                [sides().map(|(cross, ..)| 0.5 * cross).sum::<f64>(), sides().map(second).sum()].map(|x| DENSITY * x)
+            }
+        };
+        self.blocks.iter().map(of).collect()
+    }
+
+    /// How far each body is from all others and from the box, m, at least.
+    pub fn distances(&self, poses: &[[f64; 3]]) -> Vec<f64> {
+        let shapes: Vec<StateView> =
+            self.blocks.iter().zip(poses).map(|(b, at)| StateView::of(&b.outline, *at)).collect();
+        let others = |i: usize| (0..shapes.len()).filter(move |&j| j != i);
+        let of = |i: usize| others(i).map(|j| shapes[i].apart(&shapes[j])).fold(shapes[i].in_box(), f64::min);
+        (0..shapes.len()).map(of).collect()
+    }
+
     pub fn mechanism(&self) -> &Mechanism {
         &self.compiled.mechanism
     }
