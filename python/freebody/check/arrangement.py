@@ -43,7 +43,7 @@ def arranged(
     kept: list[str] = []
     fitted: list[str] = []
     for text in (*conditions, *family.vanishing * _AGAIN):
-        if not model.vanishes(text, state):
+        if family.at_rest or not model.vanishes(text, state):  # at rest what it changes by is less than with rates
             try:
                 others = [each for each in kept if each != text]
                 state = _vanished(model, text, state, list(rates), others, not family.at_rest)
