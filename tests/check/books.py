@@ -55,6 +55,14 @@ NOT_FOUND = {
     ("trolley_hits_stop", "moments about the pin"): "says behind the equation that its rates are those after the impact",
     ("wheel_up_a_kerb", "least speed"): "is of the motion that just gets up, of which the start would have to be found",
     ("roller_off_a_drum", "slips off"): "says where something else is so",
+    ("cable_camera", "energy with the motors"): "random motions run past what is wound on the drums",
+    ("cable_camera", "straight down midway"): "takes longer to arrange than there is time",
+    ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
+    ("mass_with_play", "whole period"): "is the period of a motion that is no small vibration",
+    ("snap_through", "small swings about the relaxed place"): "is of a place of rest that other numbers do not have",
+    ("soap_box", "final speed"): "dies away too slowly to be seen to",
+    ("spar_buoy", "steady state of the pack"): "speaks of amplitudes by letters of their own",
+    ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",
 }
 """What is right of the half for mending and not found to be, with the reason."""
 

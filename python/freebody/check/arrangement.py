@@ -173,13 +173,16 @@ class _Place(_Rates):
     step = 1e-6
 
     def at(self, state: State) -> Array:
-        return state.q / self.model.sizes
+        free = self.model.free_places
+        return state.q[free] / self.model.sizes[free]
 
     def reached(self, state: State, x: Array) -> State:
-        rates = dict(zip(self.free, state.u[self.which].tolist(), strict=True))
-        return self.model.moved(state, x * self.model.sizes, rates)
+        free, q = self.model.free_places, state.q.copy()
+        q[free] = x * self.model.sizes[free]
+        return self.model.moved(state, q, dict(zip(self.free, state.u[self.which].tolist(), strict=True)))
 
-    moves = at
+    def moves(self, state: State) -> Array:
+        return state.q / self.model.sizes
 
     def slope(self, read: Callable[[Array], Array], x: Array, step: Array, here: Array) -> Array:
         return (read(x + step) - here) / self.step

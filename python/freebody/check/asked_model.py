@@ -30,7 +30,7 @@ _AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an 
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment
-_MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
+_MOMENTS, _HALVES = 6, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
 _STRIDE = 4.0  # by which a length grows from place to place on the way to where it is far larger
 _DEPENDENT = (
@@ -181,7 +181,7 @@ class AskedModel:
     def moved(self, state: State, q: Array, rates: Mapping[str, float], t: float | None = None, p: Array | None = None) -> State:
         """A state of the same assembly and mode with coordinates ``q``, where loops leave them free. Raises ``MotionError``."""
         p, t, named = state.p if p is None else p, state.t if t is None else t, self._named(q)
-        fixed = {self.names[i]: named.pop(self.names[i]) for i in self._places}
+        fixed = {self.names[i]: named.pop(self.names[i]) for i in self.free_places}
         return self.core.assemble(p, t, fixed, named, rates, history=state.history, beginning=state)[0]
 
     def staying(self, motion: Trajectory, begins: float, ends: float) -> float:
@@ -211,7 +211,7 @@ class AskedModel:
         return list(squares(self.spec))
 
     @cached_property
-    def _places(self) -> list[int]:
+    def free_places(self) -> list[int]:
         """Coordinates that say where closed loops are: those that the start gives as far as they are free, then those that move most."""
         given = [i for i, name in enumerate(self.names) if name in self.start.fixed or name in self.changes]
         rows, found = self.free_rates.copy(), list[int]()
