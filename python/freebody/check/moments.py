@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from freebody.core import CompiledModel, State
+from freebody.core import CompiledModel, State, Trajectory
 from freebody.core.compiled import BEFORE
 from freebody.model.start import quantity
 from freebody.run.moments import Unreached, time_of
@@ -27,6 +27,7 @@ class Moments:
     start: State
     since: float = 0.0
     known: dict[str, State | None] = field(default_factory=dict)
+    reached: dict[str, tuple[Trajectory, float] | None] = field(default_factory=dict)
 
     def in_numbers(self, text: str) -> str:
         """An expression with numbers for what is asked of other moments; NaN for one to which the motion does not come."""
@@ -43,7 +44,19 @@ class Moments:
 
     def _state(self, moment: str) -> State | None:
         """The state at a time, or just before or after the first of what happens under a name."""
-        core, start, name = self.core, self.start, moment.removeprefix(BEFORE)
+        name = moment.removeprefix(BEFORE)
+        if name not in self.reached:
+            self.reached[name] = self._reached(name)
+        if (found := self.reached[name]) is None:
+            return None
+        motion, t = found
+        if moment == name:
+            return motion.state(t)
+        return self.start if t == self.start.t else motion.state(float(np.nextafter(t, -np.inf)))
+
+    def _reached(self, name: str) -> tuple[Trajectory, float] | None:
+        """The motion up to a moment and that; None where it does not come to it."""
+        core, start = self.core, self.start
         until, span = None, 1 / core.free_bodies(start).usual_rate(core.metadata["coordinates"], start.u)
         if name[0].isdigit():
             until = quantity("a moment", name, "s")
@@ -52,10 +65,8 @@ class Moments:
             motion = core.simulate(start, start.t + span * 2**doubled, rtol=_EXACT, max_steps=_STEPS)
             with suppress(Unreached):
                 t = time_of(motion, name) if until is None else until
-                if moment != name and t == start.t:
-                    return start
                 if t <= motion.end.t:
-                    return motion.state(float(np.nextafter(t, -np.inf)) if moment != name else t)
+                    return motion, t
             if until is not None or motion.end.t < start.t + span * 2**doubled:
                 break
         return None

@@ -88,6 +88,8 @@ def _at_angles(whole: Add, needed: Array, values: Mapping[str, Array], vocabular
     for one, two in _halves(whole.terms):
         a, b = sampled(one, values), sampled(two, values)
         rest = needed - a**2 - b**2
+        if not (a.any() and b.any()):  # what is 0 makes no angle
+            continue
         if np.all(np.abs(rest) <= _SAME * needed):
             yield Add((_squared(one), _squared(two)))
         for call, sign in product(calls, (2.0, -2.0)):

@@ -75,15 +75,17 @@ def across_impact(checker: Checker, declared: Declared, label: str, statement: s
         return f" {beside(dotted, name, index)} "
 
     def signed(found: re.Match[str]) -> str:
-        name = re.sub(r"\\(?:var|d*dot)?|[^A-Za-z]", "", found[1]) + "s"
-        index = "2" if "+" in found[2] or "⁺" in found[2] else "1"
-        return f" {beside(found[1], f'{name}{len(letters)}', index)} "
+        letter = re.sub(r"\\(?:var)?(?!d*dot)|\\d*dot|[^A-Za-z0-9₀-₉]", "", found[1])
+        is_after, dot = re.search("[+⁺]", found[2]) is not None, "dot" * (re.search(r"dot|'", found[1]) is not None)
+        name = f"{letter}{dot}_{'after' if is_after else 'before'}".translate(_FIGURES)
+        letters[name] = f"{known.expression(found[1])} @ {'' if is_after else 'before '}{happening}"
+        return f" {name} "
 
     with suppress(StatementError, ModelProblem):
         said = _DELTA.sub(change, _SIGNED.sub(signed, _INDEXED.sub(at_moment, statement)))
         if letters:
             verdict = checker.check(said, {**declared, **letters}, correcting=checker.correcting)
-            read = f"`{label}` is read as the impact at {happening}, 1 as just before it and 2 as just after it."
+            read = f"`{label}` is read as the impact at {happening}, 1 or ⁻ as just before it and 2 or ⁺ as just after it."
             return replace(verdict, notes=(*verdict.notes, read))
     return None
 
@@ -94,6 +96,7 @@ def _letter(known: Symbols, found: re.Match[str]) -> tuple[str, str, bool]:
     return letter, index, known.spelt(f"{letter}{'' if found[4] else '_'}{index}") is not None
 
 
+_FIGURES = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _SIGNED = re.compile(
     r"((?:\\d*dot\s*\{?\s*)?(?:\\[A-Za-z]+|[^\W\d_]\u0307*)(?:_\{\w+\}|_?\w)?'*\}?)\s*([⁺⁻]|\^(?:\{[-−+]\}|[-−+](?=\s*(?:[-=+−*/·),^]|\Z|\s[^\W\d]))))"
 )
