@@ -16,7 +16,7 @@ from freebody.core import Array, MotionError, State
 from .families import Family, NoMotion
 
 if TYPE_CHECKING:
-    from .motion_sampler import MotionSampler
+    from .followed_model import FollowedModel
 
 NOTHING = 1e-11  # of what an expression changes by within the model's sizes: what vanishes by a hypothesis is below it
 _DONE = 1e-14  # of the same: where Newton's method has nothing left to do
@@ -30,7 +30,7 @@ _STEP = 1e-6  # of central differences, relative to a parameter
 
 
 def arranged(
-    model: MotionSampler,
+    model: FollowedModel,
     conditions: Sequence[str],
     state: State,
     rates: Mapping[str, float],
@@ -57,7 +57,7 @@ def arranged(
 
 
 def _fitted(
-    model: MotionSampler, texts: Sequence[str], state: State, values: Mapping[str, float], adjustable: Collection[str]
+    model: FollowedModel, texts: Sequence[str], state: State, values: Mapping[str, float], adjustable: Collection[str]
 ) -> State | None:
     """The same state with other values of the ``adjustable`` parameters, of their signs and in ratios as near 1 as possible, at which expressions
     are 0."""
@@ -84,7 +84,7 @@ def _fitted(
     return None
 
 
-def _vanished(model: MotionSampler, text: str, state: State, free: Sequence[str], kept: Sequence[str], by_rates: bool) -> State:
+def _vanished(model: FollowedModel, text: str, state: State, free: Sequence[str], kept: Sequence[str], by_rates: bool) -> State:
     """The nearest rates if it may be ``by_rates``, or where they are not in it the nearest place, at which an expression is 0 and those ``kept``
     are what they were; ``free`` are the rates that can be given. Raises ``NoMotion`` and ``MotionError``."""
     kinds = (_Rates, _Place) if by_rates else (_Place,)
@@ -110,7 +110,7 @@ class _Rates:
 
     step = 1.0  # of central differences, in units
 
-    def __init__(self, model: MotionSampler, state: State, texts: Sequence[str], free: Sequence[str]) -> None:
+    def __init__(self, model: FollowedModel, state: State, texts: Sequence[str], free: Sequence[str]) -> None:
         self.model, self.texts, self.free = model, texts, free
         self.which = [model.names.index(name) for name in free]
         self.units = model.rate * model.sizes[self.which]

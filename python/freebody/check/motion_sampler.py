@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from freebody.core import ModelError, MotionError, State, Trajectory
+from freebody.core import ModelError, MotionError, State
 from freebody.model.errors import ModelProblem
 from freebody.model.start import evaluate
 from freebody.run.moments import Unreached
@@ -22,14 +21,12 @@ from freebody.symbolic.dimensions import ANGLE, LENGTH
 
 from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated
-from .asked_model import AskedModel
 from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
-from .moments import Moments
+from .followed_model import FollowedModel
 from .sides import changes_side
 from .steady import steady_state
-from .stretches import first_zero, stretches, zeros
-from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
+from .stretches import first_zero, stretches
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -55,19 +52,13 @@ _ELSEWHERE = 0.8  # share of samples at random places with random rates; the oth
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
 _LONG = 12.0  # of the time typical of the model: how long a run is followed at least
 _STAGES = tuple(0.3 * 2.0**k for k in range(10))  # of the same time, one after the other: most of what vanishes does so soon
-_FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _PARTS = 4  # stretches of a motion that goes on through what switches
-_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
-_ZEROS = 4  # of an expression on a stretch, that are looked at
-_ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
-"""What is asked of more than the start."""
-_INSIDE = 0.5, 0.3, 0.8  # parts of a stretch
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 
 
-class MotionSampler(AskedModel):
+class MotionSampler(FollowedModel):
     """The true motions of a model. Families of samples are made once and kept. Loops are of the assembly of the start. Where contacts,
     strings, stops, friction or events decide what moves, and at a later moment, samples lie near the state of the moment, and what is
     in place and holds is the same there."""
@@ -150,10 +141,10 @@ class MotionSampler(AskedModel):
         elif self.rolls_in_loop and not family.at_start:
             found, start = self._rolled_on(rng, values, family)
         else:
-            found = self._released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
+            found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
         start = self.started(values) if family.since == BEFORE else start
-        lost = [text for text in family.vanishing if found and not self.vanishes(self._of_now(text, start), found)]
+        lost = [text for text in family.vanishing if found and not self.vanishes(self.of_now(text, start), found)]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
         if lost or not found or any(value <= 0 for value in self._read(family.above, found, start)):
@@ -162,20 +153,7 @@ class MotionSampler(AskedModel):
 
     def _read(self, texts: Sequence[str], state: State, start: State | None) -> list[float]:
         """Expressions in a state, with what is asked of the start of its motion."""
-        return self.core.evaluate([self._of_now(text, start) for text in texts], state).tolist()
-
-    def _of_now(self, text: str, start: State | None) -> str:
-        """An expression with numbers for what is asked of other moments of a motion from a start."""
-        return Moments(self.core, start).in_numbers(text) if start else text
-
-    def vanishes(self, text: str, state: State) -> bool:
-        """Whether an expression is 0 there."""
-        return abs(float(Samples(self.core, [state]).values([text])[text][0])) <= NOTHING * self.size_of(text, state)
-
-    def size_of(self, text: str, state: State) -> float:
-        """What an expression changes by while coordinates, rates and parameters do by what is typical of the model."""
-        by = np.abs(self.core.derivatives([text], state)[0, 1:])
-        return float(by @ np.concatenate([self.sizes, self.rate * self.sizes, np.abs(state.p)]))
+        return self.core.evaluate([self.of_now(text, start) for text in texts], state).tolist()
 
     def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
         held, scaled = dict(family.held), dict(family.scaled)
@@ -248,7 +226,7 @@ class MotionSampler(AskedModel):
             return self.core.assemble(start.p, state.t, guess=self._named(state.q), rates=rates)[0]
 
         there = start if places and self.vanishes(places[0], given_rates(start)) else None
-        for motion, _ in self._followed(start, _STAGES if places else (rng.uniform(_STAGES[0], _FURTHER),)):
+        for motion, _ in self.followed(start, _STAGES if places else (rng.uniform(_STAGES[0], _FURTHER),)):
             if places and family.at_rest:
                 left = lambda times, motion=motion: np.array(
                     [self.core.evaluate(places[:1], given_rates(motion.state(t)))[0] for t in times]
@@ -256,7 +234,7 @@ class MotionSampler(AskedModel):
                 t = first_zero(left, float(motion.steps[0]), motion.end.t)
                 found = None if t is None else motion.state(t)
             else:
-                found = self._first(places[0], motion, stretches(motion)) if places else motion.end
+                found = self.first_at(places[0], motion, stretches(motion)) if places else motion.end
             there = found or there
             if found is not None:
                 break
@@ -328,12 +306,12 @@ class MotionSampler(AskedModel):
         start = self._at_moment(
             self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
-        start = self._put(start, family, values)
+        start = self.put(start, family, values)
         began = self.started(values) if family.since == BEFORE else start
-        conditions = [self._of_now(text, began) for text in family.vanishing]
+        conditions = [self.of_now(text, began) for text in family.vanishing]
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
         first = conditions
-        for motion, goes_on in self._followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):
+        for motion, goes_on in self.followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):
             parts = stretches(motion)[: _PARTS if family.through else 1]
             begins, ends = parts[0][0], self.staying(motion, parts[0][0], parts[-1][1])
             parts = [(one, min(other, ends)) for one, other in parts if one < ends] or parts[:1]
@@ -344,8 +322,8 @@ class MotionSampler(AskedModel):
                 if family.late and not goes_on:
                     break
                 return self._sampled(motion.state(one + 0.99 * min(usual / self.rate, other - one)), family.through), start
-            above = [self._of_now(text, began) for text in family.above]
-            if (found := self._first(first[0], motion, parts, above)) is not None:
+            above = [self.of_now(text, began) for text in family.above]
+            if (found := self.first_at(first[0], motion, parts, above)) is not None:
                 return self._sampled(found, family.through), start
             if not goes_on and self.vanishes(first[0], motion.end):  # an event ends it there
                 return self._sampled(motion.end, family.through), start
@@ -353,56 +331,6 @@ class MotionSampler(AskedModel):
                 break
         at_start = first and not family.through and self.vanishes(first[0], start)
         return (self._sampled(start) if at_start else None), start
-
-    def _released(self, values: Mapping[str, float], family: Family) -> State:
-        """The start, where it has to be, and with no rates where it is to be at rest."""
-        start = self.started(values)
-        still = {self.names[i]: 0.0 for i in independent(self.free_rates)}
-        return self._put(self.moved(start, start.q, still) if family.at_rest else start, family, values)
-
-    def _put(self, start: State, family: Family, values: Mapping[str, float]) -> State:
-        """A start, put where it has to be for what is asked of its place alone."""
-        of_start = [text for text in family.vanishing if OF_START.search(text) and not _ELSE.search(text)]
-        moving = slice(1, 1 + 2 * len(self.names))
-        alone = (
-            text
-            for text in of_start
-            if not _TIME.search(text) and not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any()
-        )
-        places = [OF_START.sub(r"(\1)", text) for text in alone]
-        if family.since == BEFORE or all(self.vanishes(text, start) for text in places):
-            return start
-        return arranged(self, places, start, self._named(start.u), replace(family, at_rest=True, vanishing=()), values, ())
-
-    def _followed(self, start: State, longs: Sequence[float]) -> Iterator[tuple[Trajectory, bool]]:
-        """The motion from a start in stages that are so many times the time typical of the model long, the later ones as long as that
-        takes few steps; each, and whether it goes on."""
-        begins, steps = start.t, 0
-        for long in longs:
-            motion = self.run(start, long / self.rate, _EXACT)
-            goes_on, steps = motion.end.t >= start.t + 0.99 * long / self.rate, steps + len(motion.steps)
-            yield motion, goes_on
-            if not goes_on or (steps > _FEW_STEPS and motion.end.t > begins + _LONG / self.rate):
-                return
-            start = motion.end
-
-    def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:
-        """Whether an expression is 0 on all of a stretch."""
-        return all(self.vanishes(text, motion.state(begins + part * (ends - begins))) for part in _INSIDE)
-
-    def _first(
-        self, text: str, motion: Trajectory, parts: Sequence[tuple[float, float]], above: Sequence[str] = ()
-    ) -> State | None:
-        """Where an expression is first 0 behind the beginning of a motion, which may be just where something switches, while others are
-        ``above`` 0."""
-        for begins, ends in parts:
-            if self._stays(text, motion, begins, ends):
-                continue
-            for t in (*zeros(lambda times: motion.evaluate([text], times)[:, 0], begins, ends, _ZEROS if above else 1), ends):
-                it_has_not_jumped = self.vanishes(text, found := motion.state(t))
-                if it_has_not_jumped and np.all(self.core.evaluate(list(above), found) > 0):
-                    return found
-        return None
 
     def _sampled(self, found: State, through: bool = False) -> State | None:
         """A state, if all holds there as at the model's moment, on the same features and sides, and it may judge; ``through`` what
