@@ -173,16 +173,13 @@ class _Place(_Rates):
     step = 1e-6
 
     def at(self, state: State) -> Array:
-        free = self.model.free_places
-        return state.q[free] / self.model.sizes[free]
+        return state.q / self.model.sizes
 
     def reached(self, state: State, x: Array) -> State:
-        free, q = self.model.free_places, state.q.copy()
-        q[free] = x * self.model.sizes[free]
-        return self.model.moved(state, q, dict(zip(self.free, state.u[self.which].tolist(), strict=True)))
+        rates = dict(zip(self.free, state.u[self.which].tolist(), strict=True))
+        return self.model.moved(state, x * self.model.sizes, rates)
 
-    def moves(self, state: State) -> Array:
-        return state.q / self.model.sizes
+    moves = at
 
     def slope(self, read: Callable[[Array], Array], x: Array, step: Array, here: Array) -> Array:
         return (read(x + step) - here) / self.step

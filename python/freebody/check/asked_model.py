@@ -181,7 +181,7 @@ class AskedModel:
     def moved(self, state: State, q: Array, rates: Mapping[str, float], t: float | None = None, p: Array | None = None) -> State:
         """A state of the same assembly and mode with coordinates ``q``, where loops leave them free. Raises ``MotionError``."""
         p, t, named = state.p if p is None else p, state.t if t is None else t, self._named(q)
-        fixed = {self.names[i]: named.pop(self.names[i]) for i in self.free_places}
+        fixed = {self.names[i]: named.pop(self.names[i]) for i in self._places}
         return self.core.assemble(p, t, fixed, named, rates, history=state.history, beginning=state)[0]
 
     def staying(self, motion: Trajectory, begins: float, ends: float) -> float:
@@ -211,7 +211,7 @@ class AskedModel:
         return list(squares(self.spec))
 
     @cached_property
-    def free_places(self) -> list[int]:
+    def _places(self) -> list[int]:
         """Coordinates that say where closed loops are: those that the start gives as far as they are free, then those that move most."""
         given = [i for i, name in enumerate(self.names) if name in self.start.fixed or name in self.changes]
         rows, found = self.free_rates.copy(), list[int]()
