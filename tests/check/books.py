@@ -58,10 +58,13 @@ NOT_FOUND = {
     ("cable_camera", "energy with the motors"): "random motions run past what is wound on the drums",
     ("cable_camera", "straight down midway"): "takes longer to arrange than there is time",
     ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
+    ("loudspeaker_on_foam", "damping by the coil"): "lets a state follow at once, which stiffens the model",
+    ("loudspeaker_on_foam", "frequencies with the coil open"): "is of a model with a state of its own",
     ("mass_with_play", "whole period"): "is the period of a motion that is no small vibration",
     ("snap_through", "small swings about the relaxed place"): "is of a place of rest that other numbers do not have",
     ("soap_box", "final speed"): "dies away too slowly to be seen to",
     ("spar_buoy", "steady state of the pack"): "speaks of amplitudes by letters of their own",
+    ("thrown_baton", "no spin up"): "is of the model's own motion by its figure alone",
     ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",
 }
 """What is right of the half for mending and not found to be, with the reason."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from .api import Checker, Declared
 
-_HELD = re.compile(r"(?:(.*),)?\s*(?:the\s+)?([^,]+?)\s+(?:is\s+)?held(?:\s+at\s+([^,]+))?\s*(?:,(.*))?")
+_HELD = re.compile(r"(?:(.*),)?\s*(?:the\s+)?([^,]+?)\s+(?:is\s+)?held(?:\s+still)?(?:\s+at\s+([^,]+))?\s*(?:,(.*))?")
 _MOVED = 1e-9  # of the sizes of the model: what a coordinate moves less it does not move
 
 

@@ -120,6 +120,11 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     run = checker.own_motion
     happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
     found = in_phase(checker, declared, Phase(False, tuple(happens), False), words, statement, [at_first])
+    for name in [] if found.ok else dict.fromkeys(event.name for event in run.events):
+        with suppress(ModelProblem, StatementError):
+            before = beside_event(checker, declared, "", "before", name, statement)
+            if before.ok and not (before.untested and _is_idle(before)):
+                return replace(before, notes=(*before.notes, f"`{words}` is read as before {name}."))
     if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
         raise problem
     if found.ok or at_first.mends or not checker.correcting:
