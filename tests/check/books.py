@@ -58,6 +58,7 @@ NOT_FOUND = {
     ("cable_camera", "energy with the motors"): "random motions run past what is wound on the drums",
     ("cable_camera", "straight down midway"): "takes longer to arrange than there is time",
     ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
+    ("grip_car", "heat when it holds"): "takes longer to arrange than there is time",
     ("loudspeaker_on_foam", "damping by the coil"): "lets a state follow at once, which stiffens the model",
     ("loudspeaker_on_foam", "frequencies with the coil open"): "is of a model with a state of its own",
     ("mass_with_play", "whole period"): "is the period of a motion that is no small vibration",
