@@ -59,6 +59,7 @@ NOT_FOUND = {
     ("cable_camera", "straight down midway"): "takes longer to arrange than there is time",
     ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
     ("grip_car", "heat when it holds"): "takes longer to arrange than there is time",
+    ("inerter", "undamped steady state"): "takes about as long as there is time",
     ("loudspeaker_on_foam", "damping by the coil"): "lets a state follow at once, which stiffens the model",
     ("loudspeaker_on_foam", "frequencies with the coil open"): "is of a model with a state of its own",
     ("mass_with_play", "whole period"): "is the period of a motion that is no small vibration",
