@@ -35,7 +35,7 @@ from .language.statements import Program, symbols_in, terms
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
-from .phases import NOT_FIRST, alike, kind_of, phase
+from .phases import NOT_FIRST, called, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .residual import magnitude
@@ -311,8 +311,7 @@ class Checker:
                 "write `at 0.3 s: …`, or say when it is",
             )
         words, when = re.findall(r"\w+", said), phase(self, said)
-        named = lambda known: [name for name in known if any(name == word or alike(name, word) for word in words)]
-        for found in (named(events), when.changes if when else (), named(parts)):
+        for found in (called(events, words), when.changes if when else (), called(parts, words)):
             if len(found) == 1:
                 return found[0]
         alike_in_kind = [name for name in events if (kind := kind_of(said)) and kind == kind_of(name)]
@@ -352,7 +351,8 @@ class Checker:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
         there: ``the lowest point``, ``the clutch grips``."""
         said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
-        found = [e for e in self.sampler.spec["events"] if any(e["name"] == word or alike(e["name"], word) for word in said)]
+        named = called([e["name"] for e in self.sampler.spec["events"]], said)
+        found = [e for e in self.sampler.spec["events"] if e["name"] in named]
         found = found or (self.sampler.spec["events"] if _ENDS.search(words) and kind_of(words) != "reversal" else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
 

@@ -13,7 +13,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.run.records import quote
 
-from .phases import alike
+from .phases import called
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -77,9 +77,8 @@ def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
     given, sampler, names = checker.hypothesis, checker.sampler, checker.sampler.names
     if (found := _EXTREME.search(words)) and (rates := _rates(words, found.lastgroup == "least", checker, declared)):
         first, *second = rates
-        least = float(
-            np.nan_to_num(_TURNS * sampler.rate * sampler.size_of(first, sampler.own))
-        )  # a cord may start with no length
+        size = sampler.size_of(first, sampler.own)  # not finite where a cord starts with no length
+        least = float(np.nan_to_num(_TURNS * sampler.rate * size))
         above = (f"{text} - {least!r}" for text in second)
         return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
     if _STOPS.search(words) and len(names) == 1:
@@ -139,6 +138,5 @@ def _length(checker: Checker) -> str | None:
 def _body(words: str, checker: Checker) -> str | None:
     """The body that words name; the only one where they name none."""
     bodies = [body["name"] for body in checker.sampler.spec["bodies"]]
-    said = re.findall(r"\w+", words)
-    named = [name for name in bodies if any(name == word or alike(name, word) for word in said)]
+    named = called(bodies, re.findall(r"\w+", words))
     return named[0] if len(named) == 1 else bodies[0] if len(bodies) == 1 else None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -149,6 +149,11 @@ def _meant(words: str, parts: Collection[str], limits: Any, unnamed: Collection[
     scores = {part: score(part) for part in parts}
     best = max(scores.values(), default=0)
     return {part for part, its in scores.items() if its == best} if best else {*unnamed}
+
+
+def called(names: Iterable[str], said: Collection[str]) -> list[str]:
+    """Those of several names that some words are, or are alike to."""
+    return [name for name in names if any(name == word or alike(name, word) for word in said)]
 
 
 def alike(name: str, word: str) -> bool:

@@ -101,7 +101,7 @@ impl Motion {
 }
 
 impl HybridSystem<'_> {
-    /// Lets a program carry the motion from a state on that can be solved: as in [`crate::batch`], to the same bits.
+    /// Lets a program carry the motion from a state on that can be solved: as it does many side by side, to the same bits.
     pub(super) fn record_equations(&mut self, t: f64, y: &[f64]) {
         self.place(t, y);
         let is_solved = self.workspace.solve_motion().is_ok();
