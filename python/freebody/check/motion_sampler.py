@@ -312,7 +312,7 @@ class MotionSampler(FollowedModel):
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
         first = conditions
         for motion, goes_on in self.followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):
-            parts = stretches(motion)[: _PARTS if family.through else 1]
+            parts = stretches(motion, family.until)[: _PARTS if family.through else 1]
             begins, ends = parts[0][0], self.staying(motion, parts[0][0], parts[-1][1])
             parts = [(one, min(other, ends)) for one, other in parts if one < ends] or parts[:1]
             if begins == start.t:  # what is 0 all along is asked of no moment

@@ -15,9 +15,9 @@ _LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
 """Times at which it is looked for between two, how often again, and how near they may come."""
 
 
-def stretches(motion: Trajectory) -> list[tuple[float, float]]:
-    """Beginning and end of each."""
-    begins, ends = float(motion.steps[0]), motion.end.t
+def stretches(motion: Trajectory, until: str = "") -> list[tuple[float, float]]:
+    """Beginning and end of each, the last at the first event of a name, if it comes."""
+    begins, ends = float(motion.steps[0]), min([motion.end.t, *(event.t for event in motion.events if event.name == until)])
     inside = (change.t for change in motion.changes if begins < change.t < ends)
     return list(pairwise(dict.fromkeys((begins, *inside, ends)))) or [(begins, ends)]
 

@@ -64,10 +64,11 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
 
 
 def holds_on_run(checker: Checker, declared: Declared, statement: str) -> bool:
-    """Whether equations hold all along the model's own run, to its first switch."""
+    """Whether equations hold all along the model's own run, from the moment of which they are said to the next switch."""
     case, run = checker.case(statement, declared), checker.own_motion
-    ends = min((change.t for change in run.changes if change.t > run.t[0]), default=float(run.outcome.t))
-    values = case.meaning.values(_OnRun(run, np.linspace(run.t[0], ends, _TIMES)[1:-1], checker, run.evaluate))
+    begins = max(float(run.t[0]), checker.sampler.own.t)
+    ends = min((change.t for change in run.changes if change.t > begins), default=float(run.outcome.t))
+    values = case.meaning.values(_OnRun(run, np.linspace(begins, ends, _TIMES)[1:-1], checker, run.evaluate))
     return all(np.nanmax(np.abs(residual(equation, values).ratio)) < _KNOWN**0.5 for equation in case.equations)
 
 

@@ -210,7 +210,8 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
         verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
         return verdict
-    until = checker.check(statement, declared, SINCE_START)  # what is before it may be the motion up to it
+    up_to = replace(SINCE_START, until=checker.happening(event))  # what is before it may be the motion up to it
+    until = checker.check(statement, declared, up_to)
     return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
