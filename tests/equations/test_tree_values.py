@@ -12,6 +12,7 @@ import pytest
 from material import LETTERS, anything, half, square, sym, values
 
 from freebody.equations import Add, Fn, Num, Sym, evaluate, from_sympy, generate, read, to_sympy, write
+from freebody.symbolic.differentiate import _SLOPES, partial
 from freebody.symbolic.tree import mul, number, power
 
 ARRAYS = {
@@ -51,6 +52,14 @@ def test_tables_and_arrays_are_evaluated():
     bump = Fn("bump", (sym("x"),))
     x = np.linspace(0, 1, 5)
     assert evaluate(mul(number(2), bump), {sym("x"): x}, {"bump": np.square}) == pytest.approx(2 * x**2)
+
+
+@pytest.mark.parametrize("name", _SLOPES)
+def test_slopes_of_functions_are_their_differences(name):
+    at, step = 1.3 if name == "acosh" else 0.4, 1e-6
+    read = lambda x: evaluate(Fn(name, (sym("x"),)), {sym("x"): x})
+    difference = (read(at + step) - read(at - step)) / (2 * step)
+    assert evaluate(partial(Fn(name, (sym("x"),)), sym("x")), {sym("x"): at}) == pytest.approx(difference, rel=1e-8)
 
 
 def test_sympy_has_the_same_values_and_goes_round(trees):

@@ -15,21 +15,31 @@ if TYPE_CHECKING:
 
     from .api import Checker, Declared
 
-_HELD = re.compile(r"(?:(.*),)?\s*(?:the\s+)?([^,]+?)\s+(?:is\s+)?held(?:\s+still)?(?:\s+at\s+([^,]+))?\s*(?:,(.*))?")
+_STILL = r"(?:is\s+)?(?:(?:held|kept)(?:\s+(?:still|fixed|fast|in place|at rest))?|locked|clamped)|(?:does\s+not|can\s?not|could\s+not)\s+move"
+_HELD = re.compile(
+    rf"(?:(.*),)?\s*(?:the\s+)?((?!while|once|until|during|as\b|so\b)[^,]+?)\s+(?:{_STILL})(?:\s+at\s+([^,]+))?\s*(?:,(.*))?"
+)
 _MOVED = 1e-9  # of the sizes of the model: what a coordinate moves less it does not move
 
 
 def held(checker: Checker, declared: Declared, what: str, place: str) -> Checker | None:
-    """The same of the model in which the coordinate that ``what`` names, itself or by its body, stays at a ``place``, or where it starts; None
-    where it names none."""
-    name = _coordinate(checker, declared, what)
-    if name is None:
+    """The same of the model in which what ``what`` names, a coordinate, a body or a point, stays where it starts, or a coordinate at a ``place``;
+    None where it names none, or all that moves."""
+    sampler = checker.sampler
+    names = _coordinates(checker, declared, what)
+    if not names or len(names) == len(sampler.names) or (place and len(names) > 1):
         return None
-    k = checker.sampler.names.index(name)
-    value = place or repr(float(checker.sampler.own.q[k]))
-    unit = " rad" if checker.sampler.coordinates[k]["dimension"] == "rad" else " m"
-    law = value + unit * (re.fullmatch(r"-?[\d.e-]+", value) is not None)
-    return checker.of_model(("held", name, law), lambda mechanism: _hold(mechanism, name, law))
+    laws = {}
+    for k, name in ((sampler.names.index(name), name) for name in names):
+        value = place or repr(float(sampler.own.q[k]))
+        unit = " rad" if sampler.coordinates[k]["dimension"] == "rad" else " m"
+        laws[name] = value + unit * (re.fullmatch(r"-?[\d.e-]+", value) is not None)
+
+    def hold(mechanism: Builder) -> None:
+        for name, law in laws.items():
+            _hold(mechanism, name, law)
+
+    return checker.of_model(("held", *laws.items()), hold)
 
 
 def with_held(checker: Checker, declared: Declared, condition: str) -> tuple[Checker, str, str] | None:
@@ -55,16 +65,20 @@ def _free(mechanism: Builder, name: str) -> str:
     return name if name not in mechanism.model.motions else _free(mechanism, f"{name}_")
 
 
-def _coordinate(checker: Checker, declared: Declared, what: str) -> str | None:
-    """The coordinate of a symbol; the only one that moves the mass centre of a body, or turns it, by its name."""
+def _coordinates(checker: Checker, declared: Declared, what: str) -> list[str]:
+    """The coordinate of a symbol; those that move the mass centre of a body, or turn it, by its name, or move a point."""
     sampler = checker.sampler
     meaning = checker.symbols(declared).spelt(what)
     if meaning is not None and meaning.texts[0] in sampler.names:
-        return meaning.texts[0]
+        return [meaning.texts[0]]
     bodies = [body["name"] for body in sampler.spec["bodies"] if re.search(rf"\b{re.escape(body['name'])}\b", what)]
-    if len(bodies) != 1:
-        return None
-    body = quote(bodies[0])
-    by = sampler.core.derivatives([f"x({body}.G)", f"y({body}.G)", f"angle({body})"], sampler.own)
+    points = [name for name in sampler.core.points(sampler.own.p) if name.rpartition(".")[2] == what]
+    if len(bodies) == 1:
+        parts = [part.format(quote(bodies[0])) for part in ("x({}.G)", "y({}.G)", "angle({})")]
+    elif points and not bodies:
+        parts = [f"x({points[0]})", f"y({points[0]})"]
+    else:
+        return []
+    by = sampler.core.derivatives(parts, sampler.own)
     moves = np.abs(by[:, 1 : 1 + len(sampler.names)]).max(axis=0) > _MOVED
-    return sampler.names[int(np.argmax(moves))] if moves.sum() == 1 else None
+    return [name for name, its in zip(sampler.names, moves, strict=True) if its]

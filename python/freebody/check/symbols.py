@@ -49,6 +49,7 @@ _FUNCTIONS = ("sqrt", "sin", "cos", "tan", "pi")
 """Of parameters, what does not change."""
 _SHORT = {"Fx": "x", "Fy": "y"}
 DOUBTFUL = re.compile(r"/\s*\d+[^\W\d]")
+_INVERSE = re.compile(r"(?:sin|cos|tan)h?\s*(?:⁻¹|\^\s*\{?\s*\(?[-−]\s*1)")
 """2k/3m, of which only a person knows whether m is below the stroke."""
 _DIRECTIONS = {"i": ("1", "0", "0"), "j": ("0", "1", "0"), "k": ("0", "0", "1")}
 
@@ -155,7 +156,8 @@ class Symbols:
         said = [re.split(r"[;\n]", program.text[line.span[0] :])[0].strip() for line in gone]
         made = [f"Here {line.name.name} is what `{text}` makes it." for line, text in zip(gone, said, strict=True)]
         made += [f"Here {name} is read as: {self.assumed[name]}." for name in self.assumed if name in said_names]
-        if program.tight or (DOUBTFUL.search(program.text) and misfit(program, self.dimensions)):
+        doubtful = DOUBTFUL.search(program.text) and misfit(program, self.dimensions)
+        if program.tight or doubtful or _INVERSE.search(program.text):
             made.append(f"It is read as: {written(program)}")
         made += [f"The arrow {arrow} is not judged: it stands behind what is no vector here." for arrow in self.unjudged]
         return (*clashes, *made, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))

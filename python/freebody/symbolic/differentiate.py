@@ -113,12 +113,22 @@ def _short(node: Node, found: Node) -> Node:
     return found
 
 
+def _root(*terms: Node) -> Node:
+    return Fn("sqrt", (Add(terms),))
+
+
 _SLOPES: dict[str, Callable[[Node], Node]] = {
     "sin": lambda x: Fn("cos", (x,)),
     "cos": lambda x: Negative(Fn("sin", (x,))),
     "tan": lambda x: Quotient(_ONE, Pow(Fn("cos", (x,)), _TWO)),
     "sinh": lambda x: Fn("cosh", (x,)),
     "cosh": lambda x: Fn("sinh", (x,)),
+    "asin": lambda x: Quotient(_ONE, _root(_ONE, Negative(Pow(x, _TWO)))),
+    "acos": lambda x: Negative(Quotient(_ONE, _root(_ONE, Negative(Pow(x, _TWO))))),
+    "atan": lambda x: Quotient(_ONE, Add((_ONE, Pow(x, _TWO)))),
+    "asinh": lambda x: Quotient(_ONE, _root(Pow(x, _TWO), _ONE)),
+    "acosh": lambda x: Quotient(_ONE, _root(Pow(x, _TWO), Negative(_ONE))),
+    "atanh": lambda x: Quotient(_ONE, Add((_ONE, Negative(Pow(x, _TWO))))),
     "exp": lambda x: Fn("exp", (x,)),
     "ln": lambda x: Quotient(_ONE, x),
     "sqrt": lambda x: Quotient(_ONE, Mul((_TWO, Fn("sqrt", (x,))))),

@@ -39,6 +39,7 @@ Array = NDArray[np.float64]
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(np, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "sqrt", "sign", "hypot")},
     **{"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "ln": np.log, "abs": np.abs},
+    **{"asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh},
     **{"cot": lambda x: 1 / np.tan(x), "sec": lambda x: 1 / np.cos(x), "csc": lambda x: 1 / np.sin(x)},
     **{"min": np.minimum, "max": np.maximum},
 }

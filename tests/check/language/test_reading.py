@@ -64,6 +64,8 @@ ONE_READING = {
         r"\sin^2\theta = \tan^{2}{\alpha}",
         "(sinθ)² = (tanα)²",
     ],
+    "theta = asin(x/l)": ["θ = sin⁻¹(x/l)", r"\theta = \sin^{-1}\frac{x}{l}", "θ = arcsin(x/l)"],
+    "omega*t = acosh(x/l)": ["ωt = arcosh(x/l)", r"\omega t = \operatorname{arcosh}\frac{x}{l}", "ωt = cosh⁻¹(x/l)"],
     "g/l*sin(theta) = 0": ["g/l sinθ = 0", "(g/l) sin θ = 0", r"\frac{g}{l}\sin\theta = 0", r"\frac gl \sin\theta = 0"],
     "1/2*m*xdot^2 = m*g*l": ["½ m ẋ² = m g l", r"\frac12 m \dot{x}^2 = mgl", "1/2 m xdot**2 = m g l"],
     "[m, 0; 0, m1]*(x, y) = (1, 2)": [

@@ -11,7 +11,7 @@ from functools import lru_cache
 
 from freebody.symbolic.differentiate import rate as rate_of
 from freebody.symbolic.errors import Span, StatementError
-from freebody.symbolic.evaluate import ARGUMENTS
+from freebody.symbolic.evaluate import ARGUMENTS, FUNCTIONS
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Add, Column, Cross, Dot, Fn, Matrix, Mul, Negative, Node, Num, Pow, Quotient, Sym, Unit, walk
 
@@ -261,8 +261,11 @@ class Line:
     def call(self, token: Token) -> Node:
         power = self.exponent() if self.now.kind in ("raised", "^") else None  # the 2 of sin²θ
         if isinstance(power, Negative):
-            hint = f"write `a{token.text}(…)` or `1/{token.text}(…)`"
-            raise StatementError(f"`{token.text}` to a negative power has two meanings", self.span(token), hint)
+            inverse = f"a{token.text}"  # as textbooks write it: sin⁻¹ is no 1/sin
+            if power != Negative(Num(1.0)) or inverse not in FUNCTIONS:
+                hint = f"write `1/{token.text}(…)`, or `{inverse}(…)` for the inverse function"
+                raise StatementError(f"`{token.text}` to a negative power has two meanings", self.span(token), hint)
+            token, power = replace(token, text=inverse), None
         arguments = self.arguments(token)
         span = self.span(token)
         if token.text in ("cross", "dot"):

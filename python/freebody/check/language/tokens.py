@@ -14,7 +14,10 @@ from freebody.symbolic.symbols import folded
 
 from .glyphs import Glyph, Kind, glyphs
 
-ALIASES = {"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"}
+ALIASES = {
+    **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"},
+    **{f"{before}{of}": f"a{of}" for before in ("ar", "arc", "arg") for of in ("sinh", "cosh", "tanh")},
+}
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
 _SUFFIXES = {"dddot": 3, "ddot": 2, "dot": 1}
 _SHORT = re.compile(r"(?P<before>d{1,2})?(?P<name>.+?)(?(before)|(?P<after>d{1,2}))")
