@@ -29,7 +29,7 @@ from .language.statements import Equation, Program, inlined, symbols_in
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
 from .symbols import Symbols
-from .user_symbols import LARGEST, LEAST, MOMENT, Meaning
+from .user_symbols import AMPLITUDE, LARGEST, LEAST, MOMENT, Meaning
 from .vocabulary import Vocabulary
 
 _WORD = re.compile(r"[^\W\d][\w.\[\]]*")
@@ -51,7 +51,7 @@ _KINEMATIC = 1e-8  # what is left there of an equation that is none
 _ROUND_OFF = 1e-11  # of what is typical of a dimension
 _FEWER = 16  # states, where each takes long
 _OF_MOMENTS = 32  # states, where for each a motion is followed
-_EXTREME = re.compile(rf"⟦(?:{LARGEST}|{LEAST}): ")
+_EXTREME = re.compile(rf"⟦(?:{LARGEST}|{LEAST}): |{AMPLITUDE}")
 _MANY = 12  # reactions, beyond which only those of the statement are thought of
 
 

@@ -18,9 +18,8 @@ from freebody.symbolic.evaluate import sampled
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import (
-    family,
-)
+from .amplitudes import of_amplitudes
+from .assumptions import family
 from .case import Case
 from .condition_edits import other_conditions
 from .constant_claims import constant, reading
@@ -52,6 +51,8 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     if (found := _JUST.match(claim)) and (happening := checker.only_impact):
         claim = f"{found[1]} {happening}:{claim[found.end() :]}"
     claim = as_claim(claim)
+    if found := of_amplitudes(checker, {**declared, **given}, claim):
+        return found
     if (found := _AT_BLOW.match(claim)) and (
         verdict := across_impact(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
     ):

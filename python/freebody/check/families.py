@@ -12,9 +12,9 @@ from freebody.core import CompiledModel, State
 from freebody.model.names import unquote
 from freebody.run.records import Array, quote
 
-from .integrals import summed
+from .integrals import amplitude, summed
 from .moments import Moments
-from .user_symbols import LOAD, OF_START, SUMMED
+from .user_symbols import AMPLITUDE, LOAD, OF_START, SUMMED
 
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 
@@ -90,11 +90,12 @@ class Samples:
         since = state.t - start.t if start else 0.0
         asked = Moments(self.core, start, since) if start else None
         read = {text: asked.in_numbers(text) if asked else text for text in texts}
-        plain = [t for t, of in read.items() if not (of.startswith((LOAD, SUMMED)) or OF_START.search(of) or "(nan)" in of)]
+        plain = [t for t, of in read.items() if not (of.startswith((LOAD, SUMMED, AMPLITUDE)) or OF_START.search(of) or "(nan)" in of)]
         found = self.core.evaluate([read[text] for text in plain], state)
         if len(plain) == len(texts):
             return found
         known = dict(zip(plain, found.tolist(), strict=True))
+        known |= {text: amplitude(text, self.core, state) for text in texts if text.startswith(AMPLITUDE)}
         if any(text.startswith(LOAD) for text in texts):
             known |= {LOAD + load.symbol: load.value for load in self.core.free_bodies(state).loads}
         if start:

@@ -3,6 +3,7 @@ largest on that."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -15,7 +16,8 @@ from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Num, Sym
 
 from .language.statements import Integral, symbols_in
-from .user_symbols import LARGEST, SUMMED, Masses, Meaning, Values
+from .stretches import zeros
+from .user_symbols import AMPLITUDE, LARGEST, SUMMED, Masses, Meaning, Values
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _PANELS = 12
@@ -24,6 +26,8 @@ _SAME = 1e-9  # by how much two places may differ, relative
 _DOUBLED = 10  # times that a motion is followed twice as long, until something on it has had its largest value
 _LOOKS, _FINER, _NEARLY = 129, 4, 0.03
 """Times at which it is looked for, how often again between two, and what part of its changes it may lack where it is looked for first."""
+_NEAR, _BACK = 1e-11, 1e-8  # tolerance of the motion whose amplitude is asked for, and by how much that may miss when it comes back
+_TURNS = 8, 32, 128  # of the time typical of it, on which it turns three times
 _ENDS = ("1", "2", "f", "e")
 """Indices of the moment at which a stretch ends."""
 
@@ -126,6 +130,18 @@ def extreme(text: str, core: CompiledModel, start: State, typical: float) -> flo
             grows = ends > start.t and values[-1] == values.max()
             return extreme(text, core, motion.state(ends), typical) if grows else float("nan")
     return float("nan")
+
+
+def amplitude(text: str, core: CompiledModel, state: State) -> float:
+    """Half of what something goes to and fro between where it turns on the motion from a state on, if it comes back as far; else NaN."""
+    of, rate = text.removeprefix(AMPLITUDE), core.free_bodies(state).usual_rate(core.metadata["coordinates"], state.u)
+    for turns in _TURNS:
+        motion = core.simulate(state, state.t + turns / rate, rtol=_NEAR, max_steps=5000)
+        read = lambda times, motion=motion: motion.evaluate([f"rate({of})"], times)[:, 0]
+        if len(found := [*zeros(read, state.t, motion.end.t, 3)]) == 3:
+            one, other, again = motion.evaluate([of], np.array(found))[:, 0].tolist()
+            return abs(one - other) / 2 if abs(again - one) <= _BACK * abs(one - other) else math.nan
+    return math.nan
 
 
 def _has_returned(values: Array) -> bool:

@@ -100,6 +100,8 @@ INITIAL = "at the start: "
 """How a declaration begins of what something is where the motion starts."""
 LARGEST, LEAST = "the largest", "the least"
 """How one begins of what a quantity has along the motion from the start."""
+AMPLITUDE = "the amplitude of "
+"""How one begins of half of what a quantity goes to and fro from a state on."""
 OF_START = re.compile("⟦(.+?)⟧")
 """A part of a text whose value where the motion starts is asked, or at a moment that stands behind it."""
 MOMENT = " @ "
@@ -135,6 +137,9 @@ class Reader:
             if phrase.startswith(f"{word}: "):
                 text, dimension = self.measured(phrase.removeprefix(f"{word}: "))
                 return Meaning("initial", (f"⟦{word}: {text}⟧",), dimension)
+        if phrase.startswith(AMPLITUDE):
+            text, dimension = self.measured(phrase.removeprefix(AMPLITUDE))
+            return Meaning("amplitude", (f"{AMPLITUDE}{text}",), dimension)
         if asked := _AT_MOMENT.fullmatch(phrase):
             text, dimension = self.measured(asked[1])
             return Meaning("initial", (f"⟦{text}{self.at_moment(asked[2])}⟧",), dimension)

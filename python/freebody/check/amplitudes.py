@@ -1,0 +1,87 @@
+"""Amplitudes: half of what something goes to and fro, in the steady state of what is driven, else on the motion from the start."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from .families import Family
+from .user_symbols import AMPLITUDE
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+    from .verdict import Verdict
+
+_SYMBOL = r"\\?[^\W\d]\w*'*(?:_\{\w+\})?"
+_SAID = re.compile(
+    r"(?P<before>[^=:]*?)\b(?:steady[\s-](?:state[\s-])?|forced\s+)?amplitudes?\b(?:\s+of\s+(?:the\s+)?(?:(?:steady|forced)\s+)?"
+    rf"(?:(?P<what>{_SYMBOL})(?![\w-])|[a-z]+(?:\s+of\s+(?:the\s+)?\w+)?))?(?P<after>[^=:]*?)(?:\s+is\s|\s*[:=,])\s*(?P<rest>\S.*)",
+    re.S,
+)
+"""``steady-state amplitude of x: X = …``."""
+_IS = re.compile(rf"({_SYMBOL})\s*=(?!=)\s*(.+)", re.S)
+_STEADY = re.compile(r"if ([^:]*\bin the steady state\b[^:]*): ?([^:]+)", re.S)
+_WORDS = re.compile(r"\s*(?:(?:in|for|the|its|resulting|steady|state|motion|vibrations?|oscillations?)\b[\s,]*)*")
+
+
+def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict | None:
+    """The verdict about a claim that speaks of amplitudes, in words or by capitals in a steady state, ``X`` of ``x``; None where it
+    does not."""
+    if said := _SAID.fullmatch(claim):
+        before = re.sub(r"\A\s*if\s+|[\s:,]+\Z", "", said["before"])
+        if not _WORDS.fullmatch(said["after"]) or not (_WORDS.fullmatch(before) or claim.startswith("if ")):
+            return None
+        found = _IS.fullmatch(said["rest"])
+        letter, value = (found[1], found[2]) if found and "=" not in found[2] else ("", said["rest"])
+        if (what := _of(checker, declared, said["what"], letter)) is None:
+            return None
+        conditions = "" if _WORDS.fullmatch(before) else before
+        given = {**declared, (letter or _NAME): f"{AMPLITUDE}{what}"}
+        return _judged(checker, given, conditions, f"{letter or _NAME} = {value}")
+    if steady := _STEADY.fullmatch(claim):
+        given = {name: f"{AMPLITUDE}{of}" for name, of in _capitals(checker, declared, steady[2]).items()}
+        return _judged(checker, {**declared, **given}, steady[1], steady[2]) if given else None
+    return None
+
+
+def _judged(checker: Checker, declared: Declared, conditions: str, statement: str) -> Verdict:
+    """Of the steady state, if something drives the model; of amplitudes the size is judged: a sign says how they follow what drives."""
+    driven = checker.sampler.has(Family(steady=True))
+    how = "in the steady state" if driven else "from the start"
+    under = ", ".join(part for part in (how, conditions.replace("in the steady state", "").strip(" ,")) if part)
+    verdict = checker.check(f"if {under}: {statement}", declared)
+    sides = statement.split("=")
+    if verdict.ok or len(sides) != 2:
+        return verdict
+    sized = checker.check(f"if {under}: abs({sides[0]}) = abs({sides[1]})", declared, correcting=False)
+    return replace(sized, text=verdict.text) if sized.ok else verdict
+
+
+def _of(checker: Checker, declared: Declared, what: str | None, letter: str) -> str | None:
+    """Of which quantity an amplitude is; None where that is not clear."""
+    if what and not what.islower() and checker.symbols(declared).spelt(what) is None:
+        return None
+    if what and (meaning := checker.symbols(declared).spelt(what)):
+        return meaning.texts[0]
+    found = _capitals(checker, declared, letter)
+    if letter in found:
+        return found[letter]
+    names = checker.sampler.names
+    return names[0] if len(names) == 1 else None
+
+
+def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str, str]:
+    """The capitals in a statement without a meaning of their own, with the quantities whose small letters they are."""
+    known = checker.symbols(declared)
+    found = {}
+    for name in dict.fromkeys(re.findall(_SYMBOL, statement)):
+        small = name.lower()
+        if name != small and name not in _ENERGIES and (meaning := known.spelt(small)) and known.spelt(name) is None and name not in known.meanings:
+            if meaning.kind in ("coordinate", "gauge", "declared"):
+                found[name] = meaning.texts[0]
+    return found
+
+
+_NAME = "amp"
+_ENERGIES = ("E", "T", "V")

@@ -1,0 +1,43 @@
+"""Amplitudes of what is driven and of what swings freely: closed forms of Thomson, Theory of Vibration, chapters 2 and 3."""
+
+from __future__ import annotations
+
+import pytest
+
+from freebody.check import Checker, Kind
+from freebody.mechanism import Mechanism
+
+MASS = """
+freebody: 1
+parameters: {m: 2.3 kg, k: 410 N/m, c: 11 N*s/m, F0: 7.4 N, Ω: 17 1/s, x0: 0.031 m, v0: 0.42 m/s}
+gravity: none
+ground: {lines: {level: {through: O, angle: 0}}}
+bodies: {block: {shape: particle, mass: m}}
+joints: {rail: {type: slot, along: ground.level, point: block.centre, coordinate: x}}
+"""
+FORCES = {
+    "driven": "spring: {type: spring, along: x, stiffness: k, damping: c}, push: {type: force, at: block.centre, x: F0*sin(Ω*t)}",
+    "undamped": "spring: {type: spring, along: x, stiffness: k}, push: {type: force, at: block.centre, x: F0*sin(Ω*t)}",
+    "free": "spring: {type: spring, along: x, stiffness: k}",
+}
+SAID = [
+    ("driven", "in the steady state: X = F0/√((k − m Ω²)² + (c Ω)²)", Kind.TRUE),
+    ("driven", "the steady-state amplitude of x is F0/√((k − m Ω²)² + c² Ω²)", Kind.TRUE),
+    ("driven", "amplitude of the block: A = F0/√((k − m Ω²)² + (c Ω)²)", Kind.TRUE),
+    ("driven", "in the steady state: X = F0/√((k − m Ω²)² + c² Ω)", Kind.DIMENSIONS),
+    ("driven", "in the steady state: X = F0/√((k − m Ω²)² + 4 c² Ω²)", Kind.WRONG),
+    ("driven", "in the steady state: X = F0/√((k + m Ω²)² + (c Ω)²)", Kind.WRONG),
+    ("undamped", "steady-state amplitude: X = F0/(k − m Ω²)", Kind.TRUE),
+    ("undamped", "steady-state amplitude: X = F0/(k − 2 m Ω²)", Kind.WRONG),
+    ("free", "amplitude: X = √(x0² + m v0²/k)", Kind.TRUE),
+    ("free", "the amplitude of x is √(x0² + (v0/ω)²), where ω = √(k/m)", Kind.TRUE),
+    ("free", "amplitude: X = x0 + v0 √(m/k)", Kind.WRONG),
+]
+
+
+@pytest.mark.parametrize(("model", "says", "kind"), SAID)
+def test_amplitudes_are_judged(model, says, kind):
+    text = f"{MASS}forces: {{{FORCES[model]}}}\ninitial: {{x: x0, rates: {{x: v0}}}}\n"
+    checker = Checker(Mechanism.loads(text))
+    checker.correcting = False
+    assert checker.check(says).kind is kind
