@@ -15,6 +15,7 @@ import numpy as np
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
+from freebody.solve.perturbed_states import independent
 from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, is_zero, sampled
@@ -324,7 +325,10 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))
     if part in (IN_EQUILIBRIUM, AT_CONSTANT_SPEED):
-        still = (f"accel({spell(name)})" for name in checker.sampler.names)
+        names = checker.sampler.names
+        if part == IN_EQUILIBRIUM:  # at rest the others follow
+            names = [names[i] for i in independent(checker.sampler.free_rates)]
+        still = (f"accel({spell(name)})" for name in names)
         return replace(given, at_rest=given.at_rest or part == IN_EQUILIBRIUM, vanishing=(*given.vanishing, *still))
     if part in WORDS:
         return replace(given, **WORDS[part])

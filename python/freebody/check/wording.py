@@ -95,9 +95,11 @@ _GIVEN_SMALL = re.compile(
 _SAID_OF_MOMENT = re.compile(rf"\A\s*([^\s=:;,]+)\s+({_INSTANT}[^=:;\n]+?)\s*(=[^:;\n]+)\Z")
 """``E just after the impact = …``."""
 _STILL_FIRST = re.compile(
-    r"\A\s*(?:if\s+|when\s+|while\s+)?(?:(?:it|all)\s+(?:is|hangs|stands)\s+)?(?:held|kept|hanging|standing|holding)\s+still(?=\s*[:,])"
+    r"\A\s*(?:(?:(?:if|when|while)\s+)?(?:(?:it|all)\s+(?:is|hangs|stands)\s+)?(?:held|kept|hanging|standing|holding)\s+still"
+    r"|(?:(?:for\s+it|if\s+it\s+is|so\s+that\s+it\s+(?:may|can)|in\s+order)\s+)?to\s+(?:hang|stay|stand|remain|hold|keep|be|sit|lie|rest|balance)"
+    r"(?:\s+(?:it|still|steady|at\s+rest|in\s+equilibrium|in\s+balance|there|at\s+any\s+\S+|in\s+any\s+(?:place|position)))*)(?=\s*[:,])"
 )
-"""``held still:``."""
+"""``held still:``, ``to stay at rest:``, ``to hang still at any θ:``."""
 _BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
 """``when r = R, a = 0``."""
 _BEHIND = re.compile(
