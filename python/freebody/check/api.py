@@ -310,8 +310,9 @@ class Checker:
                 f"of what happens several times only the first is judged, not the {found[0]}",
                 "write `at 0.3 s: …`, or say when it is",
             )
-        words, when = re.findall(r"\w+", said), phase(self, said)
-        for found in (called(events, words), when.changes if when else (), called(parts, words)):
+        words = re.findall(r"\w+", said)
+        begins, ends = (when.changes if (when := phase(self, f"{said}{over}")) else () for over in ("", " is over"))
+        for found in (called(events, words), begins, called(parts, words), ends):  # after slipping: what goes on ends
             if len(found) == 1:
                 return found[0]
         alike_in_kind = [name for name in events if (kind := kind_of(said)) and kind == kind_of(name)]

@@ -149,7 +149,7 @@ class Reading:
         the stroke."""
         if not misfit(program, self.known.dimensions, strictly=True):
             return self._measured(program, names) if units else program
-        ways: list[dict[str, bool]] = [{"units": True}, {"tight": True}] if units else [{"tight": True}]
+        ways = [*([{"units": True}] if units else []), {"apart": True}, {"tight": True}]
         energy = self.known.meanings.get("T") if "T" in self.known.assumed else None
         period = self.known.vibration.meanings(["period"]).get("period") if energy and self.known.vibration else None
         for meaning in (energy, period) if period else (None,):

@@ -157,7 +157,7 @@ class Symbols:
         made = [f"Here {line.name.name} is what `{text}` makes it." for line, text in zip(gone, said, strict=True)]
         made += [f"Here {name} is read as: {self.assumed[name]}." for name in self.assumed if name in said_names]
         doubtful = DOUBTFUL.search(program.text) and misfit(program, self.dimensions)
-        if program.tight or doubtful or _INVERSE.search(program.text):
+        if program.tight or program.apart or doubtful or _INVERSE.search(program.text):
             made.append(f"It is read as: {written(program)}")
         made += [f"The arrow {arrow} is not judged: it stands behind what is no vector here." for arrow in self.unjudged]
         return (*clashes, *made, *(str(each) for each in self.printed.renamed if folded(each.usual.unicode()) in used))

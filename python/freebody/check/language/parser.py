@@ -32,28 +32,29 @@ from .tokens import Names, Token, tokens
 
 
 def parse(
-    text: str, names: Iterable[str] = (), constants: Iterable[str] = (), units: bool = False, tight: bool = False
+    text: str, names: Iterable[str] = (), constants: Iterable[str] = (), units: bool = False, tight: bool = False, apart: bool = False
 ) -> Program:
     """The lines of a statement. ``names`` are the symbols that are known, of which those in ``constants`` do not change with time;
     unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name; ``tight``: what stands directly behind a
-    factor below a stroke is below it, too, 2k/(3m) for ``2k/3m``.
+    factor below a stroke is below it, too, 2k/(3m) for ``2k/3m``; ``apart``: letters side by side are no name with an index, m r for ``mr``
+    though m_r is known.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
-    return _parsed(text, tuple(names), frozenset(constants), units, tight)
+    return _parsed(text, tuple(names), frozenset(constants), units, tight, apart)
 
 
 @lru_cache(maxsize=64)  # one statement is read several times on the way to its verdict
-def _parsed(text: str, own: tuple[str, ...], constants: frozenset[str], units: bool, tight: bool) -> Program:
-    known = _names(own, constants, units, tight)
+def _parsed(text: str, own: tuple[str, ...], constants: frozenset[str], *way: bool) -> Program:
+    known = _names(own, constants, *way)
     try:
         row = tokens(text, known)
         if assigned := _assigned(row, known):
-            known = _names((*own, *assigned), constants, units, tight)
+            known = _names((*own, *assigned), constants, *way)
             row = tokens(text, known)
         rows = [Line(row, known, text).line() for row in _lines(row)]
         lines = _written_out(_meanings(rows, set(own)), known)
-        program = Program((*_rates(lines, known), *lines), text, units, tight, span=(0, len(text)))
+        program = Program((*_rates(lines, known), *lines), text, *way, span=(0, len(text)))
     except StatementError as error:
         raise error.within(text) from None
     except RecursionError:

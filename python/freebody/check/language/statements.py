@@ -78,12 +78,13 @@ class Assignment(Node):
 @dataclass(frozen=True)
 class Program(Node):
     """All lines of a statement, in order, and its text; ``units``: read so that units behind numbers go before symbols;
-    ``tight``: so that what stands directly behind a factor below a stroke is below it."""
+    ``tight``: so that what stands directly behind a factor below a stroke is below it; ``apart``: so that letters side by side are no index."""
 
     lines: tuple[Assignment | Equation, ...]
     text: str = field(default="", compare=False)
     units: bool = field(default=False, compare=False)
     tight: bool = field(default=False, compare=False)
+    apart: bool = field(default=False, compare=False)
 
     @property
     def assignments(self) -> tuple[Assignment, ...]:

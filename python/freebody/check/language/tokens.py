@@ -15,7 +15,7 @@ from freebody.symbolic.symbols import folded
 from .glyphs import Glyph, Kind, glyphs
 
 ALIASES = {
-    **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"},
+    **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctg": "atan", "tg": "tan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"},
     **{f"{before}{of}": f"a{of}" for before in ("ar", "arc", "arg") for of in ("sinh", "cosh", "tanh")},
 }
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
@@ -59,13 +59,16 @@ class Names:
     """Whether what may be a unit behind a number is one, known symbol or not."""
     tight: bool = False
     """Whether what stands directly behind a factor below a stroke is below it, too."""
+    apart: bool = False
+    """Whether letters side by side are no name with an index, which they would spell."""
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
         """The declared name of each folded spelling; a name that is spelled just so goes first. ``Mg`` is no M_g where it is M times g,
         but φ is no p times h times i."""
         made = lambda n: n.isascii() and n not in self.constants and self.constants.issuperset(folded(n))
-        folding = (n for n in reversed(self.known) if not made(n))
+        indexed = lambda n: self.apart and "_" in n and {*self.known}.issuperset(folded(n))
+        folding = (n for n in reversed(self.known) if not (made(n) or indexed(n)))
         return {**{folded(n): n for n in folding}, **{n: n for n in self.known}}
 
     @cached_property
