@@ -152,8 +152,9 @@ def _meant(words: str, parts: Collection[str], limits: Any, unnamed: Collection[
 
 
 def called(names: Iterable[str], said: Collection[str]) -> list[str]:
-    """Those of several names that some words are, or are alike to."""
-    return [name for name in names if any(name == word or alike(name, word) for word in said)]
+    """Those of several names that some words are, else those that they are alike to."""
+    names = [*names]
+    return [name for name in names if name in said] or [name for name in names if any(alike(name, word) for word in said)]
 
 
 def alike(name: str, word: str) -> bool:
