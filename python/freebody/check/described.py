@@ -14,6 +14,7 @@ from freebody.model.names import spell
 from freebody.run.records import quote
 
 from .phases import called
+from .stretches import first_zero
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -44,6 +45,7 @@ _STOPS = re.compile(
     r"\b(?:stops|stopped|comes? to (?:rest|a (?:stop|halt|standstill))|stands? still|(?:momentarily|instantaneously) at rest)\b"
 )
 _SPEED = re.compile(r"\b(?:speed|velocity|fast(?:est)?|slow(?:est)?)\b")
+_STILL = 1e-6  # of the rate with which something moves at first: below it it rests
 _TURNS = 1e-6  # of what is typical, what a second derivative is at least where something turns: what stays so does not
 _PLACE = re.compile(
     r"\b(?:point|place|position|height|swing|swung|angle|tilt|lean|turn|deflection|displacement|excursion|deviation|amplitude|distance|way)\b"
@@ -81,14 +83,27 @@ def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
         least = float(np.nan_to_num(_TURNS * sampler.rate * size))
         above = (f"{text} - {least!r}" for text in second)
         return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
-    if _STOPS.search(words) and len(names) == 1:
+    if _STOPS.search(words) and (name := _coming_to_rest(checker)):
         place = f"x({quote(body)}.G)" if (body := _body(words, checker)) else ""
         side = [
             f"{sign}({place} - ⟦{place}⟧)" for way, sign in (("right", ""), ("left", "-")) if place and f"on the {way}" in words
         ]
         given = replace(given, above=(*given.above, *side))
-        return replace(given, vanishing=(*given.vanishing, f"rate({spell(names[0])})"), since="start")
+        return replace(given, vanishing=(*given.vanishing, f"rate({spell(name)})"), since="start")
     return None
+
+
+def _coming_to_rest(checker: Checker) -> str | None:
+    """The coordinate whose rate vanishes where all comes to rest: the only one, or that which moves most where the others come to rest with it."""
+    run, names = checker.own_motion, checker.sampler.names
+    if len(names) == 1:
+        return names[0]
+    rates = lambda t: np.abs([run.evaluate(f"rate({spell(name)})", np.array([t]))[0] for name in names]) / checker.sampler.sizes
+    begins = max(float(run.t[0]), checker.sampler.own.t)
+    first = rates(begins)
+    k = int(np.argmax(first))
+    ends = first_zero(lambda times: run.evaluate(f"rate({spell(names[k])})", times), begins, float(run.outcome.t)) or float(run.outcome.t)
+    return names[k] if np.all(rates(ends) <= _STILL * first[k]) else None
 
 
 def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tuple[str, ...]:
