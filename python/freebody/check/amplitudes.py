@@ -77,7 +77,13 @@ def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str,
     found = {}
     for name in dict.fromkeys(re.findall(_SYMBOL, statement)):
         small = name.lower()
-        if name != small and name not in _ENERGIES and (meaning := known.spelt(small)) and known.spelt(name) is None and name not in known.meanings:
+        if (
+            name != small
+            and name not in _ENERGIES
+            and (meaning := known.spelt(small))
+            and known.spelt(name) is None
+            and name not in known.meanings
+        ):
             if meaning.kind in ("coordinate", "gauge", "declared"):
                 found[name] = meaning.texts[0]
     return found

@@ -102,7 +102,9 @@ def _coming_to_rest(checker: Checker) -> str | None:
     begins = max(float(run.t[0]), checker.sampler.own.t)
     first = rates(begins)
     k = int(np.argmax(first))
-    ends = first_zero(lambda times: run.evaluate(f"rate({spell(names[k])})", times), begins, float(run.outcome.t)) or float(run.outcome.t)
+    ends = first_zero(lambda times: run.evaluate(f"rate({spell(names[k])})", times), begins, float(run.outcome.t)) or float(
+        run.outcome.t
+    )
     return names[k] if np.all(rates(ends) <= _STILL * first[k]) else None
 
 

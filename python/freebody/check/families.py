@@ -90,7 +90,9 @@ class Samples:
         since = state.t - start.t if start else 0.0
         asked = Moments(self.core, start, since) if start else None
         read = {text: asked.in_numbers(text) if asked else text for text in texts}
-        plain = [t for t, of in read.items() if not (of.startswith((LOAD, SUMMED, AMPLITUDE)) or OF_START.search(of) or "(nan)" in of)]
+        plain = [
+            t for t, of in read.items() if not (of.startswith((LOAD, SUMMED, AMPLITUDE)) or OF_START.search(of) or "(nan)" in of)
+        ]
         found = self.core.evaluate([read[text] for text in plain], state)
         if len(plain) == len(texts):
             return found

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from freebody.core import OutcomeKind
 
 from .assumptions import (
     SMALL,
@@ -32,6 +36,8 @@ from .verdict import Kind, Verdict, evidence
 from .worded_claims import IN_WORDS, in_phase
 
 if TYPE_CHECKING:
+    from freebody.model.builder import Builder
+
     from .api import Checker, Declared
 
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
@@ -47,6 +53,9 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         verdict = limit(there, declared, statement, others)
         return replace(verdict, notes=(*verdict.notes, read))
     given = family(limits, checker, declared)
+    if given.late and (ends := _ends(checker)):
+        verdict = limit(checker.of_model(("without", *ends), partial(_without, ends)), declared, statement, limits)
+        return replace(verdict, notes=(*verdict.notes, f"The motion is followed on past {', '.join(ends)}."))
     case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
         return checker.check(statement, declared, replace(given, small=()))
@@ -73,6 +82,18 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _ends(checker: Checker) -> list[str]:
+    """The events that do nothing but end the model's own run, where one has."""
+    if checker.own_motion.outcome.name is not OutcomeKind.STOPPED_BY_EVENT:
+        return []
+    return [name for name, event in checker.mechanism.model.events.items() if event.actions() == ["stop"]]
+
+
+def _without(events: Sequence[str], mechanism: Builder) -> None:
+    for name in events:
+        del mechanism.model.events[name]
 
 
 def _settles(case: Case, equation: Equation) -> bool:

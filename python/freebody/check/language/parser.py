@@ -32,7 +32,12 @@ from .tokens import Names, Token, tokens
 
 
 def parse(
-    text: str, names: Iterable[str] = (), constants: Iterable[str] = (), units: bool = False, tight: bool = False, apart: bool = False
+    text: str,
+    names: Iterable[str] = (),
+    constants: Iterable[str] = (),
+    units: bool = False,
+    tight: bool = False,
+    apart: bool = False,
 ) -> Program:
     """The lines of a statement. ``names`` are the symbols that are known, of which those in ``constants`` do not change with time;
     unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name; ``tight``: what stands directly behind a

@@ -15,7 +15,17 @@ from freebody.symbolic.symbols import folded
 from .glyphs import Glyph, Kind, glyphs
 
 ALIASES = {
-    **{"arcsin": "asin", "arccos": "acos", "arctan": "atan", "arctg": "atan", "tg": "tan", "log": "ln", "sgn": "sign", "cross": "cross", "dot": "dot"},
+    **{
+        "arcsin": "asin",
+        "arccos": "acos",
+        "arctan": "atan",
+        "arctg": "atan",
+        "tg": "tan",
+        "log": "ln",
+        "sgn": "sign",
+        "cross": "cross",
+        "dot": "dot",
+    },
     **{f"{before}{of}": f"a{of}" for before in ("ar", "arc", "arg") for of in ("sinh", "cosh", "tanh")},
 }
 CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
