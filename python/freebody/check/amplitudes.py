@@ -77,15 +77,10 @@ def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str,
     found = {}
     for name in dict.fromkeys(re.findall(_SYMBOL, statement)):
         small = name.lower()
-        if (
-            name != small
-            and name not in _ENERGIES
-            and (meaning := known.spelt(small))
-            and known.spelt(name) is None
-            and name not in known.meanings
-        ):
-            if meaning.kind in ("coordinate", "gauge", "declared"):
-                found[name] = meaning.texts[0]
+        is_new = name != small and name not in _ENERGIES and known.spelt(name) is None
+        meaning = known.spelt(small) if is_new else None
+        if meaning and meaning.kind in ("coordinate", "gauge", "declared"):
+            found[name] = meaning.texts[0]
     return found
 
 

@@ -20,7 +20,7 @@ from .powers import powers_of, written
 from .shared_ratios import addends_of
 from .vocabulary import Vocabulary
 
-_SAME = 1e-8  # relative: below it two values are one
+_SAME, _ALIKE = 1e-8, 1e-5  # relative: below it two values are one, and two ratios
 _MOST = 6  # terms of an equation of which two are thought of together
 _MOST_LENGTHS = 6
 
@@ -81,11 +81,13 @@ def _factors(equation: Equation, values: Mapping[str, Array], vocabulary: Vocabu
     moving = [*dict.fromkeys((*said, *moving))]
     every = [*still, *moving]
     sizes = [sampled(n, values) for n in every]
-    ratios, fixed = [], [1.0, *(sizes[i] / sizes[k] for i, k in permutations(range(len(still)), 2))]
-    for i, k in permutations(range(len(every)), 2):
+    count = len(next(iter(values.values())))
+    fixed = np.array([np.ones(count), *(np.abs(sizes[i] / sizes[k]) for i, k in permutations(range(len(still)), 2))])
+    ratios = []
+    for i, k in ((i, k) for i, k in permutations(range(len(every)), 2) if max(i, k) >= len(still) and sizes[k].all()):
+        ratio = sizes[i] / sizes[k]
         # where it is a number, or the ratio of two lengths, on all motions, the speeds of two parts are in that ratio: no component
-        alike = (np.allclose(np.abs(sizes[i]), its * np.abs(sizes[k]), atol=0) for its in fixed)
-        moves = max(i, k) >= len(still) and not any(alike)
-        ratios += [(Quotient(every[i], every[k]), sizes[i] / sizes[k])] if moves and sizes[k].all() else []
+        if not np.any(np.all(np.abs(np.abs(ratio) - fixed) <= _ALIKE * fixed, axis=1)):
+            ratios.append((Quotient(every[i], every[k]), ratio))
     rows = [*(sampled(n, values) for n in calls), *(row for _, row in ratios)]
     return [*calls, *(ratio for ratio, _ in ratios)], np.array(rows)

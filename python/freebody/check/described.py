@@ -76,7 +76,7 @@ def _way(words: str, checker: Checker) -> Family | None:
 
 def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
     """Motions from the start to where something is first greatest or least, or the only coordinate comes to rest."""
-    given, sampler, names = checker.hypothesis, checker.sampler, checker.sampler.names
+    given, sampler = checker.hypothesis, checker.sampler
     if (found := _EXTREME.search(words)) and (rates := _rates(words, found.lastgroup == "least", checker, declared)):
         first, *second = rates
         size = sampler.size_of(first, sampler.own)  # not finite where a cord starts with no length
