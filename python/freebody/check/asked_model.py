@@ -236,6 +236,12 @@ class AskedModel:
         return [name for name in self.free_parameters if name in written]
 
     @cached_property
+    def torsional(self) -> list[str]:
+        """Free parameters that are the stiffness of a torsion spring."""
+        written = [force["with"].get("stiffness") for force in self.spec["forces"] if force["type"] == "torsion_spring"]
+        return [name for name in self.free_parameters if name in written]
+
+    @cached_property
     def gravities(self) -> list[str]:
         """Free parameters that stand alone in the gravity of the model."""
         parts = [str(part).strip("-() ") for part in self.spec.get("gravity") or ()]

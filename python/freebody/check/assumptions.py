@@ -19,7 +19,7 @@ from freebody.solve.perturbed_states import independent
 from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, is_zero, sampled
-from freebody.symbolic.tree import Fn, Pow, Sym, walk
+from freebody.symbolic.tree import Fn, Mul, Pow, Sym, walk
 
 from .case import Case
 from .families import BEFORE, Family, NoMotion
@@ -123,8 +123,10 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
 
 
 def _has_bare_angles(case: Case, equation: Equation) -> bool:
-    """Whether angles stand outside of functions."""
-    inside = {id(n) for call in walk(equation) if isinstance(call, Fn) for n in walk(call)}
+    """Whether angles stand outside of functions, where no torsion spring has them so."""
+    springs = {n for n in symbols_in(equation) if case.meaning.texts(n)[:1] and case.meaning.texts(n)[0] in case.sampler.torsional}
+    linear = (n for n in walk(equation) if isinstance(n, Fn) or (isinstance(n, Mul) and springs & n.symbols))
+    inside = {id(n) for part in linear for n in walk(part)}
     known = case.meaning.vocabulary
     return any(n in known.coordinates and n in known.angular and id(n) not in inside for n in walk(equation))
 
