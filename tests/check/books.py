@@ -42,6 +42,7 @@ _TENDS = re.compile(r"→|->")
 _OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_₀-₉])")
 _NUMBERED = re.compile(r"\bomega_\d\b")
 """One of several natural frequencies, as a correction writes it."""
+_FOLLOWS = re.compile(r"⇒|\\Rightarrow|\\implies")
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
 
 
@@ -195,8 +196,9 @@ class Book:
         return None
 
     def place(self, verdict: Verdict, correction: str) -> str:
-        """At which place the correction of a tutor stands."""
-        found = [i for i, each in enumerate(verdict.mends) if self.says_the_same(each.equation, correction)]
+        """At which place the correction of a tutor stands; of a conclusion, that of its end."""
+        ways = dict.fromkeys((correction, _FOLLOWS.split(correction)[-1]))
+        found = [i for i, each in enumerate(verdict.mends) if any(self.says_the_same(each.equation, way) for way in ways)]
         return "missing" if not found else "first" if found[0] == 0 else "among three" if found[0] < 3 else "behind the third"
 
     def verdicts(self, correcting: bool = True) -> Iterator[Said]:

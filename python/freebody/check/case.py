@@ -42,6 +42,8 @@ _BEYOND = re.compile(
 """What reads more than the configuration."""
 _SOLVED = re.compile(rf"\b(accel|ax|ay|alpha|tension)\(|\.({_FORCES})\b")
 """What reads an acceleration or an unknown force."""
+_STEADY = re.compile(r"[^\W\d]\w*\s*\*\s*t|t\s*\*\s*[^\W\d]\w*")
+"""The law of what turns steadily, which has a letter for its rate."""
 _SUMMED = re.compile(r"\.work\b|\bfriction_work\(")
 """What is summed up from the start of a motion on."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
@@ -260,12 +262,14 @@ class StatementSymbols:
 
     @cached_property
     def _coordinates(self) -> list[Sym]:
-        """Symbols that measure the configuration, those of the statement first; then the model's own, and what else is declared where
-        some are missing."""
+        """Symbols that measure the configuration, those of the statement first; then the model's own, but for angles that are Ω t, and what else
+        is declared where some are missing."""
         movable = self._once([n for n in self.used if self._moves(n)])
         said = {self._one(n).texts for n in movable}
         measured = (*self.sampler.coordinates, *self.sampler.metadata["closure_coordinates"])
         names = [c["name"] for c in measured if c["name"].isidentifier() and c["name"] in self.symbols.meanings]
+        steady = {motion["of"] for motion in self.sampler.spec["motions"] if _STEADY.fullmatch(str(motion["is"]))}
+        names = [name for name in names if name not in steady]
         found = [*movable, *(Sym(name) for name in names if (name,) not in said)]
         declared = [n for n in map(Sym, self.symbols.of_kind("declared")) if n not in found and self._moves(n)]
         return [*found, *declared[: max(len(self.sampler.coordinates) - len(found), 0)]]

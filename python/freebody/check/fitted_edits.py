@@ -342,11 +342,15 @@ class FittedEdits:
         its = self._of(equation)
         return (its is None or its.mass != 0) and bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
 
+    def _longer_side(self, equation: Equation) -> RequiredTerm | None:
+        """The first side that is no symbol alone."""
+        sides = (each for each in required_terms(equation, self.values) if each.node in (equation.left, equation.right))
+        return next((each for each in sides if not isinstance(each.node, Sym)), None)
+
     def as_one(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks several inertias that turn as one."""
         with np.errstate(all="ignore"):
-            sides = [each for each in required_terms(equation, self.values) if each.node in (equation.left, equation.right)]
-            required = next((each for each in sides if not isinstance(each.node, Sym)), None)
+            required = self._longer_side(equation)
             if required is not None and required.missing.ndim == 1:
                 for term in self.within(of_whole(equation, required.missing, self.vocabulary, self.values)):
                     after = exchange(equation, required.node, more(required.node, term))
@@ -355,7 +359,7 @@ class FittedEdits:
     def two_missing(self, equation: Equation) -> Iterator[Edit]:
         """A side that lacks two terms."""
         with np.errstate(all="ignore"):
-            required = next(required_terms(equation, self.values), None)
+            required = self._longer_side(equation) or next(required_terms(equation, self.values), None)
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
             nodes, rows = self.dictionary(equation, NUMBER_ONLY)

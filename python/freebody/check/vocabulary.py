@@ -182,7 +182,7 @@ class Vocabulary:
         yield (), NUMBER_ONLY
         for q in self.coordinates:
             yield (Sym(q.name, 2),), self.dimension(Sym(q.name, 2))
-        rates = [Sym(q.name, 1) for q in self.coordinates]
+        rates = [*(Sym(q.name, 1) for q in self.coordinates), *filter(self.is_rate, self.parameters)]
         for a, b in combinations_with_replacement((*rates, *filter(self.is_rate, moving)), 2):
             yield (_square(a),) if a == b else (a, b), _joined([self.dimension(a), self.dimension(b)])
         for symbol in dict.fromkeys((*self.others, *moving)):
@@ -191,8 +191,8 @@ class Vocabulary:
                 yield (_square(symbol),), _joined([self.dimension(symbol)] * 2)
         for a, b in ((a, b) for a, b in combinations(rates, 2) if self.dimension(a) == self.dimension(b)):
             yield from (((_square(Add((a, c))),), _joined([self.dimension(a)] * 2)) for c in (b, Negative(b)))
-        for q in self.coordinates:
-            yield (Sym(q.name, 1),), self.dimension(Sym(q.name, 1))
+        for rate in rates:
+            yield (rate,), self.dimension(rate)
 
     def _works(self, wanted: Known) -> Iterator[tuple[tuple[Node, ...], Known]]:
         """What changes with the motion in an energy, a couple times an angle or the difference of two, and in a power, a rate times an acceleration or a force."""
@@ -216,12 +216,11 @@ class Vocabulary:
         return its is not None and its.time == -2
 
     def _monomials(self, wanted: Known, dynamic: list[tuple[tuple[Node, ...], Known]]) -> Iterator[tuple[Node, ...]]:
-        sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular]
+        sizes = [n for n in (*self.parameters, *self.coordinates) if n not in self.angular and not self.is_rate(n)]
         sizes = sizes if wanted is None else [n for n in sizes if n.name in self.dimensions]
-        turning = any(self.is_rate(n) for n in self.parameters)  # m Ω² R² has five
         alike: dict[Known, list[tuple[Node, ...]]] = {}  # what changes with the motion, by the dimension that is left for it
         left: dict[tuple[Sym, ...], Known] = {(): wanted}
-        for degree in range((_BLIND_DEGREE if wanted is None else _DEGREE + turning) + 1):
+        for degree in range((_BLIND_DEGREE if wanted is None else _DEGREE) + 1):
             for chosen in combinations_with_replacement(sizes, degree):
                 powers = Counter(chosen)
                 if max(powers.values(), default=0) > 2:
