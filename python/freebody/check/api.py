@@ -220,7 +220,7 @@ class Checker:
                 verdict = self._also_later(verdict, text, letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:
-            return Verdict(Kind.UNDECIDABLE, text, str(error))
+            return Verdict.without_motion(text, error)
         except (ModelProblem, ModelError, MotionError) as error:
             what, hint = error.args[-2:]
         except Unreached as error:

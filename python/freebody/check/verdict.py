@@ -110,6 +110,13 @@ class Verdict(PlainText):
     """What the statement calls by a name that means something else in this model."""
     moment: str = ""
     """Of which moment it is, where a model has several: ``after cut``, ``t = 2 s``."""
+    of_no_motion: bool = False
+    """Whether none was found of which it is said."""
+
+    @classmethod
+    def without_motion(cls, text: str, error: NoMotion) -> Verdict:
+        """That of what is said of motions of which none was found."""
+        return cls(Kind.UNDECIDABLE, text, str(error), of_no_motion=True)
 
     @property
     def ok(self) -> bool:
@@ -159,7 +166,7 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
     try:
         found = case.residual(equation)
     except NoMotion as error:
-        return Verdict(Kind.UNDECIDABLE, text, str(error))
+        return Verdict.without_motion(text, error)
     except StatementError as error:
         if any(n.key not in case.values() for n in symbols_in(equation)):
             raise error.within(case.program.text) from None

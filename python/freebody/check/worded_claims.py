@@ -171,7 +171,7 @@ def in_phase(
     if not found:
         raise problem
     found = [one for one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
-    found = [one for one in found if not one.reason.startswith("no motion")] or found
+    found = [one for one in found if not one.of_no_motion] or found
     nearest = next((one for one in found if one.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None) or _least_wrong(found)
     how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
     return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
