@@ -224,6 +224,8 @@ class Likelihood:
         return bound + _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:
+        if kind == "missing term" and self._is_reaction_by_ratio(term):
+            return math.inf
         strange = len([*self._strange(term, kind == "missing term")])
         again = kind == "missing term" and (
             self._is_there(term) or any(term in n.terms for n in self._parts if isinstance(n, Add))
@@ -234,6 +236,13 @@ class Likelihood:
         size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self._said)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)
+
+    def _is_reaction_by_ratio(self, term: Node) -> bool:
+        """Whether it has a reaction of which nothing was said over a mass or a speed: no balance has it so."""
+        known = self.vocabulary
+        below = (known.dimension(n) for part in walk(term) if isinstance(part, Quotient) for n in part.bottom.symbols)
+        new = any(self._is_reaction(n) and n not in known.letters for n in term.symbols - self._said)
+        return new and any(its is not None and bool(its.mass or its.time) for its in below)
 
     def _strange(self, term: Node, missing: bool) -> Iterator[Node]:
         """What speaks against a term, each as often as it counts."""
