@@ -32,13 +32,14 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
         before = re.sub(r"\A\s*if\s+|[\s:,]+\Z", "", said["before"])
         if not _WORDS.fullmatch(said["after"]) or not (_WORDS.fullmatch(before) or claim.startswith("if ")):
             return None
-        found = _IS.fullmatch(said["rest"])
-        letter, value = (found[1], found[2]) if found and "=" not in found[2] else ("", said["rest"])
+        rest, *names = re.split(r",?\s+(?:where|with)\s+", said["rest"].rstrip(" ,"), maxsplit=1)
+        found = _IS.fullmatch(rest)
+        letter, value = (found[1], found[2]) if found and "=" not in found[2] else ("", rest)
         if (what := _of(checker, declared, said["what"], letter)) is None:
             return None
         conditions = "" if _WORDS.fullmatch(before) else before
         given = {**declared, (letter or _NAME): f"{AMPLITUDE}{what}"}
-        return _judged(checker, given, conditions, f"{letter or _NAME} = {value}")
+        return _judged(checker, given, conditions, f"{letter or _NAME} = {value}{''.join(f' where {each}' for each in names)}")
     if steady := _STEADY.fullmatch(claim):
         given = {name: f"{AMPLITUDE}{of}" for name, of in _capitals(checker, declared, steady[2]).items()}
         return _judged(checker, {**declared, **given}, steady[1], steady[2]) if given else None
@@ -51,10 +52,11 @@ def _judged(checker: Checker, declared: Declared, conditions: str, statement: st
     how = "in the steady state" if driven else "from the start"
     under = ", ".join(part for part in (how, conditions.replace("in the steady state", "").strip(" ,")) if part)
     verdict = checker.check(f"if {under}: {statement}", declared)
-    sides = statement.split("=")
+    said, *names = re.split(r"(?=\swhere\s)", statement, maxsplit=1)
+    sides = said.split("=")
     if verdict.ok or len(sides) != 2:
         return verdict
-    sized = checker.check(f"if {under}: abs({sides[0]}) = abs({sides[1]})", declared, correcting=False)
+    sized = checker.check(f"if {under}: abs({sides[0]}) = abs({sides[1]}){''.join(names)}", declared, correcting=False)
     return replace(sized, text=verdict.text) if sized.ok else verdict
 
 

@@ -222,6 +222,16 @@ class AskedModel:
             rows -= np.outer(rows @ along, along)
         return found
 
+    def only_starts(self, name: str) -> bool:
+        """Whether a parameter with a formula says where or how fast the model starts."""
+        derived = any(each["name"] == name and isinstance(each["value"], str) for each in self.spec["parameters"])
+        start = self.mechanism.model.initial
+        return (
+            derived
+            and start is not None
+            and re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", start.model_dump_json()) is not None
+        )
+
     @cached_property
     def frictions(self) -> list[str]:
         """Free parameters that are a coefficient of friction."""

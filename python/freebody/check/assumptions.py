@@ -51,6 +51,8 @@ WORDS: dict[str, dict[str, Any]] = {
 """Hypotheses that are said in words alone."""
 _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
+_SQUARE = re.compile(r"(\S+?)\s*(?:²|\^\{?2\}?)")
+_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
 _OTHER_THAN = re.compile(r"([^=<>≤≥≠]+)(?:≠|\\neq?(?![a-z])|!=)([^=<>≤≥≠]+)")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
@@ -124,7 +126,9 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
 
 def _has_bare_angles(case: Case, equation: Equation) -> bool:
     """Whether angles stand outside of functions, where no torsion spring has them so."""
-    springs = {n for n in symbols_in(equation) if case.meaning.texts(n)[:1] and case.meaning.texts(n)[0] in case.sampler.torsional}
+    springs = {
+        n for n in symbols_in(equation) if case.meaning.texts(n)[:1] and case.meaning.texts(n)[0] in case.sampler.torsional
+    }
     linear = (n for n in walk(equation) if isinstance(n, Fn) or (isinstance(n, Mul) and springs & n.symbols))
     inside = {id(n) for part in linear for n in walk(part)}
     known = case.meaning.vocabulary
@@ -342,16 +346,19 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         return replace(given, above=(*given.above, f"abs({_meant(f'({found[1]}) - ({found[2]})', checker, declared)}) - {SMALL}"))
     if found := _ABOVE.fullmatch(part):
         more, less = (found[1], found[3]) if found[2] in _MORE else (found[3], found[1])
-        return replace(given, above=(*given.above, _meant(f"({more}) - ({less})", checker, declared)))
+        above = _meant(f"({more}) - ({less})", checker, declared)
+        return replace(given, above=(*given.above, above), since=given.since or ("start" if _TIME.search(above) else ""))
     if part.count("=") != 1:
         raise ModelProblem(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(WORDS)}")
     left, right = (side.strip() for side in part.split("="))
+    if (square := _SQUARE.fullmatch(left)) and free_parameter(square[1], checker, declared):
+        left, right = square[1], f"sqrt({right})"
     if (name := free_parameter(left, checker, declared)) is not None and not _moves(
         value := _meant(right, checker, declared), checker
     ):
         return replace(given, held=(*given.held, (name, value)))
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
-    asks_past = "⟦" in vanishing or re.search(r"(?<![\w.])t(?![\w.(])", vanishing)
+    asks_past = "⟦" in vanishing or _TIME.search(vanishing)
     since = given.since or ("start" if asks_past else "")
     return replace(given, vanishing=(*given.vanishing, vanishing), since=since)
 

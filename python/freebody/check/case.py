@@ -80,7 +80,7 @@ class StatementSymbols:
         found = self.symbols.values(self._valued, samples)
         for n in self._valued:
             one = self._one(n)
-            if one.kind not in ("parameter", "gravity"):
+            if one.kind not in ("parameter", "gravity") or one.texts[0] not in self.sampler.free_parameters:
                 size = self.sampler.unit(one.dimension) * self.sampler.rate**n.dots
                 found[n.key] = found[n.key] * (np.abs(found[n.key]) >= _ROUND_OFF * size)
         return found
@@ -137,7 +137,7 @@ class StatementSymbols:
         """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
         said = [text for n in symbols_in(equation) for text in self.texts(Sym(n.name))]
         words = {word for text in said for word in _WORD.findall(text)}
-        return "t" in said or not words.isdisjoint(self.of_start_alone)
+        return "t" in said or not words.isdisjoint(self.of_start_alone) or any(map(self.sampler.only_starts, words))
 
     @cached_property
     def of_start_alone(self) -> list[str]:

@@ -127,7 +127,12 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         return limit(checker, declared, statement, _TO_ZERO.sub(" -> 0", condition))  # without it there are no motions
     release = replace(given, since="", at_start=True, at_rest=given.since == "rest")
     others = [(release, condition)] if given.since == "rest" else []
-    later = places or verdict.kind is Kind.UNDECIDABLE or _OF_RATES.search("".join(given.vanishing)) is not None
+    later = (
+        places
+        or verdict.kind is Kind.UNDECIDABLE
+        or _is_of_start(checker, declared, statement)
+        or _OF_RATES.search("".join(given.vanishing)) is not None
+    )
     if given.vanishing and later:  # it may be so only where something switches, or has done so
         others += [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since and not others:

@@ -303,7 +303,7 @@ class FittedEdits:
         if equation not in self._terms:
             known, said = self.vocabulary, symbols_in(equation)
             sizes = known.sizes
-            sums = [n for n in walk(equation) if isinstance(n, Add) and n.symbols <= {*sizes, *known.parameters}]
+            sums = [n for n in walk(equation) if isinstance(n, Add) and n.symbols <= {*sizes, *known.parameters, Sym("t")}]
             lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
             alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))

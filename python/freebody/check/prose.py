@@ -11,6 +11,7 @@ from freebody.symbolic.symbols import folded
 from ..model.errors import ModelProblem
 from ..model.names import nearest
 from ..model.units import unit
+from .idioms import usual
 from .language.glyphs import CONDITION
 from .language.tokens import CALLS
 
@@ -142,7 +143,7 @@ _LETTER = re.compile(r"\A\s*(?:\([a-h]\)\s+(?=[\w\\$])|[a-h]\)\s+)")
 _AS = r"as (?:expected|required|before|usual|given|shown|stated|above)"
 _COMMENT = re.compile(
     rf"{_BEHIND}(?:\s*,(?:(?!\s*(?:{CONDITION})\b)|(?=\s*{_AS}\b))([^=<>≈≤≥,;:()\[\]+*/^\\$]+)"
-    rf"|\s+[(\[]\s*(?:in\s)?\+?((?:[^()\[\]=<>≈≤≥+\\$]|\([^()]*\))+?)\+?\s*[)\]]){_CLOSES}"
+    rf"|\s+[(\[]\s*(?:in\s)?\+?(\S+\s*(?:→|->)\s*\S+\s+[a-z][a-z ,'-]+|(?:[^()\[\]=<>≈≤≥+\\$]|\([^()]*\))+?)\+?\s*[)\]]){_CLOSES}"
 )
 """Words behind an equation, after a comma or in brackets."""
 
@@ -158,10 +159,11 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
 
     def comment(found: re.Match[str]) -> str:
         measured = said[: found.start()].strip()[-1].isdigit()  # 5 [m/s] is a measure
-        is_comment = _is_comment(found[1] or found[2], known, measured)
+        words = found[1] or found[2]
+        is_comment = "→" in words or _is_comment(words, known, measured)
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
-    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), text)))
+    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), usual(text))))
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(r"_{\1}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)

@@ -28,8 +28,15 @@ def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
     if not _DEPENDS.search(known.mechanics):
         return None
     powers = (n for n in walk(equation) if isinstance(n, Pow) and isinstance(n.base, Sym) and isinstance(n.exponent, Num))
-    rates = dict.fromkeys(n.base for n in powers if n.exponent.value > 1 and known.vocabulary.is_rate(n.base))
-    said = {n: known.read_from(n) for n in rates}
+    rates = [n.base for n in powers if n.exponent.value > 1 and known.vocabulary.is_rate(n.base)]
+    rates += [
+        n
+        for call in walk(equation)
+        if isinstance(call, Fn) and call.name == "ln"
+        for n in call.args
+        if known.vocabulary.is_rate(n)
+    ]
+    said = {n: known.read_from(n) for n in dict.fromkeys(rates)}
     return _as_at_start(case, {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said)
 
 

@@ -332,7 +332,7 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
         return None
     since = replace(given, since="start")
     glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)
-    known = figure or case.meaning.speaks_of_start(equation)
+    known = figure or case.meaning.speaks_of_start(equation) or "after" in case.sampler.moment
     if not (
         known
         or _never_changes(case, equation)

@@ -17,7 +17,7 @@ _LABELLED = re.compile(
     rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
 """``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
-_ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})[^()=<>≤≥→]*)\)")
+_ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})(?![^()]*\b(?:sin|cos|tan|sqrt)\b)[^()=<>≤≥→]*)\)")
 """``at t = 0 (at rest, beam level)``."""
 _FREQUENCIES = re.compile(
     r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)"

@@ -1,0 +1,68 @@
+"""Ways of writing that are put into others before a statement is read: labels and conditions in brackets, conditions of other languages,
+second slopes."""
+
+from __future__ import annotations
+
+import re
+
+from .language.glyphs import CONDITION
+
+_ABROAD = {
+    "if": "si|wenn|se",
+    "when": "sobald|quand|lorsque|cuando|quando",
+    "while": "solange|während(?: des| der)?|pendant(?: le| la)?|tant que|mientras|mentre",
+    "after": "nach(?: dem| der)?|après(?: le| la)?|después de|dopo",
+    "before": "vor(?: dem| der)?|avant(?: le| la)?|antes de|prima di",
+    "at": "bei|beim",
+    "for": "für|pour|para",
+}
+"""Words of other languages with which a condition begins."""
+_FOREIGN = [(re.compile(rf"\A\s*(?:{words})\s+(?=[^:\n]*:(?!=))", re.IGNORECASE), f"{word} ") for word, words in _ABROAD.items()]
+_LABEL_FIRST = re.compile(r"\A\s*\(((?=[^()]*\b[a-z]{4})[A-Za-z]+(?:[\s,']+[A-Za-z]+)+)\)\s+(?=[^\s:])")
+"""``(shoe B, moments about the pin)  F c = …``."""
+_WHEN_INSIDE = re.compile(
+    rf"\A\s*(?!(?:{CONDITION})\b)[A-Za-z][^=:;\n()]*\(((?:(?:just|right)\s+)?(?:after|before|while|until|when|once)\s[^()=<>:]+)\)\s*:(?!=)"
+)
+"""``jaws together (after the blow):``."""
+_BEFORE_NEXT = re.compile(
+    r"\A(\s*(?:just\s+)?after\b[^:=\n]*?),?\s+(?:and\s+)?before\s+(?:the\s+)?(?:second|next|third)\b[^:=,\n]*(?=[:,])"
+)
+_AT_RELEASE = re.compile(
+    r"\A(\s*(?:(?:just|right|immediately)\s+(?:after|at)|at)\s+(?:the\s+)?(?:release|start|beginning)(?:\s+from\s+rest)?)\s*\([^():]*=[^():]*\)(?=\s*:)"
+)
+"""``right after the release (θ = θ_0, θ' = 0):``, where it starts so."""
+_CONSTANT_IF = re.compile(r"\A\s*constant,?\s+(if\b[^:\n]*?)\s*:(?!=)\s*")
+"""``constant, if d = 0: …``."""
+_HELD_AND = re.compile(r"\b(held|locked|fixed|clamped|blocked)\s*\(([^()=,:]+=[^()=,:]+),\s*([^():]+=[^():]+)\)(?=[^:=]*:)")
+"""``link locked (θ = 0, d = 0)``."""
+_FREQUENCY_OF = re.compile(r"(frequenc(?:y|ies))\s+of\s+the\s+\w+(?=\s+(?:with|when|if|for|where)\b)")
+_STAGE = re.compile(
+    r"\A\s*(?:the\s+)?((?:recovery|coasting|rebound|(?:free\s+)?flight|(?:second|next|later|last|final)\s+(?:phase|stage|part|stretch|stroke))"
+    r"(?:\s+(?:of|on|with|by)\s+[a-z ]+)?)\s*(?:\([^()=]*\)\s*)?(?=[:,](?!=))"
+)
+"""``recovery (handle free):``, the name of a stretch."""
+_NAME = r"(\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?)"
+_SLOPE = re.compile(
+    rf"\\[dt]?frac\s*\{{\s*d\s*\^\s*\{{?2\}}?\s*{_NAME}\s*\}}\s*\{{\s*d\s*{_NAME}\s*\^\s*\{{?2\}}?\s*\}}"
+    rf"|(?<![\w\\])d(?:²|\^2)\s*{_NAME}\s*/\s*d\s*{_NAME}(?:²|\^2)"
+)
+"""``d²u/dθ²``, of which t is read elsewhere."""
+
+
+def usual(text: str) -> str:
+    """A statement in the ways of writing that are read."""
+    for words, word in _FOREIGN:
+        text = words.sub(word, text)
+    text = _WHEN_INSIDE.sub(r"\1:", _LABEL_FIRST.sub(r"\1: ", text))
+    text = _CONSTANT_IF.sub(r"\1: constant: ", _AT_RELEASE.sub(r"\1", _BEFORE_NEXT.sub(r"\1", text)))
+    text = _STAGE.sub(r"during \1", text)
+    text = _FREQUENCY_OF.sub(r"\1", _HELD_AND.sub(r"\1 (\2), \3", text))
+    return _SLOPE.sub(_slope, text)
+
+
+def _slope(found: re.Match[str]) -> str:
+    """The second derivative by what moves, as rates have it."""
+    of, by = (name for name in found.groups() if name is not None)
+    if by == "t":
+        return found[0]
+    return f"(({of}'' {by}' − {of}' {by}'')/({by}')^3)"
