@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,6 +23,7 @@ from ruamel.yaml import YAML
 from slipped import slipped
 
 from freebody.check import Checker, Kind
+from freebody.check.case import Case
 from freebody.check.file import WORDS, judged_alone
 from freebody.check.language.statements import Equation, symbols_in, terms
 from freebody.check.prose import plainly
@@ -124,12 +125,16 @@ class Book:
                 cases = [self.checker.case(text, letters) for text in said]
             except StatementError:
                 return False
+        one = cases[0].equations[0]
+        return any(self._is_one(cases, one, other) for other in cases[1].equations)
+
+    def _is_one(self, cases: Sequence[Case], one: Equation, other: Equation) -> bool:
+        """The same of equations of two cases."""
+        if one == other:
+            return True
         values = {**cases[0].values(), **cases[1].values()}
         count = min(map(len, values.values()), default=0)  # claims of vibrations and of motions are not judged on as many
         values = {key: value[:count] for key, value in values.items()}
-        one, other = (case.equations[0] for case in cases)
-        if one == other:
-            return True
         places = cases[0].elsewhere(values)
         if all(residual(each, places).worst < HOLDS for each in (one, other)):  # both are what the model defines a letter to be
             places = cases[0].elsewhere(values, bound=False)
@@ -196,7 +201,7 @@ class Book:
         return None
 
     def place(self, verdict: Verdict, correction: str) -> str:
-        """At which place the correction of a tutor stands; of a conclusion, that of its end."""
+        """At which place the correction of a tutor stands; of several equations that of one of them, of a conclusion that of its end."""
         ways = dict.fromkeys((correction, _FOLLOWS.split(correction)[-1]))
         found = [i for i, each in enumerate(verdict.mends) if any(self.says_the_same(each.equation, way) for way in ways)]
         return "missing" if not found else "first" if found[0] == 0 else "among three" if found[0] < 3 else "behind the third"

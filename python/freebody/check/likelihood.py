@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME, Known
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, unsigned, walk
 
@@ -212,12 +212,16 @@ class Likelihood:
 
     def _of_factor(self, old: Node, new: Node) -> float:
         """Of a factor that is no parameter and of which nothing was said, or a place below a line, and of a term for a quite other one."""
-        known, (_, before), (_, after) = self.vocabulary, powers_of(old), powers_of(new)
+        known, (once, before), (number, after) = self.vocabulary, powers_of(old), powers_of(new)
         unsaid = {n for base in after for n in base.symbols} - self._said
         places = [base for base, n in after.items() if n < 0 <= before.get(base, 0) and _is_place(base, known)]
         lost = [base for base, n in before.items() if n and not after.get(base)]
         gained = [base for base, n in after.items() if n and not before.get(base)]
-        strange = len(places) + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
+        strange = (
+            len(places)
+            + 2 * (bool(gained) and abs(number) != abs(once))
+            + sum(n in known.others or Sym(n.name) in known.coordinates for n in unsaid)
+        )
         divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
         bound = _BOUND * (self._at_instant and bool(unsaid))
         bound += _SOLVED * any(side is old for side in self._sides if isinstance(side, Sym))  # rather on the other side
@@ -257,6 +261,8 @@ class Likelihood:
         below = {n for each in quotients for n in each.bottom.symbols}
         if missing and below and (new or not self._has_quotient):
             yield from [term] * (2 if new else 1)
+        if missing and below and dimension(term, known.dimensions) != self._dimension:  # a fraction in what stands there
+            yield from [term] * 2
         for symbol in below - self._below:
             yield from [symbol] * 2 * (symbol in known.coordinates and not symbol.dots)
         usual = {
@@ -281,6 +287,12 @@ class Likelihood:
             and not all(Sym(n.name) in known.coordinates for n in rates)
         ):
             yield from [term] * 4  # energies have products of the rates of coordinates alone
+
+    @cached_property
+    def _dimension(self) -> Known:
+        """That of the terms of the equation, as far as it is known."""
+        found = (dimension(term, self.vocabulary.dimensions) for term in terms(self.equation))
+        return next((each for each in found if each is not None), None)
 
     def _is_another_name(self, symbol: Sym) -> bool:
         """Whether it has, on all true states, the value of one that was said, as the pull of a wire has in small motions."""
