@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
@@ -17,10 +17,8 @@ from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.run.moments import PATIENT, Unreached
-from freebody.symbolic.dimensions import NUMBER_ONLY
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import sampled
-from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
 from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
@@ -28,10 +26,9 @@ from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, BEFORE, SINCE_START, Family, NoMotion
 from .frequency_claims import OMEGA
-from .language.dimensions import misfit
 from .language.glyphs import CONDITION
 from .language.spelling import spell
-from .language.statements import Program, symbols_in, terms
+from .language.statements import symbols_in, terms
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
@@ -39,11 +36,10 @@ from .phases import NOT_FIRST, called, kind_of, phase
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .residual import magnitude
-from .senses import is_root
-from .symbols import DOUBTFUL, Symbols
+from .symbols import Symbols
 from .timed_claims import holds_on_run
-from .usual_names import ENERGIES
-from .verdict import Kind, Verdict, judged, of_wrong_dimensions
+from .tried_readings import stated
+from .verdict import Kind, Verdict
 from .vibration import Vibration
 from .wording import BLOW, as_claim, with_condition_first
 
@@ -56,7 +52,6 @@ _ROOT = re.compile(r"√|sqrt")
 _BLOW = re.compile(BLOW)
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
-_TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
 _SMALL = re.compile(r"\s*small\b")
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
@@ -206,7 +201,7 @@ class Checker:
             label, colon, _ = plain.partition(":")
             checker.no_place |= without_place(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
             found = claimed(checker, plain, letters or {})
-            verdict = replace(found, text=text.strip()) if found else _stated(checker, with_condition_first(plain), letters)
+            verdict = replace(found, text=text.strip()) if found else stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
             if verdict.kind is Kind.TRUE_IF and _SENSES.fullmatch(words := verdict.assumption) and self._keeps(words, letters):
                 verdict = replace(verdict, kind=Kind.TRUE, reason=f"holds where {words}, as in the whole motion of the model")
@@ -357,39 +352,6 @@ class Checker:
         found = found or (self.sampler.spec["events"] if _ENDS.search(words) and kind_of(words) != "reversal" else [])
         return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
 
-    def readings(self, text: str, letters: Declared) -> Iterator[tuple[Declared, bool, tuple[str, ...]]]:
-        """Other ways to read a statement: with what stands directly behind a factor below a stroke below it, with sizes of vectors, and
-        with the only body turning clockwise; each with declarations, whether it is read so tightly, and what is to be said of it."""
-        if DOUBTFUL.search(text):
-            yield {}, True, ()
-        known = self.symbols(letters)
-        program = known.read(text)
-        if sized := self._sized(program, known):
-            yield sized, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in sized)
-        if rooted := self._rooted(program, known):
-            yield rooted, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in rooted)
-        turned = {name: said for name, said in known.senses.items() if name in known.assumed}
-        if turned and any(n.name in turned for n in symbols_in(program)):
-            yield turned, False, tuple(f"Here {name} is read clockwise: {said}." for name, said in turned.items())
-
-    def _rooted(self, program: Program, known: Symbols) -> dict[str, str]:
-        """The sizes of letters that are said to be a root: v = √(2 g h)."""
-        pairs = [pair for line in program.equations for pair in ((line.left, line.right), (line.right, line.left))]
-        found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and is_root(other)]
-        meanings = {name: known.meanings[name] for name in found if name in known.meanings}
-        return {
-            name: f"abs({m.texts[0]})" for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")
-        }
-
-    def _sized(self, program: Program, known: Symbols) -> dict[str, str]:
-        """The sizes of the letters of vectors that a statement about nothing else compares, each side one term: a_B = 2 a_A. One with a
-        unit direction marks its vectors."""
-        used = [n.name for n in symbols_in(program)]
-        vectors = {name: known.meanings[name] for name in used if name in known.meanings and known.meanings[name].is_vector}
-        alone = not any(isinstance(n, Add | Cross | Dot) for n in walk(program)) and not known.own & {*vectors}
-        alone = alone and all(meaning.dimension != NUMBER_ONLY for meaning in vectors.values())
-        return {name: "hypot({}, {})".format(*m.texts[:2]) for name, m in vectors.items()} if alone else {}
-
     @cached_property
     def own_motion(self) -> Any:
         """The model's own run; where the model does not say how long it runs, one on which something switches that may."""
@@ -417,40 +379,3 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
-
-
-def _stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
-    """The verdict about equations; where they are not true, but are in another way in which they can be read, of that reading."""
-    judging = copy(checker)
-    judging.correcting = False
-    case = judging.case(text, letters)
-    first = _judged(judging, text, letters, case)
-    if first.ok:
-        return first
-    for other, tight, note in checker.readings(text, letters or {}):
-        said = {**(letters or {}), **other}
-        found = _judged(judging, text, said, judging.case(text, said, tight=tight))
-        if found.ok:
-            return replace(found, notes=(*found.notes, *note))
-    return _judged(checker, text, letters, replace(case, correcting=True)) if checker.correcting else first
-
-
-def _judged(checker: Checker, text: str, letters: Declared | None, case: Case) -> Verdict:
-    """The verdict about equations, read as in a case."""
-    if case.program.units and (found := _in_figures(checker.case(text, letters, units=False))):
-        return found
-    if (error := misfit(case.program, case.meaning.symbols.dimensions)) is None:
-        verdict = judged(case)
-    elif case.meaning.symbols.assumed.get("T") == ENERGIES["T"] and _TENSION.search(error.what):
-        what = "the symbol `T` has no meaning in this model but its kinetic energy, and that is no force"
-        raise StatementError(what, error.span, "declare it, like `T: …`, on the command line by `--where 'T=…'`", text)
-    else:
-        verdict = _in_figures(case) or of_wrong_dimensions(case, case.equations, text, error.what)
-    unfinished = (case.budget.words,) if case.budget.spent else ()
-    return replace(verdict, notes=(*case.meaning.symbols.notes(case.program), *unfinished))
-
-
-def _in_figures(case: Case) -> Verdict | None:
-    """The verdict where an equation is true whose dimensions do not fit, since figures in it are measures in SI units."""
-    verdict = judged(replace(case, correcting=False))
-    return replace(verdict, reason=f"{verdict.reason}; figures are in SI units") if verdict.ok else None
