@@ -67,9 +67,10 @@ NOT_FOUND = {
     ("mass_with_play", "whole period"): "is the period of a motion that is no small vibration",
     ("snap_through", "small swings about the relaxed place"): "is of a place of rest that other numbers do not have",
     ("soap_box", "final speed"): "dies away too slowly to be seen to",
-    ("spar_buoy", "steady state of the pack"): "speaks of amplitudes by letters of their own",
+    ("sounding_rocket", "growing acceleration"): "is of the rate of an acceleration",
     ("thrown_baton", "no spin up"): "is of the model's own motion by its figure alone",
     ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",
+    ("two_shoe_brake", "turns"): "gives a letter among its conditions",
 }
 """What is right of the half for mending and not found to be, with the reason."""
 

@@ -1,0 +1,32 @@
+"""Ways of writing and those into which they are put."""
+
+from __future__ import annotations
+
+import pytest
+
+from freebody.check.idioms import usual
+
+PUT = {
+    "si T = 0 : E = const": "if T = 0 : E = const",
+    "nach dem Stoß: v = 0": "after Stoß: v = 0",
+    "(shoe B, about the pin)  F c = N b": "shoe B, about the pin: F c = N b",
+    "jaws together (after the blow): θ = φ": "after the blow: θ = φ",
+    "after the first blow, before the second: E = 0": "after the first blow: E = 0",
+    "right after the release (θ = θ_0, θ' = 0): R = 0": "right after the release: R = 0",
+    "constant, if d = 0: E + V": "if d = 0: constant: E + V",
+    "link locked (θ = 0, d = 0): F = 0": "link locked (θ = 0), d = 0: F = 0",
+    "natural frequency of the rotor with θ = 0: ω = 1": "natural frequency with θ = 0: ω = 1",
+    "recovery (handle free): E = const": "during recovery: E = const",
+    "d²u/dθ² + u = p": "((u'' θ' − u' θ'')/(θ')^3) + u = p",
+}
+AS_WRITTEN = ("(N_1 - N_2) b = mu N h", "(M + m) a = F", "d²x/dt² = −g", "at the top (θ' = 0): N = m g", "sin θ = 0")
+
+
+@pytest.mark.parametrize("text", PUT)
+def test_what_is_written_otherwise(text):
+    assert usual(text) == PUT[text]
+
+
+@pytest.mark.parametrize("text", AS_WRITTEN)
+def test_what_stays_as_it_is_written(text):
+    assert usual(text) == text
