@@ -49,14 +49,14 @@ def arranged(
                 state = _vanished(model, text, state, list(rates), others, not family.at_rest)
             except (NoMotion, MotionError):
                 fitted = list(dict.fromkeys((*fitted, text)))
-                if (found := _fitted(model, fitted, state, values, adjustable)) is None:
+                if (found := with_parameters(model, fitted, state, values, adjustable)) is None:
                     raise
                 state = found
         kept += [text] if text in family.vanishing and text not in kept else []  # what is small need not stay just so
     return state
 
 
-def _fitted(
+def with_parameters(
     model: FollowedModel, texts: Sequence[str], state: State, values: Mapping[str, float], adjustable: Collection[str]
 ) -> State | None:
     """The same state with other values of the ``adjustable`` parameters, of their signs and in ratios as near 1 as possible, at which expressions

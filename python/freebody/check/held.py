@@ -10,6 +10,8 @@ import numpy as np
 from freebody.model.names import spell
 from freebody.run.records import quote
 
+from .assumptions import free_parameter
+
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
@@ -45,8 +47,12 @@ def held(checker: Checker, declared: Declared, what: str, place: str) -> Checker
 def with_held(checker: Checker, declared: Declared, condition: str) -> tuple[Checker, str, str] | None:
     """The same of the model in which what a condition says to be held is so, what else it says, and how that is read; None where it says of
     nothing that it is held."""
-    found = _HELD.fullmatch(condition)
-    if found is None or (there := held(checker, declared, found[2], found[3] or "")) is None:
+    if (found := _HELD.fullmatch(condition)) is None:
+        return None
+    if found[3] and free_parameter(found[2], checker, declared):  # of what moves it
+        given = f"{found[2]} = {found[3]}"
+        return checker, ", ".join(filter(None, (found[1], given, found[4]))), f"`{found[2]} held` is read as: {given}."
+    if (there := held(checker, declared, found[2], found[3] or "")) is None:
         return None
     return there, ", ".join(filter(None, (found[1], found[4]))), f"`{found[2]} held` is read as: it does not move."
 

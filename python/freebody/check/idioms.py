@@ -41,6 +41,17 @@ _STAGE = re.compile(
     r"(?:\s+(?:of|on|with|by)\s+[a-z ]+)?)\s*(?:\([^()=]*\)\s*)?(?=[:,](?!=))"
 )
 """``recovery (handle free):``, the name of a stretch."""
+_SEEN = re.compile(rf"\A\s*(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\s+[^,:=]+,\s+(?=(?:{CONDITION})\b[^:]*:)")
+"""``as seen from the cage, until it lands:``."""
+_FIRST_TIME = re.compile(r"\A\s*([^:=]+=[^:=]+?)\s+(?:for the first time|first|again)\s+at\s+(\$?t\s*=[^:]+)\Z")
+"""``h = 0 for the first time at t = …``."""
+_WHICH_SIDE = re.compile(r"\s*\((?:index(?:es)?\s+)?1:?\s[^()]*\bbefore\b[^()]*\b2:?\s[^()]*\bafter\b[^()]*\)(?=\s*:)")
+"""``bounce (1 just before, 2 just after):``."""
+_FROM_TO = re.compile(r"\A[^:=]*?\b(?:from\s+)?(t_?[1₁])\s+to\s+(t_?[2₂])\s*:(?!=)")
+_TAN_OF = re.compile(
+    r"(\b(?:with|where|and)\s+)\\?tan\s*\\?\(?\s*([^\W\d]\w*)\)?\s*=\s*([^=,;]+?)\s*/\s*(\((?:[^()]|\([^()]*\))*\)|[^\s()]+)\s*\Z"
+)
+"""``… with tan φ = c ω/(k − m ω²)``, of a phase."""
 _NAME = r"(\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?)"
 _SLOPE = re.compile(
     rf"\\[dt]?frac\s*\{{\s*d\s*\^\s*\{{?2\}}?\s*{_NAME}\s*\}}\s*\{{\s*d\s*{_NAME}\s*\^\s*\{{?2\}}?\s*\}}"
@@ -49,15 +60,45 @@ _SLOPE = re.compile(
 """``d²u/dθ²``, of which t is read elsewhere."""
 
 
+_LESS = r"(?:<=|>=|[<>≤≥]|\\(?:leq?|geq?|lt|gt)(?![a-z]))"
+_IN_LABEL = (
+    re.compile(rf"\(([^()=:]*{_LESS}[^()=:]*)\)"),
+    re.compile(rf"(?:\A|[,;])\s*((?:(?!{_LESS})[^,;()=:])+{_LESS}[^,;()=:]*)\Z"),
+)
+"""``on the ice (x > 0):``, ``energy, x < 0:``."""
+_SAYS_WHEN = re.compile(r"\s*(?:if|when|for|while|until|once|as|given|limit|only)\b")
+_LONG_WORD = re.compile(r"(?<![\\A-Za-z])(?!sin|cos|tan|sqrt)[A-Za-z]{3,}")
+_CONSTANT_SIDE = re.compile(r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)")
+
+
 def usual(text: str) -> str:
     """A statement in the ways of writing that are read."""
+    text = _CONSTANT_SIDE.sub("", _ranged(text))
     for words, word in _FOREIGN:
         text = words.sub(word, text)
     text = _WHEN_INSIDE.sub(r"\1:", _LABEL_FIRST.sub(r"\1: ", text))
     text = _CONSTANT_IF.sub(r"\1: constant: ", _AT_RELEASE.sub(r"\1", _BEFORE_NEXT.sub(r"\1", text)))
+    text = _TAN_OF.sub(r"\1\2 = atan2(\3, \4)", _FROM_TO.sub(r"from \1 to \2:", _WHICH_SIDE.sub("", _SEEN.sub("", text))))
+    text = _FIRST_TIME.sub(r"when \1, from the start: \2", text)
     text = _STAGE.sub(r"during \1", text)
     text = _FREQUENCY_OF.sub(r"\1", _HELD_AND.sub(r"\1 (\2), \3", text))
     return _SLOPE.sub(_slope, text)
+
+
+def _ranged(text: str) -> str:
+    """A statement with the range that its label gives, ``0 < s < l:``, as a condition."""
+    label, colon, said = text.partition(":")
+    if not colon or said.startswith("=") or _SAYS_WHEN.match(label) or re.search(r"(?<![<>])=", label):
+        return text
+    plain = label.replace("$", "").strip()
+    found = next((found[1] for pattern in _IN_LABEL if (found := pattern.search(plain))), None)
+    if found is None or _LONG_WORD.search(found):
+        return text
+    signs, sides = re.findall(_LESS, found), [side.strip() for side in re.split(_LESS, found)]
+    if not all(sides):
+        return text
+    parts = (f"{one} {sign} {other}" for one, sign, other in zip(sides, signs, sides[1:]))
+    return f"if {', '.join(parts)}:{said}"
 
 
 def _slope(found: re.Match[str]) -> str:

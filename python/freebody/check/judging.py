@@ -231,7 +231,7 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     is at rest and everything moves from there, so that a term which is left out is 0; where what it says is 0 never changes; or where a
     size or a root in it has the sign that it has on these. Else None."""
     given, figure = case.hypothesis, says_a_figure(equation)
-    if replace(given, vanishing=(), held=(), numbers=False, zeros=True) != ALL or (figure and not given.vanishing):
+    if replace(given, vanishing=(), above=(), held=(), numbers=False, zeros=True) != ALL or (figure and not given.vanishing):
         return None
     since = replace(given, since="start")
     glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)

@@ -20,7 +20,7 @@ from freebody.solve.perturbed_states import independent, same_mode
 from freebody.symbolic.dimensions import ANGLE, LENGTH
 
 from .admissible import UnderOtherLoads
-from .arrangement import NOTHING, arranged, stated
+from .arrangement import NOTHING, arranged, stated, with_parameters
 from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
 from .followed_model import FollowedModel
@@ -132,6 +132,7 @@ class MotionSampler(FollowedModel):
     ) -> tuple[State, State | None] | None:
         start = None
         if family.steady:
+            values = self._tied(values, family)
             return (found, None) if (found := steady_state(self, rng, values, _EXACT)) else None
         driven = bool(family.vanishing and self.spec["motions"]) and not self.free_rates.size
         if (family.since or driven) and not family.at_start:
@@ -150,6 +151,18 @@ class MotionSampler(FollowedModel):
         if lost or not found or any(value <= 0 for value in self._read(family.above, found, start)):
             return None
         return found, start
+
+    def _tied(self, values: dict[str, float], family: Family) -> dict[str, float]:
+        """Parameters with other values of those that are not held, so that what vanishes does so. Raises ``NoMotion``."""
+        if not family.vanishing:
+            return values
+        free = [
+            name for name in self.free_parameters if name not in dict(family.held) and not (self.loops and name in self._closing)
+        ]
+        if (found := with_parameters(self, family.vanishing, self.started(values), values, free)) is None:
+            raise NoMotion(f"`{stated(family.vanishing[0])}` cannot be arranged by parameters in the steady state")
+        numbers = dict(zip((p["name"] for p in self.metadata["parameters"]), found.p.tolist(), strict=False))
+        return {name: numbers.get(name, value) for name, value in values.items()}
 
     def _read(self, texts: Sequence[str], state: State, start: State | None) -> list[float]:
         """Expressions in a state, with what is asked of the start of its motion."""

@@ -163,7 +163,9 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
         is_comment = "→" in words or _is_comment(words, known, measured)
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
-    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), usual(text))))
+    said = _IN_LATEX.sub(
+        _of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), usual(text)))
+    ).lstrip()
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(r"_{\1}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)

@@ -32,6 +32,7 @@ _QUANTITIES = {
     **dict.fromkeys(("τ", "τ_n", "T_n", "period"), "period"),
     **{
         "ζ": "damping ratio",
+        "δ": "logarithmic decrement",
         "ω_d": "damped frequency",
         "f_d": "frequency, damped",
         "T_d": "damped period",
@@ -232,6 +233,7 @@ class Vibration:
             damping = -np.trace(a) / (2 * natural) if a is not None else np.nan
             damped = natural * np.sqrt(1 - damping**2)
             out = {"natural frequency": natural, "damping ratio": damping, "damped frequency": damped}
+            out |= {"logarithmic decrement": 2 * np.pi * damping / np.sqrt(1 - damping**2)}
             out |= {"frequency": natural / (2 * np.pi), "frequency, damped": damped / (2 * np.pi)}
             return {**out, "period": 2 * np.pi / natural, "damped period": 2 * np.pi / damped}
 

@@ -27,6 +27,7 @@ LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at re
 """``while it slips``: words of a stretch of the motion."""
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""
+_SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
 _HELD = r"(?:is\s+|are\s+)?(?:held|fixed|locked|clamped|blocked)(?:\s+(?:still|fixed|fast|in place))?"
 _LISTED = (
     (re.compile(rf"(?:with\s+)?(?:the\s+)?([\w\s'-]+?)\s+{_HELD}\s*(?:\(|at\s+)\s*(\S+?)\s*=\s*([^()]+?)\)?"), r"\2 held at \3"),
@@ -34,11 +35,14 @@ _LISTED = (
     (re.compile(r"([^\W\d]\S{0,5}) (?:is )?small"), r"small \1"),
     (re.compile(r"([^\W\d]\S{0,5}) (?:is )?(?:negligible|neglected)|negligible ([^\W\d]\S{0,5})"), r"\1\2 -> 0"),
     (re.compile(r"(?:[A-Za-z]+\s+)+\(([^()=]+=[^()]+)\)"), r"\1"),
+    (re.compile(rf"(?:for\s+)?{_SMALL_MOTIONS}(?: about \S+)?"), "small motions"),
+    (re.compile(r"(?:if\s+)?the start is at rest"), "the start is at rest"),
 )
 """Conditions in a list without a word before it, ``block held at x = 0, shaker off (h = 0), θ small:``."""
 _PLAIN_ONE = re.compile(r"small\s+\S+|\S+('|\u0307)*\s*=\s*[^=]+")
 """What may stand beside these."""
 _WORDS = re.compile(r"[\w\s'-]+")
+_LOWER_WORDS = re.compile(r"[a-z]{2,}(?:\s+[a-z]{2,})+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
@@ -73,7 +77,6 @@ _GIVEN_IN_WORDS = re.compile(
     rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))"
 )
 """``engine off, no damping (Q = 0, c = 0):``."""
-_SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
 _OF_WHAT = re.compile(
     rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
@@ -246,9 +249,11 @@ def _listed(text: str) -> str:
         return text
     parts = [part.strip(" $") for part in re.split(r",(?![^()]*\))|;", label)]
     found = [next((pattern.sub(to, part) for pattern, to in _LISTED if pattern.fullmatch(part)), None) for part in parts]
-    if not any(found) or not all(new or _PLAIN_ONE.fullmatch(part) for part, new in zip(parts, found, strict=True)):
+    each = [(part, new or (_PLAIN_ONE.fullmatch(part) and part)) for part, new in zip(parts, found, strict=True)]
+    if not any(found) or not all(new or _LOWER_WORDS.fullmatch(part) for part, new in each):
         return text
-    return f"if {', '.join(new or part for part, new in zip(parts, found, strict=True))}:{said}"
+    words = "".join(f" {part}:" for part, new in each if not new)  # a label
+    return f"if {', '.join(new for _, new in each if new)}:{words}{said}"
 
 
 def _conditional(word: str, words: str, statement: str) -> str:
@@ -322,7 +327,9 @@ def _plainly(condition: str) -> str:
 def _condition(part: str) -> str:
     """One part of a condition in the words of a hypothesis."""
     said = part.strip()
-    said = re.sub(r"\A(?:(?:when|if)\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))", "", said)
+    said = re.sub(
+        r"\A(?:(?:when|if|(?:as|so) long as(?=[^:]*[<>≤≥]))\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))", "", said
+    )
     if re.fullmatch(
         rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
     ):
