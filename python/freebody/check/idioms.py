@@ -97,7 +97,7 @@ def _ranged(text: str) -> str:
     signs, sides = re.findall(_LESS, found), [side.strip() for side in re.split(_LESS, found)]
     if not all(sides):
         return text
-    parts = (f"{one} {sign} {other}" for one, sign, other in zip(sides, signs, sides[1:]))
+    parts = (f"{one} {sign} {other}" for one, sign, other in zip(sides[:-1], signs, sides[1:], strict=True))
     return f"if {', '.join(parts)}:{said}"
 
 
