@@ -68,13 +68,13 @@ class Search:
     def _tries(self, wanted: Sym) -> Iterator[list[Stated]]:
         """The smallest set; all balances of the coordinates, and more."""
         if least := smallest_set(wanted.name, self.states, self.subject.points).equations:
-            yield from_search(self.subject, least)
+            yield from_search(self.subject, least, momentum=False)
         stated = of_coordinates(self.subject, momentum=False)
         if wanted.dots or any(wanted in s.balance.linear.coefficients for s in stated):
             yield stated
         else:
             more = smallest_set(wanted.name, self.states, self.subject.points, known_motion=True).equations
-            yield stated + from_search(self.subject, more)
+            yield stated + from_search(self.subject, more, momentum=False)
 
     def _closed(self, stated: Sequence[Stated], wanted: Sym, known: Mapping[Sym, Tree], titles: Collection[str]) -> SufficientSet:
         """With the rows that it takes, and without what it does not take."""

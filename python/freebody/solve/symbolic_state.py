@@ -86,7 +86,7 @@ class Contribution:
 
 @dataclass(frozen=True)
 class Balance:
-    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``momentum`` is 0 where it was not asked for.
+    """Σ M = Ḣ or Σ F = L̇ of a group: ``left`` = ``right``; ``momentum`` is 0, and ``inertia`` of no body, where it was not asked for.
 
     ``place`` is the point about which, or the vector along which; ``linear`` is right − left by what is unknown."""
 

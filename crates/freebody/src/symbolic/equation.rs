@@ -6,7 +6,7 @@
 use super::query::{About, Along, Group, Parts};
 use super::vectors::{linear_in, tree, tree_by};
 use super::SymbolicState;
-use crate::algebra::Symbol;
+use crate::algebra::{Symbol, Tree};
 use crate::dynamics::{momentum, momentum_rate, DynamicsError};
 use crate::free_bodies::{Load, Part, Size};
 use crate::plane::{vec2, Vec2, Wrench};
@@ -197,11 +197,10 @@ impl SymbolicState<'_> {
     pub(super) fn equation(&self, bodies: &[usize], test: VirtualMotion, parts: Parts) -> Value {
         let Balance { loads, rates, left, right } = self.balance(bodies, test);
         let unknowns = self.unknowns();
-        let residual = right - left;
+        let sides = [left, right].map(|side| tree_by(side, &unknowns));
         let mut entries = json!({
             "bodies": bodies.iter().map(|&b| &self.m.bodies[b].name).collect::<Vec<_>>(), "test": self.presented(test),
-            "left": tree_by(left, &unknowns), "right": tree_by(right, &unknowns),
-            "residual": tree_by(residual, &unknowns), "linear": self.linear(residual),
+            "left": sides[0], "right": sides[1], "linear": self.linear(right - left),
         });
         if parts.terms {
             let load = |(i, moment, internal): &(usize, Symbol, bool)| {
@@ -209,8 +208,9 @@ impl SymbolicState<'_> {
                 json!({"load": i, "tree": tree(entries), "zero": moment.is_zero(), "internal": internal})
             };
             let inertia = |&(b, rate): &(usize, Symbol)| json!({"body": self.m.bodies[b].name, "tree": tree(rate), "zero": rate.is_zero()});
+            let written = sides.iter().map(Tree::signs).sum::<usize>() <= parts.inertia_within;
             entries["loads"] = loads.iter().map(load).collect();
-            entries["inertia"] = rates.iter().map(inertia).collect();
+            entries["inertia"] = rates.iter().filter(|_| written).map(inertia).collect();
         }
         if parts.momentum {
             let momentum = bodies.iter().fold(Symbol::zero(), |sum, &b| sum + self.momentum(b, test));

@@ -49,13 +49,15 @@ pub enum Along {
 pub struct Parts {
     /// What each load and each body gives to it; loads within the group, which cancel, are not written.
     pub terms: bool,
+    /// Signs of both sides up to which each body is among them; a longer equation is read by nobody, term by term.
+    pub inertia_within: usize,
     /// The momentum of the group.
     pub momentum: bool,
 }
 
 impl Default for Parts {
     fn default() -> Self {
-        Parts { terms: true, momentum: true }
+        Parts { terms: true, inertia_within: usize::MAX, momentum: true }
     }
 }
 

@@ -95,18 +95,34 @@ fn questions(bench: &Bench) -> Vec<Query> {
     serde_json::from_value(Value::Array(all)).unwrap()
 }
 
-/// Every equation among the answers, with what it is.
-fn equations(answers: &Value) -> Vec<(String, &Value)> {
+fn sum(of: Vec<Value>) -> Value {
+    json!({"add": of})
+}
+
+fn less(a: &Value, b: &Value) -> Value {
+    json!({"add": [a, {"mul": [{"num": -1}, b]}]})
+}
+
+/// Every equation among the answers, as what vanishes, with what it is.
+fn equations(answers: &Value) -> Vec<(String, Value)> {
     let mut found = vec![];
     for answer in answers.as_array().unwrap() {
-        if let Some(residual) = answer.get("residual") {
-            found.push((answer["test"]["kind"].to_string() + &answer["bodies"].to_string(), residual));
+        if let Some(bodies) = answer.get("bodies") {
+            let (left, right, linear) = (&answer["left"], &answer["right"], &answer["linear"]);
+            let trees = |word: &str| answer[word].as_array().unwrap().iter().map(|part| part["tree"].clone()).collect();
+            let held =
+                linear["coefficients"].as_array().unwrap().iter().map(|c| json!({"mul": [c["tree"], c["symbol"]]}));
+            let what = |how: &str| format!("{how} {} of {bodies}", answer["test"]["kind"]);
+            found.push((what("balance"), less(right, left)));
+            found.push((what("loads in the balance"), less(&sum(trees("loads")), left)));
+            found.push((what("bodies in the balance"), less(&sum(trees("inertia")), right)));
+            found.push((what("linear balance"), sum(held.chain([linear["rest"].clone()]).collect())));
         }
         for equation in answer.get("equations").and_then(Value::as_array).into_iter().flatten() {
-            found.push((format!("Lagrange {}", equation["coordinate"]), &equation["residual"]));
+            found.push((format!("Lagrange {}", equation["coordinate"]), equation["residual"].clone()));
         }
         for row in answer.as_array().into_iter().flatten() {
-            found.push((format!("row {}", row["name"]), &row["acceleration"]));
+            found.push((format!("row {}", row["name"]), row["acceleration"].clone()));
         }
     }
     found
@@ -146,10 +162,37 @@ fn equations_told_at_one_state_hold_at_another() {
         }
         for (what, residual) in equations(&answers["answers"]) {
             assert!(!residual.to_string().contains("null"), "seed {seed}, {what} is undefined: {}", bench.label());
-            let (x, size) = value(residual, &numbers);
+            let (x, size) = value(&residual, &numbers);
             assert!(x.abs() <= ROUND_OFF * size.max(1.0), "seed {seed}, {what}: {x} of {size}, {}", bench.label());
             label += 1;
         }
     }
     assert!(label > 50, "{label}");
+}
+
+/// Numbers that are no exponents, variables, operations and functions of a tree.
+fn signs(tree: &Value) -> usize {
+    let of = ["add", "mul", "args"].into_iter().filter_map(|word| tree.get(word)?.as_array());
+    let base = tree.get("pow").map_or(0, |of| signs(&of[0]));
+    1 + base + of.flatten().map(signs).sum::<usize>()
+}
+
+#[test]
+fn bodies_are_written_of_balances_with_no_more_signs_than_said() {
+    for seed in seeds(0..12, 3) {
+        let bench = Bench::new(&Recipe { odd: false, bodies: BODIES, ..recipe(seed) }.draw(seed, HOME));
+        let mut workspace = bench.balance();
+        let state = bench.state(&mut workspace, &mut Rng::new(seed), 0.05).expect("a state");
+        workspace.move_to(state.t, &state.q, &state.u);
+        let mut written = |within: usize| {
+            let question = json!([{"ask": "equation", "bodies": [], "along": "x", "inertia_within": within}]);
+            let question: Vec<Query> = serde_json::from_value(question).unwrap();
+            let answers = answer(&mut workspace, &Setting::default(), &question).unwrap();
+            let balance = answers["answers"][0].clone();
+            (signs(&balance["left"]) + signs(&balance["right"]), balance["inertia"].as_array().unwrap().len())
+        };
+        let (size, bodies) = written(usize::MAX);
+        assert!(bodies > 0, "seed {seed}");
+        assert_eq!([written(size).1, written(size - 1).1], [bodies, 0], "seed {seed}: {size} signs");
+    }
 }

@@ -30,8 +30,8 @@ ROOM = 40
 """Lines that a page has."""
 OF_A_PAGE = 250
 """Symbols, numbers and operations of an expression beyond which it does not stand on a page."""
-_LONG = 1000
-"""As many in both sides of a balance before it is written in a person's form, beyond which that is not done."""
+FOR_A_PAGE = {"momentum": False, "inertia_within": 1000}
+"""What is asked of a balance for a page: the inertia of each body up to so many in both sides, beyond which no person's form is sought."""
 _OF_A_LAW = 2
 """Lines that a law in vectors may take."""
 _INTERNAL = 4
@@ -146,7 +146,7 @@ class Shown:
     @cached_property
     def is_long(self) -> bool:
         """Whether no page has it, in whatever form."""
-        return signs((self.stated.balance.right, self.stated.balance.left)) > _LONG
+        return not self.stated.balance.inertia
 
     @property
     def _is_short(self) -> bool:

@@ -16,14 +16,15 @@ from freebody.symbolic.symbols import unicode_name
 from freebody.symbolic.tree import ZERO, Sym, is_zero
 
 
-def stated(subject: SymbolicState, momentum: bool = True) -> list[Stated]:
-    """One equation for every coordinate of the tree, with its ``momentum``; no reaction of a joint of the tree is in any of them."""
+def stated(subject: SymbolicState, **parts: Any) -> list[Stated]:
+    """One equation for every coordinate of the tree, with the ``parts`` of a question; no reaction of a joint of the tree is in any of
+    them."""
     joints = {joint["name"]: joint for joint in subject.source.metadata["joints"]}
     own = [joints.get(c["joint"], {"type": "free", "name": c["joint"]}) for c in subject.coordinates]
     cards = [cards_of()[joint["type"]] for joint in own]
     moves = [next(m for m in card.coordinates if m.name == c["word"]) for card, c in zip(cards, subject.coordinates, strict=True)]
     asked = [_question(subject, *each) for each in zip(subject.names, own, moves, strict=True)]
-    found = subject.balances([{**question, "momentum": momentum} for question in asked])
+    found = subject.balances([{**question, **parts} for question in asked])
     made = []
     for name, joint, card, motion, balance in zip(subject.names, own, cards, moves, found, strict=True):
         inertia = balance.linear.coefficients.get(Sym(name, 2), ZERO)

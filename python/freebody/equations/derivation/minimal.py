@@ -11,6 +11,7 @@ from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Words
 from freebody.equations.balances.equation import BalanceEquation
 from freebody.equations.balances.minimal import MinimalForm, minimal_form
 from freebody.equations.derivation import loop_closure, page, virtual
+from freebody.equations.derivation.balance_page import FOR_A_PAGE
 from freebody.equations.derivation.balance_text import Stated, is_at
 from freebody.equations.derivation.coordinates import stated as of_coordinates
 from freebody.equations.derivation.form import Form
@@ -32,13 +33,14 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
     In a tree these are the balances of the coordinates. With loops they are looked for among all connected sets of bodies; where
     all sets hold reactions, those with the fewest stand, and the equations of virtual power beside them."""
     rows, search = subject.rows, None
+    parts = {"momentum": False} if long else FOR_A_PAGE
     if all(row.kind == "motion" for row in rows) and not any(load.follows for load in subject.free.loads):
-        chosen = of_coordinates(subject, momentum=False)
+        chosen = of_coordinates(subject, **parts)
     else:
         search = minimal_form(subject.neighbours, subject.points, forces=True)
-        found = from_search(subject, search.equations)
-        chosen = found if found or not search.wanted else of_coordinates(subject, momentum=False)
-    added = _of_bearing_friction(subject, chosen)
+        found = from_search(subject, search.equations, **parts)
+        chosen = found if found or not search.wanted else of_coordinates(subject, **parts)
+    added = _of_bearing_friction(subject, chosen, **parts)
     stated = [replace(s, label=str(i), constants=subject.constants) for i, s in enumerate([*chosen, *added], 1)]
     form = Form.of(subject.nomenclature, [*stated, *loop_closure.printed(rows)])
     if not long:
@@ -59,10 +61,10 @@ def minimal(subject: SymbolicState, long: bool = False) -> Form:
     return replace(form, blocks=tuple(made))
 
 
-def from_search(subject: SymbolicState, equations: Sequence[BalanceEquation]) -> list[Stated]:
-    """Equations that a search found, symbolically."""
+def from_search(subject: SymbolicState, equations: Sequence[BalanceEquation], **parts: Any) -> list[Stated]:
+    """Equations that a search found, symbolically, with the ``parts`` of a question."""
     asked = [_questions(subject, equation) for equation in equations]
-    found = iter(subject.balances([{**question, "momentum": False} for questions in asked for question in questions]))
+    found = iter(subject.balances([{**question, **parts} for questions in asked for question in questions]))
     stated = [[_stated(subject, next(found), e) for _ in questions] for questions, e in zip(asked, equations, strict=True)]
     return [min(each, key=lambda s: operations(s.balance.left) + operations(s.balance.right)) for each in stated]
 
@@ -93,7 +95,7 @@ def _stated(subject: SymbolicState, balance: Balance, equation: BalanceEquation)
     return Stated(balance.without(places, gone), where, "about" if balance.turns else "along", "", equation.constructed)
 
 
-def _of_bearing_friction(subject: SymbolicState, stated: Sequence[Stated]) -> list[Stated]:
+def _of_bearing_friction(subject: SymbolicState, stated: Sequence[Stated], **parts: Any) -> list[Stated]:
     """A force balance for every force that a law of friction holds and none of the equations does: along it, of all that its joint
     carries."""
     held = {x.name for s in stated for x in s.balance.linear.coefficients}
@@ -105,7 +107,7 @@ def _of_bearing_friction(subject: SymbolicState, stated: Sequence[Stated]) -> li
         return subject.balances(own[:1])[0].bodies if own else [load.of[-1]]
 
     wanted = [(i, load) for i, load in enumerate(subject.free.loads) if load.unknown and load.symbol in needed]
-    asked = [{"ask": "equation", "bodies": [*carried(load)], "along": load.axis or {"load": i}} for i, load in wanted]
+    asked = [{"ask": "equation", "bodies": [*carried(load)], "along": load.axis or {"load": i}, **parts} for i, load in wanted]
     found = zip(wanted, subject.balances(asked), strict=True) if asked else []
     return [Stated(balance, load.axis or f"the line of {load.symbol}", "along") for (_, load), balance in found]
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from freebody.document.blocks import Block, Bullets, Heading, Paragraph, Table, listed
 from freebody.equations.balances.smallest import COUNT, VirtualPower, smallest_set
 from freebody.equations.derivation import loop_closure, page, preamble
-from freebody.equations.derivation.balance_page import ROOM, fitted, lines, shown
+from freebody.equations.derivation.balance_page import FOR_A_PAGE, ROOM, fitted, lines, shown
 from freebody.equations.derivation.balance_text import Stated
 from freebody.equations.derivation.form import Form
 from freebody.equations.derivation.minimal import from_search
@@ -30,7 +30,8 @@ def wanted(subject: SymbolicState, name: str, about: Sequence[str] = (), long: b
     numbers = [Heading("Numbers"), Table(("unknown", "SI"), rows, "At this state:"), Paragraph(agrees + exact)]
     if found.virtual:
         return replace(Form.of(subject.nomenclature, []), blocks=(*_virtual(found.virtual), *numbers))
-    stated = [replace(s, constants=subject.constants) for s in from_search(subject, found.equations)]
+    parts = {"momentum": False} if long else FOR_A_PAGE
+    stated = [replace(s, constants=subject.constants) for s in from_search(subject, found.equations, **parts)]
     free = [x.name for x in map(_symbol, found.values) if x.dots]
     moving = {x.name for equation in stated for x in equation.linear.coefficients if x.dots}
     following = loop_closure.followers(subject.rows, free, moving)

@@ -94,15 +94,14 @@ impl Tree {
         *self == Tree::number(Coefficient::ONE)
     }
 
-    /// How many signs a person reads: operations, functions and numbers that are not exponents.
-    pub fn operations(&self) -> usize {
-        match self {
+    /// How many numbers that are no exponents, variables, operations and functions there are in it.
+    pub fn signs(&self) -> usize {
+        1 + match self {
             Tree::Num { .. } | Tree::Sym { .. } => 0,
-            Tree::Add { add: parts } | Tree::Mul { mul: parts } => {
-                parts.len() - 1 + parts.iter().map(Tree::operations).sum::<usize>()
+            Tree::Add { add: parts } | Tree::Mul { mul: parts } | Tree::Fn { args: parts, .. } => {
+                parts.iter().map(Tree::signs).sum()
             }
-            Tree::Pow { pow: (base, _) } => 1 + base.operations(),
-            Tree::Fn { args, .. } => 1 + args.iter().map(Tree::operations).sum::<usize>(),
+            Tree::Pow { pow: (base, _) } => base.signs(),
         }
     }
 

@@ -185,6 +185,6 @@ fn ten_links_are_written_in_time() {
         let start = std::time::Instant::now();
         let tree = moment.tree();
         assert!(start.elapsed().as_secs() < 10);
-        assert!((1000..5000).contains(&tree.operations()));
+        assert!((3000..9000).contains(&tree.signs()), "{}", tree.signs());
     });
 }
