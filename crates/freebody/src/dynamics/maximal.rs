@@ -2,21 +2,39 @@
 //! is linear in the number of bodies for trees and for ladders of loops.
 
 use super::momentum::Inertia;
-use super::rows::{closing_rows, joint_rows, joint_tangent, pair};
+use super::rows::{closing_rows_into, joint_rows, joint_tangent, pair};
 use super::sparse_tree::SparseTree;
-use super::{DynamicsError, Row, Source, Workspace};
+use super::{DynamicsError, Row, Solution, Source, Workspace};
 use crate::kinematics::{relative, JointView, StateView};
-use crate::mechanism::Joint;
+use crate::mechanism::{Joint, Part};
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::{Jet, Scalar};
-use crate::solve::{Factor, Lu, Matrix, Orthogonal, Pattern};
+use crate::solve::{Factor, Matrix, Orthogonal, Pattern};
+use smallvec::{smallvec, SmallVec};
 use std::collections::HashMap;
 
-/// Memory of the sparse solution: one group of rows for each joint or drive that has any.
-pub struct Sparse {
-    factor: Factor,
-    groups: Vec<Source>,
+/// Memory of the equations of all bodies, and the sparse factors: one group of rows for each joint or drive that has any.
+#[derive(Default)]
+pub struct Maximal {
+    sparse: Option<(Factor, Vec<Source>)>,
+    /// First unknown of each body, ground left out; one entry more than bodies.
+    starts: Vec<usize>,
+    /// All rows of all joints and drives, those of each joint together, in the order of the groups; those of joints come first.
+    rows: Vec<Row>,
+    of_joints: usize,
+    /// The first row of each joint.
+    first: Vec<usize>,
+    /// The rows outside the tree, while they are not among all.
+    closing: Vec<Row>,
+    side: Vec<f64>,
+    found: Vec<f64>,
 }
+
+/// A body's mass matrix, or what a joint's rows do on it.
+type Block = SmallVec<[f64; 9]>;
+
+/// Least part of a column of a joint that the columns before it leave, below which these are one motion.
+const ONE_MOTION: f64 = 1e-14;
 
 /// Largest system with actuators of their own direction, which the symmetric factorisation cannot hold.
 const DENSE_LIMIT: usize = 600;
@@ -63,160 +81,120 @@ impl Workspace<'_> {
         (Pattern::new(&bodies, &sizes, &edges), groups)
     }
 
-    /// All rows of all joints and drives, those of each joint together, in the order of the groups.
-    fn all_rows(&self) -> Vec<Row> {
+    /// The rows of the present state, and where the unknowns of each body begin.
+    fn enter_rows(&self, of: &mut Maximal) {
         let at = self.at();
-        let mut rows = vec![];
-        for (j, joint) in at.joints() {
-            if !joint.rows.is_empty() {
-                constraint_rows(at, j, &mut rows);
-            }
+        of.starts.clear();
+        of.starts.push(0);
+        for (i, body) in self.m.bodies[1..].iter().enumerate() {
+            of.starts.push(of.starts[i] + if body.particle { 2 } else { 3 });
         }
-        let closing = closing_rows(at, None);
-        rows.extend(closing.into_iter().filter(|row| !matches!(row.source, Source::Joint(..))));
-        rows
+        of.rows.clear();
+        of.first.clear();
+        of.first.resize(self.m.joints.len(), 0);
+        for (j, _) in at.joints().filter(|(_, joint)| !joint.rows.is_empty()) {
+            of.first[j] = of.rows.len();
+            constraint_rows(at, j, &mut of.rows);
+        }
+        of.of_joints = of.rows.len();
+        closing_rows_into(at, None, &mut of.closing);
+        let joints = of.closing.iter().take_while(|row| matches!(row.source, Source::Joint(..))).count();
+        of.rows.extend(of.closing.drain(joints..));
     }
 
     pub(super) fn solve_constraints(&mut self) -> Result<(), DynamicsError> {
-        let rows = self.all_rows();
-        let starts = self.body_starts();
-        let unknowns = starts[self.m.bodies.len() - 1] + rows.len();
-        let mut rhs = self.momentum_side(&starts);
-        rhs.extend(rows.iter().map(|row| -row.bias));
-        let mut x = vec![0.0; unknowns];
+        let mut of = std::mem::take(&mut self.maximal);
+        self.enter_rows(&mut of);
+        self.enter_momentum(&mut of);
+        of.side.extend(of.rows.iter().map(|row| -row.bias));
         // The sparse pattern is that of the whole mechanism, which parts and unilateral constraints leave.
-        if self.m.is_hybrid() || rows.iter().any(|row| row.force.is_some()) {
-            self.solve_dense(&rows, &starts, &rhs, &mut x)?;
-        } else {
-            self.solve_sparse(&rows, &rhs, &mut x)?;
+        let solved = match self.m.is_hybrid() || of.rows.iter().any(|row| row.force.is_some()) {
+            true => self.solve_dense(&mut of),
+            false => self.solve_sparse(&mut of),
+        };
+        if solved.is_ok() {
+            self.take_constraints(&mut of);
         }
-        self.take_constraints(&rows, &starts, &x);
-        Ok(())
-    }
-
-    /// First unknown of each body, ground left out; one entry more than bodies.
-    fn body_starts(&self) -> Vec<usize> {
-        let mut starts = vec![0];
-        for body in &self.m.bodies[1..] {
-            starts.push(starts[starts.len() - 1] + if body.particle { 2 } else { 3 });
-        }
-        starts
+        self.maximal = of;
+        solved
     }
 
     /// Loads less what velocities ask for, at the joint origins.
-    fn momentum_side(&self, starts: &[usize]) -> Vec<f64> {
-        let mut side = vec![0.0; starts[starts.len() - 1]];
-        for i in 1..self.m.bodies.len() {
+    fn enter_momentum(&self, of: &mut Maximal) {
+        of.side.clear();
+        for (i, unknowns) in (1..).zip(of.starts.windows(2)) {
             let needed = self.loads[i] - super::inertia_wrench(self.at(), i, Twist::zero());
-            let range = starts[i - 1]..starts[i];
-            let parts = needed.parts();
-            side[range.clone()].copy_from_slice(&parts[..range.len()]);
+            of.side.extend_from_slice(&needed.parts()[..unknowns[1] - unknowns[0]]);
         }
-        side
     }
 
     /// Mass matrix of a body at its joint origin, row-major, 3 × 3 or 2 × 2.
-    fn body_mass(&self, i: usize) -> Vec<f64> {
+    fn body_mass(&self, i: usize) -> Block {
         let Inertia { mass, moment, turn } = Inertia::of(self.at(), i, self.arms[i]);
         if self.m.bodies[i].particle {
-            return vec![mass, 0.0, 0.0, mass];
+            return smallvec![mass, 0.0, 0.0, mass];
         }
         let h = moment.perp();
-        vec![mass, 0.0, h.x, 0.0, mass, h.y, h.x, h.y, turn]
+        smallvec![mass, 0.0, h.x, 0.0, mass, h.y, h.x, h.y, turn]
     }
 
     /// The least motion ν (in the metric of the masses) that changes the present rows by `asked`, in their order; the last of them
     /// may be `targets`, of no joint and no drive.
     pub(super) fn sparse_correction(&mut self, asked: &[f64], targets: &[Row]) -> Result<Vec<f64>, DynamicsError> {
-        let rows = self.all_rows();
-        let starts = self.body_starts();
-        let n = starts[starts.len() - 1];
+        let mut of = std::mem::take(&mut self.maximal);
+        self.enter_rows(&mut of);
         let known: HashMap<Source, f64> = self.rows.iter().map(|row| row.source).zip(asked.iter().copied()).collect();
-        let mut rhs = vec![0.0; n];
-        rhs.extend(rows.iter().map(|row| known.get(&row.source).copied().unwrap_or(0.0)));
-        let mut x = vec![0.0; rhs.len()];
-        self.solve_sparse(&rows, &rhs, &mut x)?;
-        if !targets.is_empty() {
+        of.side.clear();
+        of.side.resize(of.starts[self.m.bodies.len() - 1], 0.0);
+        of.side.extend(of.rows.iter().map(|row| known.get(&row.source).copied().unwrap_or(0.0)));
+        let mut solved = self.solve_sparse(&mut of);
+        if solved.is_ok() && !targets.is_empty() {
             let last = &asked[asked.len() - targets.len()..];
-            self.meet(targets, last, &starts, &mut x).ok_or(DynamicsError::NoUniqueMotion)?;
+            solved = of.meet(targets, last).ok_or(DynamicsError::NoUniqueMotion);
         }
-        let mut moved = vec![Twist::zero(); self.m.bodies.len()];
-        for i in 1..self.m.bodies.len() {
-            let part = &x[starts[i - 1]..starts[i]];
-            moved[i] = Twist { v: vec2(part[0], part[1]), w: part.get(2).copied().unwrap_or(0.0) };
-        }
-        Ok(self.joint_motion(&moved, false))
+        let (mut moved, mut nu) = (vec![Twist::zero(); self.m.bodies.len()], vec![0.0; self.m.freedom()]);
+        of.motions().zip(&mut moved[1..]).for_each(|(found, motion)| *motion = found);
+        self.joint_motion(&moved, false, &mut nu);
+        self.maximal = of;
+        solved.map(|()| nu)
     }
 
-    /// Adds to a solution of the last factored equations what makes it change `targets` by `asked`, by the responses to their multipliers;
-    /// none where these depend on each other or on the loops.
-    fn meet(&self, targets: &[Row], asked: &[f64], starts: &[usize], x: &mut [f64]) -> Option<()> {
-        let unknowns = x.len();
-        let load = |row: &Row| {
-            let mut load = vec![0.0; unknowns];
-            for (body, wrench) in &row.motion {
-                let range = starts[body - 1]..starts[*body];
-                load[range].iter_mut().zip(wrench.parts()).for_each(|(sum, part)| *sum += part);
-            }
-            load
-        };
-        let along = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        let loads: Vec<Vec<f64>> = targets.iter().map(load).collect();
-        let mut responses = vec![vec![0.0; unknowns]; loads.len()];
-        for (load, response) in loads.iter().zip(&mut responses) {
-            self.sparse.as_ref()?.factor.solve(load, response).ok()?;
-        }
-        let split =
-            Orthogonal::factor(&Matrix::from_fn(loads.len(), loads.len(), |i, j| along(&loads[i], &responses[j])));
-        let left: Vec<f64> = loads.iter().zip(asked).map(|(load, asked)| asked - along(load, x)).collect();
-        let mut multipliers = vec![0.0; loads.len()];
-        split.add_solution(&left, &mut multipliers);
-        for (response, multiplier) in responses.iter().zip(multipliers) {
-            x.iter_mut().zip(response).for_each(|(x, r)| *x += multiplier * r);
-        }
-        (split.rank().rank == loads.len()).then_some(())
-    }
-
-    fn solve_sparse(&mut self, rows: &[Row], rhs: &[f64], x: &mut [f64]) -> Result<(), DynamicsError> {
-        if self.sparse.is_none() {
+    fn solve_sparse(&self, of: &mut Maximal) -> Result<(), DynamicsError> {
+        let Maximal { sparse, rows, side, found, .. } = of;
+        let (factor, groups) = sparse.get_or_insert_with(|| {
             let (pattern, groups) = self.pattern();
-            self.sparse = Some(Sparse { factor: Factor::new(&pattern), groups });
-        }
+            (Factor::new(&pattern), groups)
+        });
         let bodies = self.m.bodies.len() - 1;
-        let mut blocks: Vec<(usize, usize, Vec<f64>)> =
-            (1..=bodies).map(|i| (i - 1, i - 1, self.body_mass(i))).collect();
-        let mut row = 0;
-        let sparse = self.sparse.as_ref().expect("made above");
-        for (g, source) in sparse.groups.iter().enumerate() {
-            let size = match source {
-                Source::Joint(j, _) => self.m.joints[*j].rows.len(),
-                _ => 1,
-            };
-            for &(body, _) in &rows[row].motion {
-                let width = if self.m.bodies[body].particle { 2 } else { 3 };
-                let mut block = Vec::with_capacity(size * width);
-                for r in &rows[row..row + size] {
-                    let load = r.motion.iter().find(|(b, _)| *b == body).map_or(Wrench::zero(), |(_, w)| *w);
-                    block.extend_from_slice(&load.parts()[..width]);
-                }
-                blocks.push((bodies + g, body - 1, block));
-            }
-            row += size;
-        }
-        let sparse = self.sparse.as_mut().expect("made above");
-        sparse.factor.refactor(blocks.iter().map(|(i, j, b)| (*i, *j, b.as_slice())));
-        sparse.factor.solve(rhs, x).map_err(|stalled| {
+        let masses = (1..=bodies).map(|i| (i - 1, i - 1, self.body_mass(i)));
+        let mut rest = &rows[..];
+        let levers = groups.iter().enumerate().flat_map(|(g, source)| {
+            let size = if let Source::Joint(j, _) = source { self.m.joints[*j].rows.len() } else { 1 };
+            let own = rest.split_off(..size).expect("rows for each group");
+            own[0].motion.iter().map(move |&(body, _)| (bodies + g, body - 1, self.levers(own, body)))
+        });
+        factor.refactor(masses.chain(levers));
+        found.clear();
+        found.resize(side.len(), 0.0);
+        factor.solve(side, found).map_err(|stalled| {
             let bodies: Vec<usize> = (1..=bodies).collect();
-            DynamicsError::stalled(self.m, &stalled, &bodies, &sparse.groups)
+            DynamicsError::stalled(self.m, &stalled, &bodies, groups)
         })?;
         // The factorisation solves M a + Gᵀ(−λ) = f.
-        x[rhs.len() - rows.len()..].iter_mut().for_each(|l| *l = -*l);
+        found[side.len() - rows.len()..].iter_mut().for_each(|l| *l = -*l);
         Ok(())
     }
 
+    /// What rows do on a body, row-major.
+    fn levers(&self, rows: &[Row], body: usize) -> Block {
+        let width = if self.m.bodies[body].particle { 2 } else { 3 };
+        rows.iter().flat_map(|row| row.on(body).parts().into_iter().take(width)).collect()
+    }
+
     /// The same equations as a full matrix, for actuators that act along another gauge than the one they drive.
-    fn solve_dense(&mut self, rows: &[Row], starts: &[usize], rhs: &[f64], x: &mut [f64]) -> Result<(), DynamicsError> {
-        let (n, all) = (rhs.len() - rows.len(), rhs.len());
+    fn solve_dense(&self, of: &mut Maximal) -> Result<(), DynamicsError> {
+        let Maximal { starts, rows, side, found, .. } = of;
+        let (n, all) = (side.len() - rows.len(), side.len());
         if all > DENSE_LIMIT {
             return Err(DynamicsError::TooManyForDense);
         }
@@ -243,44 +221,38 @@ impl Workspace<'_> {
             enter(&mut a, &row.motion, true);
             enter(&mut a, row.loads(), false);
         }
-        super::newton_euler::solve_any(&a, rhs, x).map_err(|_| DynamicsError::NoUniqueMotion)
+        found.clear();
+        found.resize(all, 0.0);
+        super::newton_euler::solve_any(&a, side, found).map_err(|_| DynamicsError::NoUniqueMotion)
     }
 
     /// Reads the unknowns back: accelerations, joint accelerations, loads passed, multipliers.
-    fn take_constraints(&mut self, rows: &[Row], starts: &[usize], x: &[f64]) {
-        let n = starts[starts.len() - 1];
-        for i in 1..self.m.bodies.len() {
-            let part = &x[starts[i - 1]..starts[i]];
-            self.solved.bodies[i] = Twist { v: vec2(part[0], part[1]), w: part.get(2).copied().unwrap_or(0.0) };
-        }
-        self.solved.nu_dot = self.joint_motion(&self.solved.bodies, true);
-        self.solved.joint_wrenches.fill(Wrench::zero());
-        self.solved.lambda.clear();
-        let mut closing = vec![];
-        for (row, &lambda) in rows.iter().zip(&x[n..]) {
-            let child = match row.source {
-                Source::Joint(j, _) => self.m.joints[j].child,
-                _ => None,
-            };
-            match child {
-                Some(child) => {
-                    let load = row.motion.iter().find(|(b, _)| *b == child).map_or(Wrench::zero(), |(_, w)| *w);
-                    self.solved.joint_wrenches[child] += load * lambda;
-                }
-                None => {
-                    closing.push(row.clone());
-                    self.solved.lambda.push(lambda);
-                }
+    fn take_constraints(&mut self, of: &mut Maximal) {
+        of.motions().zip(&mut self.solved.bodies[1..]).for_each(|(found, motion)| *motion = found);
+        let mut nu_dot = std::mem::take(&mut self.solved.nu_dot);
+        self.joint_motion(&self.solved.bodies, true, &mut nu_dot);
+        self.solved.nu_dot = nu_dot;
+        let multipliers = &of.found[of.side.len() - of.rows.len()..];
+        let Solution { joint_wrenches, lambda, .. } = &mut self.solved;
+        joint_wrenches.fill(Wrench::zero());
+        for (row, &multiplier) in of.rows[..of.of_joints].iter().zip(multipliers) {
+            let Source::Joint(j, _) = row.source else { continue };
+            if let Some(child) = self.m.joints[j].child {
+                joint_wrenches[child] += row.on(child) * multiplier;
             }
         }
-        self.rows = closing;
-        self.order_rows();
+        lambda.clear();
+        for &j in self.m.closures.iter().filter(|&&j| self.placed.mode.has(Part::Joint(j))) {
+            lambda.extend_from_slice(&multipliers[of.first[j]..][..self.m.joints[j].rows.len()]);
+        }
+        lambda.extend_from_slice(&multipliers[of.of_joints..]);
+        of.closing.extend(of.rows.drain(of.of_joints..));
+        std::mem::swap(&mut self.rows, &mut of.closing);
     }
 
     /// Joint accelerations (or, without bias, displacements) from those of the bodies, by least squares over each
     /// joint's columns.
-    fn joint_motion(&self, bodies: &[Twist], bias: bool) -> Vec<f64> {
-        let mut nu = vec![0.0; self.m.freedom()];
+    fn joint_motion(&self, bodies: &[Twist], bias: bool, nu: &mut [f64]) {
         for i in 1..self.m.bodies.len() {
             let b = self.m.bodies[i].tree_joint.expect("every body hangs in the tree");
             let base = bodies[b.parent];
@@ -289,44 +261,67 @@ impl Workspace<'_> {
             let rates = fit(&self.k.motion_subspace[i][..b.freedom], own, self.length);
             nu[b.start..b.start + b.freedom].copy_from_slice(&rates[..b.freedom]);
         }
-        nu
-    }
-
-    /// Closing rows in the order of the closures, then of the drives, as the other routes have them.
-    fn order_rows(&mut self) {
-        let closures: HashMap<usize, usize> =
-            self.m.closures.iter().enumerate().map(|(i, &joint)| (joint, i)).collect();
-        let place = |row: &Row| match row.source {
-            Source::Joint(j, r) => (0, closures.get(&j).copied().unwrap_or(0), r),
-            Source::Drive(d) => (1, d, 0),
-            Source::Gap(l) => (2, l, 0),
-            Source::Friction(l) => (2, l, 1),
-            Source::JointFriction(r) => (3, r, 0),
-        };
-        let mut order: Vec<usize> = (0..self.rows.len()).collect();
-        order.sort_by_cached_key(|&i| place(&self.rows[i]));
-        self.rows = order.iter().map(|&i| self.rows[i].clone()).collect();
-        self.solved.lambda = order.iter().map(|&i| self.solved.lambda[i]).collect();
     }
 }
 
-/// The rates along `columns` that give a motion, by least squares in the metric of unit length `length`.
-/// Normal equations are enough: the columns of a joint are far from parallel.
+impl Maximal {
+    /// Those found of the bodies, ground left out.
+    fn motions(&self) -> impl Iterator<Item = Twist> + '_ {
+        let parts = self.starts.windows(2).map(|unknowns| &self.found[unknowns[0]..unknowns[1]]);
+        parts.map(|part| Twist { v: vec2(part[0], part[1]), w: part.get(2).copied().unwrap_or(0.0) })
+    }
+
+    /// Adds to a solution of the last factored equations what makes it change `targets` by `asked`, by the responses to their multipliers;
+    /// none where these depend on each other or on the loops.
+    fn meet(&mut self, targets: &[Row], asked: &[f64]) -> Option<()> {
+        let unknowns = self.found.len();
+        let load = |row: &Row| {
+            let mut load = vec![0.0; unknowns];
+            for (body, wrench) in &row.motion {
+                let range = self.starts[body - 1]..self.starts[*body];
+                load[range].iter_mut().zip(wrench.parts()).for_each(|(sum, part)| *sum += part);
+            }
+            load
+        };
+        let along = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let loads: Vec<Vec<f64>> = targets.iter().map(load).collect();
+        let mut responses = vec![vec![0.0; unknowns]; loads.len()];
+        for (load, response) in loads.iter().zip(&mut responses) {
+            self.sparse.as_mut()?.0.solve(load, response).ok()?;
+        }
+        let split =
+            Orthogonal::factor(&Matrix::from_fn(loads.len(), loads.len(), |i, j| along(&loads[i], &responses[j])));
+        let left: Vec<f64> = loads.iter().zip(asked).map(|(load, asked)| asked - along(load, &self.found)).collect();
+        let mut multipliers = vec![0.0; loads.len()];
+        split.add_solution(&left, &mut multipliers);
+        for (response, multiplier) in responses.iter().zip(multipliers) {
+            self.found.iter_mut().zip(response).for_each(|(x, r)| *x += multiplier * r);
+        }
+        (split.rank().rank == loads.len()).then_some(())
+    }
+}
+
+/// The rates along `columns` that give a motion, by least squares in the metric of unit length `length`; 0 where these
+/// are one motion. Normal equations are enough: the columns of a joint are far from parallel.
 fn fit(columns: &[Twist], motion: Twist, length: f64) -> [f64; 3] {
     let dot = |a: Twist, b: Twist| a.v.dot(b.v) + a.w * b.w * length * length;
-    let mut a = Matrix::zeros(columns.len(), columns.len());
-    let mut b = vec![0.0; columns.len()];
-    for (i, &c) in columns.iter().enumerate() {
-        b[i] = dot(c, motion);
-        for (j, &d) in columns.iter().enumerate() {
-            a[(i, j)] = dot(c, d);
+    let (n, mut a) = (columns.len(), [[0.0; 4]; 3]);
+    for (row, &c) in a.iter_mut().zip(columns) {
+        columns.iter().zip(&mut *row).for_each(|(&d, entry)| *entry = dot(c, d));
+        row[3] = dot(c, motion);
+    }
+    for k in 0..n {
+        if a[k][k] <= ONE_MOTION * dot(columns[k], columns[k]) {
+            return [0.0; 3];
+        }
+        let pivot = a[k].map(|entry| entry / a[k][k]);
+        a[k] = pivot;
+        for row in a[..n].iter_mut().enumerate().filter(|(i, _)| *i != k).map(|(_, row)| row) {
+            let by = row[k];
+            row.iter_mut().zip(pivot).for_each(|(entry, of)| *entry -= by * of);
         }
     }
-    let mut rates = [0.0; 3];
-    if let Ok(lu) = Lu::factor(&a) {
-        rates[..columns.len()].copy_from_slice(&lu.solve(&b));
-    }
-    rates
+    a.map(|row| row[3])
 }
 
 /// The rows of a joint, of the tree or not, expressed as a constraint; where its reaction acts, fixed axes.

@@ -178,7 +178,7 @@ pub struct Workspace<'m> {
     dense: minimal::Dense,
     /// There but while it is in use.
     memory: Option<Box<minimal::Memory>>,
-    sparse: Option<maximal::Sparse>,
+    maximal: maximal::Maximal,
     sparse_tree: Option<sparse_tree::SparseTree>,
     many_loops: bool,
     preferred: Option<Route>,
@@ -221,7 +221,7 @@ impl<'m> Workspace<'m> {
             articulated_body: articulated_body::ArticulatedBody::new(),
             dense: Default::default(),
             memory: Some(Default::default()),
-            sparse: None,
+            maximal: Default::default(),
             sparse_tree: None,
             many_loops: false,
             preferred: None,

@@ -60,6 +60,11 @@ impl<S: Scalar> Row<S> {
         self.force.as_ref().unwrap_or(&self.motion)
     }
 
+    /// What it does on a body.
+    pub(super) fn on(&self, body: usize) -> Wrench<S> {
+        self.motion.iter().find(|(b, _)| *b == body).map_or(Wrench::zero(), |(_, load)| *load)
+    }
+
     /// The row of a quantity that is larger by a factor.
     pub(super) fn scaled(self, by: S) -> Self {
         let times = |wrenches: BodyWrenches<S>| wrenches.into_iter().map(|(body, load)| (body, load * by)).collect();

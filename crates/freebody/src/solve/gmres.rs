@@ -9,6 +9,13 @@ const REDUCTION: f64 = 1e-8;
 /// K P⁻¹ is near the identity; below this it is round-off, and the direction in the kernel of K.
 const KERNEL: f64 = 1e-5;
 
+/// The directions of a cycle and what the solver makes of them, end to end.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Directions {
+    basis: Vec<f64>,
+    steps: Vec<f64>,
+}
+
 /// Adds to `x` an approximate solution of K x = `residual` (the residual is overwritten) and returns
 /// the number of preconditioner solves. `target` is the 2-norm at which to stop.
 ///
@@ -18,34 +25,37 @@ const KERNEL: f64 = 1e-5;
 pub(super) fn cycle(
     apply: impl Fn(&[f64], &mut [f64]),
     precondition: impl Fn(&mut [f64]),
+    Directions { basis, steps }: &mut Directions,
     residual: &mut [f64],
     target: f64,
     x: &mut [f64],
 ) -> usize {
-    let beta = dot(residual, residual).sqrt();
+    let (n, beta) = (residual.len(), dot(residual, residual).sqrt());
     let stop = target.max(REDUCTION * beta);
     residual.iter_mut().for_each(|v| *v /= beta);
-    let mut basis = vec![residual.to_vec()];
-    let mut steps: Vec<Vec<f64>> = Vec::new();
-    let mut least = LeastSquares { rhs: vec![beta], ..Default::default() };
-    while steps.len() < CYCLE && least.residual() > stop {
-        let mut z = basis[steps.len()].clone();
-        precondition(&mut z);
-        let mut w = vec![0.0; z.len()];
-        apply(&z, &mut w);
-        steps.push(z);
-        let mut column: Vec<f64> = basis.iter().map(|v| remove(v, &mut w)).collect();
-        let norm = dot(&w, &w).sqrt();
-        column.push(norm);
+    basis.clear();
+    basis.extend_from_slice(residual);
+    steps.clear();
+    let (mut count, mut least) = (0, LeastSquares::new(beta));
+    while count < CYCLE && least.residual() > stop {
+        steps.extend_from_slice(&basis[count * n..]);
+        precondition(&mut steps[count * n..]);
+        basis.resize((count + 2) * n, 0.0);
+        let (known, w) = basis.split_at_mut((count + 1) * n);
+        apply(&steps[count * n..], w);
+        let mut column = [0.0; CYCLE + 1];
+        known.chunks_exact(n).zip(&mut column).for_each(|(v, h)| *h = remove(v, w));
+        let norm = dot(w, w).sqrt();
+        column[count + 1] = norm;
+        count += 1;
         if !least.push(column) || norm == 0.0 {
             break;
         }
         w.iter_mut().for_each(|v| *v /= norm);
-        basis.push(w);
     }
     let y = least.solution();
-    y.iter().zip(&steps).for_each(|(y, z)| axpy(*y, z, x));
-    steps.len()
+    y[..least.size].iter().zip(steps.chunks_exact(n)).for_each(|(y, z)| axpy(*y, z, x));
+    count
 }
 
 /// Takes the part along the unit vector v out of w and returns its size.
@@ -56,20 +66,26 @@ fn remove(v: &[f64], w: &mut [f64]) -> f64 {
 }
 
 /// min |β e₀ − H y| for a Hessenberg H that grows by columns, by plane rotations.
-#[derive(Default)]
 struct LeastSquares {
-    columns: Vec<Vec<f64>>,
-    rotations: Vec<(f64, f64)>,
-    rhs: Vec<f64>,
+    size: usize,
+    columns: [[f64; CYCLE + 1]; CYCLE],
+    rotations: [(f64, f64); CYCLE],
+    rhs: [f64; CYCLE + 1],
 }
 
 impl LeastSquares {
+    fn new(beta: f64) -> LeastSquares {
+        let mut rhs = [0.0; CYCLE + 1];
+        rhs[0] = beta;
+        LeastSquares { size: 0, columns: [[0.0; CYCLE + 1]; CYCLE], rotations: [(1.0, 0.0); CYCLE], rhs }
+    }
+
     /// Takes a column, unless it is dependent.
-    fn push(&mut self, mut h: Vec<f64>) -> bool {
-        for (i, &(c, s)) in self.rotations.iter().enumerate() {
+    fn push(&mut self, mut h: [f64; CYCLE + 1]) -> bool {
+        let k = self.size;
+        for (i, &(c, s)) in self.rotations[..k].iter().enumerate() {
             (h[i], h[i + 1]) = (c * h[i] + s * h[i + 1], c * h[i + 1] - s * h[i]);
         }
-        let k = self.columns.len();
         let norm = (h[k] * h[k] + h[k + 1] * h[k + 1]).sqrt();
         if norm <= KERNEL {
             return false;
@@ -77,20 +93,19 @@ impl LeastSquares {
         let (c, s) = (h[k] / norm, h[k + 1] / norm);
         h[k] = norm;
         let last = self.rhs[k];
-        self.rhs[k] = c * last;
-        self.rhs.push(-s * last);
-        self.rotations.push((c, s));
-        self.columns.push(h);
+        (self.rhs[k], self.rhs[k + 1]) = (c * last, -s * last);
+        (self.rotations[k], self.columns[k]) = ((c, s), h);
+        self.size = k + 1;
         true
     }
 
     fn residual(&self) -> f64 {
-        self.rhs[self.columns.len()].abs()
+        self.rhs[self.size].abs()
     }
 
-    fn solution(&self) -> Vec<f64> {
-        let mut y = self.rhs[..self.columns.len()].to_vec();
-        for k in (0..y.len()).rev() {
+    fn solution(&self) -> [f64; CYCLE + 1] {
+        let mut y = self.rhs;
+        for k in (0..self.size).rev() {
             y[k] /= self.columns[k][k];
             let s = y[k];
             axpy(-s, &self.columns[k][..k], &mut y[..k]);

@@ -206,6 +206,31 @@ pub struct Factor {
     scale: Vec<f64>,
     shift: Vec<f64>,
     ldl: Ldl,
+    largest: Vec<f64>,
+    /// Of the solution, and of multipliers found anew.
+    refinements: [Refinement; 2],
+}
+
+/// The vectors of one refinement, kept for the next: K x = b with the residual r.
+#[derive(Clone, Debug, Default)]
+struct Refinement {
+    b: Vec<f64>,
+    x: Vec<f64>,
+    r: Vec<f64>,
+    /// What is added to x; what x was.
+    other: Vec<f64>,
+    terms: Vec<f64>,
+    directions: gmres::Directions,
+}
+
+impl Refinement {
+    /// So long, and all 0.
+    fn clear(&mut self, n: usize) {
+        for vector in [&mut self.b, &mut self.x, &mut self.r, &mut self.other, &mut self.terms] {
+            vector.clear();
+            vector.resize(n, 0.0);
+        }
+    }
 }
 
 impl Factor {
@@ -219,6 +244,8 @@ impl Factor {
             scale: vec![1.0; pattern.unknowns()],
             shift,
             ldl: Ldl::default(),
+            largest: vec![0.0; pattern.unknowns()],
+            refinements: Default::default(),
             pattern: pattern.clone(),
         }
     }
@@ -227,10 +254,10 @@ impl Factor {
     /// its transpose (j, i) too: give one of them. Diagonal blocks are symmetric.
     ///
     /// Panics if a block has no edge in the pattern or another size.
-    pub fn refactor<'a>(&mut self, blocks: impl IntoIterator<Item = (usize, usize, &'a [f64])>) {
+    pub fn refactor<B: AsRef<[f64]>>(&mut self, blocks: impl IntoIterator<Item = (usize, usize, B)>) {
         self.refactor_entries(|pattern, values| {
             for (i, j, block) in blocks {
-                pattern.place_block(i, j, block, |entry, v| values[entry] += v);
+                pattern.place_block(i, j, block.as_ref(), |entry, v| values[entry] += v);
             }
         });
     }
@@ -278,9 +305,8 @@ impl Factor {
 
     /// Scales rows and columns by powers of two until every row has its largest entry near 1.
     fn equilibrate(&mut self) {
-        let (upper, values) = (&self.pattern.upper, &mut self.values);
+        let (upper, values, largest) = (&self.pattern.upper, &mut self.values, &mut self.largest);
         self.scale.fill(1.0);
-        let mut largest = vec![0.0_f64; upper.len()];
         for _ in 0..4 {
             largest.fill(0.0);
             upper.each(values, |i, k, v| {
@@ -291,32 +317,34 @@ impl Factor {
             if largest.iter().all(|&s| s == 1.0) {
                 break;
             }
-            upper.scale(&largest, values);
-            self.scale.iter_mut().zip(&largest).for_each(|(s, l)| *s *= l);
+            upper.scale(largest, values);
+            self.scale.iter_mut().zip(&*largest).for_each(|(s, l)| *s *= l);
         }
     }
 
     /// Solves K x = `rhs` into `out`, both node by node in the caller's order.
-    pub fn solve(&self, rhs: &[f64], out: &mut [f64]) -> Result<Accuracy, Stalled> {
+    pub fn solve(&mut self, rhs: &[f64], out: &mut [f64]) -> Result<Accuracy, Stalled> {
         self.solve_to(TARGET, rhs, out)
     }
 
     /// The same to a residual that may be larger than round-off.
-    pub fn solve_to(&self, target: f64, rhs: &[f64], out: &mut [f64]) -> Result<Accuracy, Stalled> {
-        let pattern = &self.pattern;
-        let n = pattern.unknowns();
+    pub fn solve_to(&mut self, target: f64, rhs: &[f64], out: &mut [f64]) -> Result<Accuracy, Stalled> {
+        let n = self.pattern.unknowns();
         assert_eq!((rhs.len(), out.len()), (n, n), "one number for each unknown");
-        let (mut b, mut x, mut r) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        pattern.renumbering().for_each(|(i, p)| b[p] = rhs[i] * self.scale[p]);
-        let mut accuracy = self.refine(target, &b, &mut x, &mut r);
+        let [mut of, mut other] = std::mem::take(&mut self.refinements);
+        of.clear(n);
+        self.pattern.renumbering().for_each(|(i, p)| of.b[p] = rhs[i] * self.scale[p]);
+        let mut accuracy = self.refine(target, &mut of);
         if accuracy.residual > REDUNDANT_NOISE && accuracy.residual <= ACCEPTED {
-            accuracy.iterations += self.correct_multipliers(&b, &mut x);
+            accuracy.iterations += self.correct_multipliers(&mut of, &mut other);
         }
-        pattern.renumbering().for_each(|(i, p)| out[i] = x[p] * self.scale[p]);
-        if accuracy.residual <= ACCEPTED {
-            return Ok(accuracy);
-        }
-        Err(Stalled { node: self.worst(&r), residual: accuracy.residual })
+        self.pattern.renumbering().for_each(|(i, p)| out[i] = of.x[p] * self.scale[p]);
+        let solved = match accuracy.residual <= ACCEPTED {
+            true => Ok(accuracy),
+            false => Err(Stalled { node: self.worst(&of.r), residual: accuracy.residual }),
+        };
+        self.refinements = [of, other];
+        solved
     }
 
     /// The node with the largest, or an undefined, entry of a residual.
@@ -332,7 +360,8 @@ impl Factor {
     }
 
     /// Refines x, 0 at first, until the residual r is `aim`, or no longer halves.
-    fn refine(&self, aim: f64, b: &[f64], x: &mut [f64], r: &mut [f64]) -> Accuracy {
+    fn refine(&self, aim: f64, of: &mut Refinement) -> Accuracy {
+        let Refinement { b, x, r, other, terms, directions } = of;
         let upper = &self.pattern.upper;
         let apply = |x: &[f64], y: &mut [f64]| {
             y.fill(0.0);
@@ -341,34 +370,36 @@ impl Factor {
         let precondition = |v: &mut [f64]| self.ldl.solve(&self.pattern.symbolic, v);
         r.copy_from_slice(b);
         let mut accuracy = Accuracy { iterations: 0, residual: if max_abs(b) == 0.0 { 0.0 } else { 1.0 } };
-        let (mut step, mut terms) = (r.to_vec(), None);
+        other.copy_from_slice(r);
+        let mut sizes = None;
         while accuracy.residual > aim {
-            precondition(&mut step);
-            axpy(1.0, &step, x);
-            let residual = self.residual(b, x, *terms.get_or_insert_with(|| self.terms(b, x)), r);
+            precondition(other);
+            axpy(1.0, other, x);
+            let residual = self.residual(b, x, *sizes.get_or_insert_with(|| self.sizes(b, x, terms)), r);
             accuracy.iterations += 1;
             if residual.is_nan() || residual > PLAIN_REDUCTION * accuracy.residual {
-                axpy(-1.0, &step, x);
-                accuracy.residual = self.residual(b, x, self.terms(b, x), r);
+                axpy(-1.0, other, x);
+                accuracy.residual = self.residual(b, x, self.sizes(b, x, terms), r);
                 break;
             }
             accuracy.residual = residual;
-            step.copy_from_slice(r);
+            other.copy_from_slice(r);
         }
         for _ in 0..CYCLES {
             if accuracy.residual <= aim {
                 break;
             }
-            let (before, residual) = (x.to_vec(), accuracy.residual);
+            other.copy_from_slice(x);
+            let residual = accuracy.residual;
             let target = 0.5 * aim / residual * max_abs(r);
-            accuracy.iterations += gmres::cycle(apply, precondition, r, target, x);
-            accuracy.residual = self.residual(b, x, self.terms(b, x), r);
+            accuracy.iterations += gmres::cycle(apply, precondition, directions, r, target, x);
+            accuracy.residual = self.residual(b, x, self.sizes(b, x, terms), r);
             if accuracy.residual <= 0.5 * residual {
                 continue;
             }
             if accuracy.residual > residual || accuracy.residual.is_nan() {
-                x.copy_from_slice(&before);
-                accuracy.residual = self.residual(b, x, self.terms(b, x), r);
+                x.copy_from_slice(other);
+                accuracy.residual = self.residual(b, x, self.sizes(b, x, terms), r);
             }
             break;
         }
@@ -377,32 +408,31 @@ impl Factor {
 
     /// Frees the multipliers of what contradictions among redundant rows left in them, 1/μ times as
     /// large: finds them anew from f − M a, with rows that agree. Returns the iterations.
-    fn correct_multipliers(&self, b: &[f64], x: &mut [f64]) -> usize {
+    fn correct_multipliers(&self, of: &mut Refinement, anew: &mut Refinement) -> usize {
         let clear_rows = |v: &mut [f64]| {
             v.iter_mut().zip(&self.shift).filter(|(_, s)| **s < 0.0).for_each(|(v, _)| *v = 0.0);
         };
-        clear_rows(x);
-        let (mut rest, mut r) = (vec![0.0; b.len()], vec![0.0; b.len()]);
-        self.residual(b, x, [1.0; 2], &mut rest);
-        clear_rows(&mut rest);
-        let mut y = vec![0.0; b.len()];
-        let iterations = self.refine(TARGET, &rest, &mut y, &mut r).iterations;
-        axpy(1.0, &y, x);
+        clear_rows(&mut of.x);
+        anew.clear(of.b.len());
+        self.residual(&of.b, &of.x, [1.0; 2], &mut anew.b);
+        clear_rows(&mut anew.b);
+        let iterations = self.refine(TARGET, anew).iterations;
+        axpy(1.0, &anew.x, &mut of.x);
         iterations
     }
 
     /// r ← b − K x; returns the residual as defined by [`Accuracy`], for sizes of the terms.
-    fn residual(&self, b: &[f64], x: &[f64], terms: [f64; 2], r: &mut [f64]) -> f64 {
+    fn residual(&self, b: &[f64], x: &[f64], sizes: [f64; 2], r: &mut [f64]) -> f64 {
         r.copy_from_slice(b);
         self.pattern.upper.add_product(&self.values, -1.0, x, r);
         let left = self.largest_of_kinds(r);
-        let ratio = |kind: usize| if left[kind] == 0.0 { 0.0 } else { left[kind] / terms[kind] };
+        let ratio = |kind: usize| if left[kind] == 0.0 { 0.0 } else { left[kind] / sizes[kind] };
         max_abs(&[ratio(0), ratio(1)])
     }
 
     /// max |K| |x| + max |b|, of bodies and of joints.
-    fn terms(&self, b: &[f64], x: &[f64]) -> [f64; 2] {
-        let mut terms = vec![0.0; b.len()];
+    fn sizes(&self, b: &[f64], x: &[f64], terms: &mut [f64]) -> [f64; 2] {
+        terms.fill(0.0);
         self.pattern.upper.each(&self.values, |i, k, v| {
             terms[i] += (v * x[k]).abs();
             if i != k {
@@ -410,7 +440,7 @@ impl Factor {
             }
         });
         let given = max_abs(b);
-        self.largest_of_kinds(&terms).map(|most| most + given)
+        self.largest_of_kinds(terms).map(|most| most + given)
     }
 
     /// The largest entry of bodies, and of joints.

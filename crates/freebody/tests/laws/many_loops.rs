@@ -5,6 +5,7 @@ use crate::model::*;
 use crate::random_mechanisms::AGREE;
 use crate::rng::Rng;
 use freebody::dynamics::{Route, Workspace};
+use freebody::mechanism::Mechanism;
 use freebody::mode::Mode;
 
 /// Largest gap of a loop, in parts of a length, and rate of a gap in parts of a rate, after a correction.
@@ -12,7 +13,7 @@ const SHUT: f64 = 1e-12;
 
 /// Posts on a sill, joined at their heads by beams, some of them massless; all are drawn as they
 /// stand, so that all coordinates are zero. `driven`: the first post turns by a law.
-fn frame(windows: usize, driven: bool, rng: &mut Rng) -> Model {
+pub fn frame(windows: usize, driven: bool, rng: &mut Rng) -> Model {
     let heads: Vec<[f64; 2]> = (0..=windows).map(|i| [i as f64 + rng.about(0.3), rng.within(0.6, 1.4)]).collect();
     let mut model = Model::new().gravity(0.0, -9.81);
     let mass = |rng: &mut Rng| 10.0_f64.powf(rng.within(-1.5, 1.5));
@@ -41,6 +42,16 @@ fn frame(windows: usize, driven: bool, rng: &mut Rng) -> Model {
     }
 }
 
+/// A state that is on the loops, with rates that keep it there.
+pub fn on_loops(workspace: &mut Workspace, m: &Mechanism, rng: &mut Rng) -> [Vec<f64>; 2] {
+    let mode = Mode::free(m);
+    let (mut q, mut u) = (rng.vector(m.freedom(), 1e-3), rng.vector(m.freedom(), 1.0));
+    workspace.project_positions(&mode, 0.0, &mut q, &u).unwrap_or_else(|e| panic!("{e}"));
+    workspace.project_velocities(&mode, 0.0, &q, &mut u).unwrap_or_else(|e| panic!("{e}"));
+    workspace.move_to(0.0, &q, &u);
+    [q, u]
+}
+
 #[test]
 fn motions_have_the_accelerations_of_every_route_and_keep_loops_closed() {
     for seed in 0..12 {
@@ -49,11 +60,7 @@ fn motions_have_the_accelerations_of_every_route_and_keep_loops_closed() {
         let compiled = model.compile();
         let m = &compiled.mechanism;
         let mut workspace = Workspace::new(m, &[]);
-        let mode = Mode::free(m);
-        let (mut q, mut u) = (rng.vector(m.freedom(), 1e-3), rng.vector(m.freedom(), 1.0));
-        workspace.project_positions(&mode, 0.0, &mut q, &u).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-        workspace.project_velocities(&mode, 0.0, &q, &mut u).unwrap_or_else(|e| panic!("seed {seed}: {e}"));
-        workspace.move_to(0.0, &q, &u);
+        let [_, u] = on_loops(&mut workspace, m, &mut rng);
         assert!(workspace.worst_gap() < SHUT, "seed {seed}: {:e}", workspace.worst_gap());
         let open = workspace.rows().iter().filter_map(|row| row.rate).fold(0.0_f64, |most, rate| most.max(rate.abs()));
         assert!(open < SHUT * u.iter().fold(1.0_f64, |most, u| most.max(u.abs())), "seed {seed}: {open:e}");
