@@ -255,7 +255,7 @@ impl Mechanism {
 
 /// Refuses coefficients that no friction has.
 fn check_friction(path: &str, fixed: f64, kinetic: f64) -> Result<(), CompileError> {
-    if !(kinetic >= 0.0) {
+    if kinetic.is_nan() || kinetic < 0.0 {
         let what = format!("a coefficient of friction of {kinetic}");
         return Err(CompileError::new(format!("{path}.friction"), what, "it is 0 or more"));
     }

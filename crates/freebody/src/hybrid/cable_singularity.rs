@@ -14,7 +14,7 @@ const SHORT: f64 = 1e-3;
 impl HybridSystem<'_> {
     /// The segments between points of unilateral constraint `l`, if it is a taut string.
     pub(super) fn taut_segments(&self, l: usize) -> Vec<Vec2> {
-        let taut = self.is_taut(l).then(|| self.segments(l)).unwrap_or_default();
+        let taut = if self.is_taut(l) { self.segments(l) } else { vec![] };
         taut.into_iter().filter(|segment| segment.joins_points).map(|segment| segment.along).collect()
     }
 

@@ -95,7 +95,7 @@ pub(super) fn between(
     [y0, y1]: [f64; 2],
     bends: impl DoubleEndedIterator<Item = f64> + ExactSizeIterator,
 ) -> f64 {
-    let factor = |k: usize| if k % 2 == 0 { 1.0 - theta } else { theta };
+    let factor = |k: usize| if k.is_multiple_of(2) { 1.0 - theta } else { theta };
     let sum = bends.enumerate().rev().fold(0.0, |sum, (k, bend)| (sum + bend) * factor(k));
     y0 + (y1 - y0 + sum) * theta
 }

@@ -29,7 +29,7 @@ const LAST: usize = STAGES - 1;
 /// Nodes: the zeros of d⁶/dx⁶ x⁶(x − 1)⁷.
 const C: [f64; STAGES] = [
     0.029_316_427_159_784_892,
-    0.148_078_599_668_484_29,
+    0.148_078_599_668_484_3,
     0.336_984_690_281_154_3,
     0.558_671_518_771_550_1,
     0.769_233_862_030_054_5,
@@ -41,7 +41,7 @@ const REAL: f64 = 8.936_832_788_405_216;
 /// and the pairs of complex ones: real and imaginary parts.
 const PAIRS: [(f64, f64); STAGES / 2] = [
     (8.511_834_825_102_946, 3.281_013_624_325_059),
-    (7.141_055_219_187_640_1, 6.623_045_922_639_276),
+    (7.141_055_219_187_64, 6.623_045_922_639_276),
     (4.378_693_561_506_806, 10.169_693_283_795_012),
 ];
 /// Newton converging faster than this keeps its Jacobian.
@@ -111,7 +111,7 @@ impl Factors {
         let (real, pairs) = stages.split_at_mut(n);
         self.real.solve(real);
         self.pairs.iter().zip(pairs.chunks_mut(2 * n)).for_each(|(factors, pair)| factors.solve(pair));
-        TABLEAU.from_eigenvectors(n, stages);
+        TABLEAU.to_stages(n, stages);
     }
 }
 
@@ -162,7 +162,7 @@ impl Tableau {
         }
     }
 
-    fn from_eigenvectors(&self, n: usize, stages: &mut [f64]) {
+    fn to_stages(&self, n: usize, stages: &mut [f64]) {
         for i in 0..n {
             let parts: [f64; STAGES] = std::array::from_fn(|k| stages[k * n + i]);
             (0..STAGES).for_each(|k| stages[k * n + i] = dot(&self.eigenvectors[k], |l| parts[l]));

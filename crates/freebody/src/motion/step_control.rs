@@ -63,7 +63,7 @@ impl StepController {
         let factor = factor.clamp(SHRINK, most);
         let least = if self.implicit { LEAST_LAST_ERROR_IMPLICIT } else { LEAST_LAST_ERROR };
         (self.last_h, self.last_error) = (Some(self.h), error.max(least));
-        if !self.implicit || factor < 1.0 || factor > LEAST_GROWTH {
+        if !self.implicit || !(1.0..=LEAST_GROWTH).contains(&factor) {
             self.h = (self.h * factor).clamp(-self.max_step, self.max_step);
         }
         self.was_rejected = false;

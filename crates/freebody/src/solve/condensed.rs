@@ -85,12 +85,12 @@ impl Condensed {
             }
             // So far each entry is that of L times its pivot.
             let mut pivot = row[i];
-            for j in first..i {
-                let entry = row[j] * self.inverse_pivots[j];
-                pivot -= entry * row[j];
-                row[j] = entry;
+            for (entry, inverse) in row[first..i].iter_mut().zip(&self.inverse_pivots[first..]) {
+                let part = *entry * inverse;
+                pivot -= part * *entry;
+                *entry = part;
             }
-            if !(pivot > CLEAR * row[i]) {
+            if pivot.is_nan() || pivot <= CLEAR * row[i] {
                 return false;
             }
             self.inverse_pivots.push(1.0 / pivot);
@@ -153,7 +153,7 @@ impl Condensed {
             if largest[i] <= DEPENDENT {
                 return true;
             }
-            if !(largest[i] > CLEAR) {
+            if largest[i].is_nan() || largest[i] <= CLEAR {
                 return false;
             }
             let at = w.row(i)[k..].iter().position(|x| x.abs() == largest[i]);

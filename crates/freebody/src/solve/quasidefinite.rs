@@ -50,9 +50,7 @@ impl Quasidefinite {
             to.iter_mut().zip(mass.row_of(i, n)).for_each(|(to, entry)| *to = *entry);
         }
         for i in n..N {
-            for (j, &entry) in g.row_of(i - n, n).iter().enumerate().take(n) {
-                (a[i][j], a[j][i]) = (entry, entry);
-            }
+            a.iter_mut().zip(g.row_of(i - n, n)).take(n).for_each(|(to, entry)| to[i] = *entry);
         }
         let (mut own, mut is_clear) = ([0.0; N], true);
         for k in 0..N {

@@ -212,7 +212,7 @@ impl Saddle {
     /// Squares of the lengths of the part of a further row (n) that motions with G z = 0 feel, and of all of it, scaled.
     pub fn felt(&self, row: &[f64]) -> [f64; 2] {
         let (x, scaled) = (self.motion.x(), product(row, &self.col_scale));
-        let felt = (self.rank().rank..row.len()).map(|j| dot(x.row(j), &scaled).powi(2)).sum();
+        let felt = (self.rank().rank..row.len()).map(|j| dot(x.row(j), &scaled)).map(|part| part * part).sum();
         [felt, dot(&scaled, &scaled)]
     }
 

@@ -94,7 +94,7 @@ fn off_surface(scene: &Scene, there: &There, feature: usize, p: Vec2) -> f64 {
             let (p0, p1) = (corner(i), corner(j));
             let along = (p1 - p0) * (1.0 / (p1 - p0).norm());
             let end = if first { p0 } else { p1 };
-            match (feature % 2 == 0 && !first, scene.touch.disk.radius) {
+            match (feature.is_multiple_of(2) && !first, scene.touch.disk.radius) {
                 (true, _) => along.cross(p - p0).abs(),
                 (false, Some(_)) => (p - end).norm(),
                 // Straight back from the end, or across to the other end.

@@ -58,7 +58,7 @@ fn draw_once(seed: u64) -> Option<Striking> {
     workspace.move_to(start.t, &start.q, &start.u);
     workspace.check_free_lengths().ok()?;
     obstruct(&mut thrown, &workspace, &mut rng)?;
-    if seed % 4 == 0 {
+    if seed.is_multiple_of(4) {
         let coordinate = m.coordinate(rng.below(m.freedom())).name.clone();
         let then = vec![Action::Lock(vec![format!("'{coordinate}'")])];
         let (name, when) = ("hold".to_string(), format!("t - {:?}", start.t + 0.02));

@@ -27,7 +27,7 @@ pub fn recipe(seed: u64) -> Recipe {
         forces: rng.below(8),
         motions: rng.below(3),
         locks: usize::from(seed % 3 == 1),
-        own_directions: seed % 3 == 0,
+        own_directions: seed.is_multiple_of(3),
         odd: true,
         idle: seed % 5 == 2,
     }

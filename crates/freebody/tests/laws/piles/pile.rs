@@ -42,7 +42,7 @@ impl Pile {
     pub fn drawn(seed: u64) -> Pile {
         let mut rng = Rng::new(seed);
         let count = 3 + rng.below(10);
-        let plastic = seed % 3 == 0;
+        let plastic = seed.is_multiple_of(3);
         let blocks: Vec<Block> = (0..count).map(|i| block(i, &mut rng)).collect();
         let mut pair = |_: &str| [rng.within(0.2, 0.8), if plastic { 0.0 } else { rng.within(0.0, 0.3) }];
         let compiled = model(&blocks, &mut pair).compile();
@@ -55,7 +55,7 @@ impl Pile {
         let corners = [[-half, -side], [half, -side], [half, side], [-half, side]];
         let block = |i: usize| {
             let outline = Outline::Polygon(corners.map(|[x, y]| vec2(x, y)).into());
-            let off = if i % 2 == 0 { 0.01 } else { -0.01 };
+            let off = if i.is_multiple_of(2) { 0.01 } else { -0.01 };
             Block { outline, at: [off, (2 * i + 1) as f64 * side + (i + 1) as f64 * apart, off], rates: [0.0; 3] }
         };
         Pile::of((0..count).map(block).collect(), [0.5, 0.3])
