@@ -32,6 +32,7 @@ class Marks:
         self._equation, self._parameters, self._given, self._at_start = equation, {*parameters}, {*given}, at_start
         self._other, self._free = places
         self._residual = residual
+        self._linear: dict[str, bool] = {}
 
     def of(self, equation: Equation) -> tuple[float, ...] | None:
         """What an equation says, however it is arranged; None where it says nothing (a = a)."""
@@ -46,7 +47,9 @@ class Marks:
         if found is None or not there.any() or np.all(np.abs(found.ratio[there]) < HOLDS):
             return None
         left, known = found.sides.residual, {n.key for n in symbols_in(equation)}
-        linear = (self._solved_for(key, equation, left, places) for key in self._pivots if key in known)
+        linear = (
+            self._solved_for(key, equation, left, places) for key in self._candidates if key in known and self._is_linear(key)
+        )
         solved = next(
             (each for each in linear if each is not None and np.abs(each[there]).max() > _NOTHING), None
         )  # m (…) = 0 says m = 0
@@ -58,13 +61,23 @@ class Marks:
         return tuple(np.round(np.nan_to_num(solved), 7).tolist())
 
     @cached_property
-    def _pivots(self) -> list[str]:
-        """Symbols in which the equation given is linear, accelerations first."""
-        if (found := self._residual(self._equation, self._other)) is None:
-            return []
+    def _candidates(self) -> list[str]:
+        """Symbols for which the equation given may be solved, accelerations first."""
         known = [n for n in symbols_in(self._equation) if n.key in self._other and self._other[n.key].ndim == 1]
-        keys, left = [n.key for n in sorted(known, key=lambda n: -n.dots)], found.sides.residual
-        return [key for key in keys if self._solved_for(key, self._equation, left, self._other) is not None]
+        return [n.key for n in sorted(known, key=lambda n: -n.dots)]
+
+    def _is_linear(self, key: str) -> bool:
+        """Whether the equation given is linear in a symbol; in a long one most are never asked for."""
+        if key not in self._linear:
+            found = self._given_residual
+            self._linear[key] = (
+                found is not None and self._solved_for(key, self._equation, found.sides.residual, self._other) is not None
+            )
+        return self._linear[key]
+
+    @cached_property
+    def _given_residual(self) -> Residual | None:
+        return self._residual(self._equation, self._other)
 
     def _solved_for(self, key: str, equation: Equation, base: Array, places: Mapping[str, Array]) -> Array | None:
         """The equation solved for a symbol in which it is linear."""
