@@ -57,6 +57,8 @@ NOT_FOUND = {
     ("trolley_hits_stop", "moments about the pin"): "says behind the equation that its rates are those after the impact",
     ("wheel_up_a_kerb", "least speed"): "is of the motion that just gets up, of which the start would have to be found",
     ("roller_off_a_drum", "slips off"): "says where something else is so",
+    ("ball_in_lift", "bounce"): "is of two ropes that the blow jerks, too",
+    ("ball_in_lift", "relative acceleration"): "calls by B and C what are bodies there, and points of the model",
     ("cable_camera", "energy with the motors"): "random motions run past what is wound on the drums",
     ("cable_camera", "straight down midway"): "takes longer to arrange than there is time",
     ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
