@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from freebody.check.idioms import usual
+from freebody.check.prose import plainly
 
 PUT = {
     "si T = 0 : E = const": "if T = 0 : E = const",
@@ -30,3 +31,8 @@ def test_what_is_written_otherwise(text):
 @pytest.mark.parametrize("text", AS_WRITTEN)
 def test_what_stays_as_it_is_written(text):
     assert usual(text) == text
+
+
+@pytest.mark.parametrize("text", ["F s = m (v² − v₀²)", "E = ½ k (x₂² − x₁²)", "M = m g (h₁ - h₀)"])
+def test_a_bracket_of_symbols_is_no_remark(text):
+    assert plainly(text) == (text, ())

@@ -198,7 +198,9 @@ def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
         return False
     if _is_unit(words) and words not in known:
         return not measured
-    found = re.findall(r"[^\W\d_]{3,}", words) if not re.search(r"[*/^·×_-]|\.\w", words) else []
+    found = (
+        [word for word in re.findall(r"[^\W\d_]{3,}", words) if word.isalpha()] if not re.search(r"[*/^·×_-]|\.\w", words) else []
+    )
     return any(word not in CALLS for word in found) and not any(
         nearest(folded(word), map(folded, known)) or word in CALLS or word.lower().startswith("const")
         for word in found
