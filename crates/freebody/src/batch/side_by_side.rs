@@ -29,7 +29,7 @@ impl Batch<'_> {
         let mut workspace = Workspace::new(self.m, self.parameters(0));
         let [q, u] = self.state(0);
         workspace.move_to(self.t, q, u);
-        Recorded::new(&workspace, &[])
+        Recorded::new(&workspace)
     }
 }
 

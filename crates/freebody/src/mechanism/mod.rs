@@ -24,6 +24,7 @@ use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::Joint as _;
 use crate::plane::Turn;
 use crate::scalar::Scalar;
+use crate::series::Memo;
 
 /// Index of a number of the model.
 pub type ValueId = usize;
@@ -92,6 +93,8 @@ pub struct Mechanism {
     pub switches: usize,
     /// What was assumed while compiling, in sentences.
     pub notes: Vec<String>,
+    /// Its equations of motion, recorded when they were needed first, by which bodies have no mass.
+    pub recorded: Memo,
 }
 
 /// A parameter.
@@ -257,6 +260,7 @@ impl Mechanism {
             discontinuous_items: vec![],
             switches: 0,
             notes: vec![],
+            recorded: Memo::default(),
         }
     }
     /// Whether what holds it can change during a motion: unilateral constraints, friction, or parts that are released

@@ -3,8 +3,7 @@
 use super::dense::{between, cubic};
 use super::rk4::TABLE;
 use super::run::end_of_step;
-use crate::scalar::Block;
-use std::iter::empty;
+use crate::scalar::{block, Block};
 
 /// When a march begins, ends, and shows its state, s; and the length of its steps.
 #[derive(Clone, Copy, Debug)]
@@ -51,9 +50,12 @@ pub fn march<const B: usize>(
             for (i, stage) in stage.iter_mut().enumerate() {
                 match span.times[shown] == end {
                     true => *stage = next[i],
-                    false => stage.write([&y[i], &next[i], &k[0][i], &slope[i]], |[y0, y1, slope0, slope1]| {
-                        between(theta, [y0, y1], cubic(h, [y0, y1], [slope0, slope1]).into_iter())
-                    }),
+                    false => {
+                        let ends = [&y[i].0, &next[i].0, &k[0][i].0, &slope[i].0];
+                        stage.0 = block::each(ends, |[y0, y1, slope0, slope1]| {
+                            between(theta, [y0, y1], cubic(h, [y0, y1], [slope0, slope1]).into_iter())
+                        });
+                    }
                 }
             }
             show(&stage);
@@ -71,10 +73,10 @@ pub fn march<const B: usize>(
 #[inline(always)]
 fn go_ahead<const B: usize>(y: &[Block<B>], h: f64, a: &[f64], k: &[Vec<Block<B>>], to: &mut [Block<B>]) {
     for (i, to) in to.iter_mut().enumerate() {
-        let stages = a.iter().zip(k).filter(|(&a, _)| a != 0.0).map(|(&a, k)| (a, &k[i]));
-        to.write_sum(0.0, stages, empty());
-        for (to, y) in to.0.iter_mut().zip(&y[i].0) {
-            *to = y + h * *to;
+        let mut slope = [0.0; B];
+        for (&a, k) in a.iter().zip(k).filter(|(&a, _)| a != 0.0) {
+            block::add(&mut slope, a, &k[i].0);
         }
+        to.0 = block::each([&y[i].0, &slope], |[y, slope]| y + h * slope);
     }
 }

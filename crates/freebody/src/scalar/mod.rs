@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 mod ball;
-mod block;
+pub mod block;
 #[allow(
     clippy::suspicious_arithmetic_impl,
     reason = "a difference is a sum with the opposite, a quotient is a long division"

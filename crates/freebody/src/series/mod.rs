@@ -5,6 +5,8 @@
 //! what comes out is a [`Tape`], valid as long as the formula would be the same operations. [`Solution`] runs it as series, over doubles or
 //! [`DoubleDouble`](crate::scalar::DoubleDouble)s, [`Program`] for its values alone, of many states side by side.
 
+mod lowering;
+mod memo;
 mod program;
 mod recorder;
 mod solution;
@@ -14,6 +16,7 @@ mod traced;
 #[cfg(test)]
 mod tests;
 
+pub use memo::Memo;
 pub use program::Program;
 pub use solution::{Coefficient, Solution};
 pub use tape::Tape;

@@ -1,75 +1,45 @@
 //! A tape run for its values alone, of several states side by side.
 
-use super::tape::{Op, Row, Tape};
+use super::tape::{Op, Row, Term};
+use crate::scalar::block::{self, PART};
 use crate::scalar::{real, Block};
 
 /// A multiple of a product that nothing else needs.
 #[derive(Clone, Copy, Debug)]
-struct Product {
-    factor: f64,
-    of: [Row; 2],
+pub(super) struct Product {
+    pub factor: f64,
+    pub of: [Row; 2],
 }
 
-/// An operation, where its value goes, and the products that a sum has beside its terms.
-#[derive(Clone, Debug)]
-struct Step {
-    to: Row,
-    op: Op<f64>,
-    products: Vec<Product>,
+/// So many of the terms and products that follow those of the sums before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Next {
+    pub terms: u32,
+    pub products: u32,
+}
+
+/// Operations, each with where its value goes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct List {
+    pub steps: Vec<(Row, Op<f64, Next>)>,
+    pub terms: Vec<Term<f64>>,
+    pub products: Vec<Product>,
 }
 
 /// The operations of a tape.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
     /// Those on inputs that do not move, done once for many states.
-    fixed: Vec<Step>,
-    moving: Vec<Step>,
+    pub(super) fixed: List,
+    pub(super) moving: List,
     /// How many inputs move; they stand first.
-    inputs: usize,
-    rows: usize,
-    results: Vec<Row>,
+    pub(super) inputs: usize,
+    pub(super) rows: usize,
+    /// Where each result stands, and how many of the steps are made then.
+    pub(super) results: Vec<(Row, usize)>,
 }
 
 impl Program {
-    /// That of a tape of which so many of the first inputs move.
-    pub fn new(tape: Tape<f64>, inputs: usize) -> Self {
-        let rows = tape.rows as usize;
-        let (mut moves, mut uses) = (vec![false; rows], vec![0; rows]);
-        moves[..inputs].fill(true);
-        for (to, op) in &tape.ops {
-            let is_sum = matches!(op, Op::Sum { .. });
-            for row in op.operands() {
-                moves[to.at()] |= moves[row.at()];
-                // A use by what is no sum counts as several.
-                uses[row.at()] += if is_sum { 1 } else { 2 };
-            }
-            if let Op::SinCos(_) = op {
-                moves[to.at() + 1] = moves[to.at()];
-            }
-        }
-        tape.results.iter().for_each(|row| uses[row.at()] += 2);
-        let mut program = Program { fixed: vec![], moving: vec![], inputs, rows, results: tape.results };
-        let mut taken: Vec<Option<[Row; 2]>> = vec![None; rows];
-        for (to, mut op) in tape.ops {
-            let mut products = vec![];
-            match &mut op {
-                &mut Op::Product(a, b) if uses[to.at()] == 1 && moves[to.at()] => {
-                    taken[to.at()] = Some([a, b]);
-                    continue;
-                }
-                Op::Sum { terms, .. } => {
-                    let product = |row: Row, factor| taken[row.at()].map(|of| Product { factor, of });
-                    products.extend(terms.iter().filter_map(|term| product(term.row, term.factor)));
-                    terms.retain(|term| taken[term.row.at()].is_none());
-                }
-                _ => {}
-            }
-            let steps = if moves[to.at()] { &mut program.moving } else { &mut program.fixed };
-            steps.push(Step { to, op, products });
-        }
-        program
-    }
-
     /// Memory for states side by side.
     pub fn memory<const B: usize>(&self) -> Vec<Block<B>> {
         vec![Block::of(0.0); self.rows]
@@ -78,7 +48,7 @@ impl Program {
     /// Takes the inputs that do not move.
     pub fn fix<const B: usize>(&self, memory: &mut [Block<B>], inputs: &[Block<B>]) {
         memory[self.inputs..][..inputs.len()].copy_from_slice(inputs);
-        self.fixed.iter().for_each(|step| step.run(memory));
+        self.fixed.run::<B, 1>(self.fixed.steps.len(), memory);
     }
 
     /// Writes the first results at time `t` and state `y`, which are the inputs that move; the others were taken before.
@@ -86,40 +56,80 @@ impl Program {
     pub fn run<const B: usize>(&self, memory: &mut [Block<B>], t: f64, y: &[Block<B>], results: &mut [Block<B>]) {
         memory[0] = Block::of(t);
         memory[1..self.inputs].copy_from_slice(y);
-        for step in &self.moving {
-            step.run(memory);
+        let asked = &self.results[..results.len()];
+        let steps = asked.iter().map(|(_, steps)| *steps).max().unwrap_or(0);
+        match B % PART {
+            0 => self.moving.run::<B, PART>(steps, memory),
+            _ => self.moving.run::<B, 1>(steps, memory),
         }
-        for (to, row) in results.iter_mut().zip(&self.results) {
+        for (to, (row, _)) in results.iter_mut().zip(asked) {
             *to = memory[row.at()];
         }
     }
 }
 
-impl Step {
+impl List {
+    /// Makes the first steps, in parts of N values, each read before it is written: values may stand where others stood.
     #[inline(always)]
-    fn run<const B: usize>(&self, memory: &mut [Block<B>]) {
-        let (known, to) = memory.split_at_mut(self.to.at());
-        let of = |row: Row| &known[row.at()];
-        match self.op {
-            Op::Sum { constant, ref terms } => {
-                let multiples = terms.iter().map(|term| (term.factor, of(term.row)));
-                let products = self.products.iter().map(|product| {
-                    let [a, b] = product.of;
-                    (product.factor, of(a), of(b))
-                });
-                to[0].write_sum(constant, multiples, products);
+    fn run<const B: usize, const N: usize>(&self, steps: usize, memory: &mut [Block<B>]) {
+        let (mut terms, mut products) = (&self.terms[..], &self.products[..]);
+        for (to, op) in &self.steps[..steps] {
+            let mut own = (&terms[..0], &products[..0]);
+            if let Op::Sum { terms: next, .. } = op {
+                (own.0, terms) = terms.split_at(next.terms as usize);
+                (own.1, products) = products.split_at(next.products as usize);
             }
-            Op::Product(a, b) => to[0].write([of(a), of(b)], |[a, b]| a * b),
-            Op::Quotient(a, b) => to[0].write([of(a), of(b)], |[a, b]| a / b),
-            Op::Inverse(x) => to[0].write([of(x)], |[x]| 1.0 / x),
-            Op::SinCos(x) => {
-                let (sin, cos) = to.split_at_mut(1);
-                Block::write_sin_cos([&mut sin[0], &mut cos[0]], of(x));
-            }
-            Op::Sqrt(x) => to[0].write([of(x)], |[x]| x.sqrt()),
-            Op::Exp(x) => to[0].write([of(x)], |[x]| real::exp(x)),
-            Op::Ln(x) => to[0].write([of(x)], |[x]| real::ln(x)),
-            Op::Atan2 { y, x, .. } => to[0].write([of(y), of(x)], |[y, x]| real::atan2(y, x)),
+            step::<B, N>(memory, *to, op, own);
         }
+    }
+}
+
+#[inline(always)]
+fn step<const B: usize, const N: usize>(
+    memory: &mut [Block<B>],
+    to: Row,
+    op: &Op<f64, Next>,
+    (terms, products): (&[Term<f64>], &[Product]),
+) {
+    match *op {
+        Op::Sum { constant, .. } => {
+            for part in 0..B / N {
+                let mut sum = [constant; N];
+                for term in terms {
+                    block::add(&mut sum, term.factor, memory[term.row.at()].part(part));
+                }
+                for &Product { factor, of: [a, b] } in products {
+                    block::add_product(&mut sum, factor, memory[a.at()].part(part), memory[b.at()].part(part));
+                }
+                *memory[to.at()].part_mut(part) = sum;
+            }
+        }
+        Op::Product(a, b) => write::<B, N, 2>(memory, to, [a, b], |[a, b]| a * b),
+        Op::Quotient(a, b) => write::<B, N, 2>(memory, to, [a, b], |[a, b]| a / b),
+        Op::Inverse(x) => write::<B, N, 1>(memory, to, [x], |[x]| 1.0 / x),
+        Op::SinCos(x) => {
+            for part in 0..B / N {
+                let [sin, cos] = block::sin_cos(memory[x.at()].part::<N>(part));
+                *memory[to.at()].part_mut(part) = sin;
+                *memory[to.at() + 1].part_mut(part) = cos;
+            }
+        }
+        Op::Sqrt(x) => write::<B, N, 1>(memory, to, [x], |[x]| x.sqrt()),
+        Op::Exp(x) => write::<B, N, 1>(memory, to, [x], |[x]| real::exp(x)),
+        Op::Ln(x) => write::<B, N, 1>(memory, to, [x], |[x]| real::ln(x)),
+        Op::Atan2 { y, x, .. } => write::<B, N, 2>(memory, to, [y, x], |[y, x]| real::atan2(y, x)),
+    }
+}
+
+/// Writes a function of values.
+#[inline(always)]
+fn write<const B: usize, const N: usize, const K: usize>(
+    memory: &mut [Block<B>],
+    to: Row,
+    of: [Row; K],
+    f: impl Fn([f64; K]) -> f64,
+) {
+    for part in 0..B / N {
+        *memory[to.at()].part_mut(part) = block::each(of.map(|row| memory[row.at()].part::<N>(part)), &f);
     }
 }

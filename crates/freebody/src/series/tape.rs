@@ -3,7 +3,7 @@
 use crate::scalar::{DoubleDouble, Scalar};
 
 /// The place of a number of the tape: the inputs, as time and the state, then what the operations give.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Row(pub(super) u32);
 
 impl Row {
@@ -22,10 +22,10 @@ pub(super) struct Term<S> {
 
 /// An operation on numbers that stand before it.
 #[derive(Clone, Debug)]
-pub(super) enum Op<S> {
+pub(super) enum Op<S, T = Vec<Term<S>>> {
     Sum {
         constant: S,
-        terms: Vec<Term<S>>,
+        terms: T,
     },
     Product(Row, Row),
     Quotient(Row, Row),
@@ -62,6 +62,34 @@ impl<S> Op<S> {
             Op::Inverse(x) | Op::SinCos(x) | Op::Sqrt(x) | Op::Exp(x) | Op::Ln(x) => vec![x],
         }
     }
+
+    /// The places of its values, from the first on.
+    pub fn values(&self, first: Row) -> impl Iterator<Item = Row> {
+        let count = if matches!(self, Op::SinCos(_)) { 2 } else { 1 };
+        (first.0..first.0 + count).map(Row)
+    }
+}
+
+impl<S: Copy> Op<S> {
+    /// The same with every row, every constant and the terms of a sum replaced.
+    pub fn map<T, U>(
+        &self,
+        row: impl Fn(Row) -> Row,
+        number: impl Fn(S) -> T,
+        terms: impl FnOnce(&[Term<S>]) -> U,
+    ) -> Op<T, U> {
+        match *self {
+            Op::Sum { constant, terms: ref own } => Op::Sum { constant: number(constant), terms: terms(own) },
+            Op::Product(a, b) => Op::Product(row(a), row(b)),
+            Op::Quotient(a, b) => Op::Quotient(row(a), row(b)),
+            Op::Inverse(b) => Op::Inverse(row(b)),
+            Op::SinCos(a) => Op::SinCos(row(a)),
+            Op::Sqrt(a) => Op::Sqrt(row(a)),
+            Op::Exp(a) => Op::Exp(row(a)),
+            Op::Ln(a) => Op::Ln(row(a)),
+            Op::Atan2 { y, x, radius2 } => Op::Atan2 { y: row(y), x: row(x), radius2: row(radius2) },
+        }
+    }
 }
 
 impl<S> Tape<S> {
@@ -85,20 +113,8 @@ impl<S> Tape<S> {
 impl<S: Copy> Tape<S> {
     /// The same with every row and constant replaced.
     fn map<T>(&self, row: impl Fn(Row) -> Row, number: impl Fn(S) -> T) -> Tape<T> {
-        let replaced = |op: &Op<S>| match op {
-            Op::Sum { constant, terms } => Op::Sum {
-                constant: number(*constant),
-                terms: terms.iter().map(|term| Term { row: row(term.row), factor: number(term.factor) }).collect(),
-            },
-            &Op::Product(a, b) => Op::Product(row(a), row(b)),
-            &Op::Quotient(a, b) => Op::Quotient(row(a), row(b)),
-            &Op::Inverse(b) => Op::Inverse(row(b)),
-            &Op::SinCos(a) => Op::SinCos(row(a)),
-            &Op::Sqrt(a) => Op::Sqrt(row(a)),
-            &Op::Exp(a) => Op::Exp(row(a)),
-            &Op::Ln(a) => Op::Ln(row(a)),
-            &Op::Atan2 { y, x, radius2 } => Op::Atan2 { y: row(y), x: row(x), radius2: row(radius2) },
-        };
+        let term = |term: &Term<S>| Term { row: row(term.row), factor: number(term.factor) };
+        let replaced = |op: &Op<S>| op.map(&row, &number, |terms| terms.iter().map(term).collect());
         let ops = self.ops.iter().map(|(at, op)| (row(*at), replaced(op))).collect();
         Tape { ops, rows: self.rows, results: self.results.iter().map(|&result| row(result)).collect() }
     }

@@ -120,6 +120,23 @@ fn a_program_gives_the_formula_to_the_same_bits_alone_and_side_by_side() {
     }
 }
 
+#[test]
+fn a_value_that_is_done_with_leaves_its_place_and_no_more_is_done_than_is_asked_for() {
+    let far = |x: Traced| (0..50).fold(x, |x, _| (x * x + Traced::one()).sqrt());
+    let tape = recorded([0.0, 0.3], |x| Ok::<_, ()>(vec![far(x[1]), far(far(x[1]))])).unwrap();
+    let program = Program::new(tape.rounded(), 2);
+    assert_eq!(program.results[1].1, 2 * program.results[0].1);
+    let mut memory = program.memory::<1>();
+    assert!(memory.len() <= 5, "time, the state, a result kept, and what is at work: {}", memory.len());
+    for count in 1..=2 {
+        let mut results = vec![Block::of(0.0); count];
+        program.run(&mut memory, 0.0, &[Block::of(0.3)], &mut results);
+        // From x to √(x² + 1), 50 times for each result.
+        let exact = |k: usize| (0.09 + 50.0 * (k + 1) as f64).sqrt();
+        results.iter().enumerate().for_each(|(k, x)| assert!((x.0[0] - exact(k)).abs() < 1e-12, "{k} {x:?}"));
+    }
+}
+
 /// Digits by mpmath 1.3 at 50 digits, of the doubles written here.
 #[test]
 fn functions_have_32_digits() {

@@ -1,0 +1,131 @@
+//! A tape made into a program: products within the sums that they belong to, values where others stood that are done with.
+
+use super::program::{List, Next, Product, Program};
+use super::tape::{Op, Row, Tape, Term};
+
+/// An operation, where its value goes, and the products that a sum has beside its terms.
+struct Step {
+    to: Row,
+    op: Op<f64>,
+    products: Vec<Product>,
+}
+
+impl Program {
+    /// That of a tape of which so many of the first inputs move.
+    pub fn new(tape: Tape<f64>, inputs: usize) -> Self {
+        let (moves, given) = (moving(&tape, inputs), tape.ops.first().map_or(tape.rows, |(to, _)| to.0));
+        let mut places = Places { of: (0..tape.rows).map(Row).collect(), count: given, free: vec![] };
+        let results = tape.results.clone();
+        let (moving, fixed): (Vec<_>, Vec<_>) = fused(tape, &moves).into_iter().partition(|step| moves[step.to.at()]);
+        let mut last: Vec<_> = moves.iter().map(|&moves| if moves { 0 } else { usize::MAX }).collect();
+        for (i, step) in moving.iter().enumerate() {
+            let rows = step.operands().into_iter().chain(step.values());
+            rows.filter(|row| moves[row.at()]).for_each(|row| last[row.at()] = i);
+        }
+        results.iter().for_each(|row| last[row.at()] = usize::MAX);
+        let mut program = Program { inputs, ..Program::default() };
+        fixed.iter().for_each(|step| step.lower(&mut places, |_| false, &mut program.fixed));
+        let mut steps = vec![0; moves.len()];
+        for (i, step) in moving.iter().enumerate() {
+            step.lower(&mut places, |row| last[row.at()] == i, &mut program.moving);
+            step.values().for_each(|row| steps[row.at()] = i + 1);
+        }
+        program.results = results.iter().map(|row| (places.of[row.at()], steps[row.at()])).collect();
+        Program { rows: places.count as usize, ..program }
+    }
+}
+
+/// What follows from inputs that move.
+fn moving(tape: &Tape<f64>, inputs: usize) -> Vec<bool> {
+    let mut moves = vec![false; tape.rows as usize];
+    moves[..inputs].fill(true);
+    for (to, op) in &tape.ops {
+        let is_moved = op.operands().iter().any(|row| moves[row.at()]);
+        op.values(*to).for_each(|row| moves[row.at()] = is_moved);
+    }
+    moves
+}
+
+/// The operations, with each product that moves and that only one sum needs in it.
+fn fused(tape: Tape<f64>, moves: &[bool]) -> Vec<Step> {
+    let mut uses = vec![0; tape.rows as usize];
+    for (_, op) in &tape.ops {
+        // A use by what is no sum counts as several.
+        let weight = if matches!(op, Op::Sum { .. }) { 1 } else { 2 };
+        op.operands().iter().for_each(|row| uses[row.at()] += weight);
+    }
+    tape.results.iter().for_each(|row| uses[row.at()] += 2);
+    let mut taken: Vec<Option<[Row; 2]>> = vec![None; tape.rows as usize];
+    let mut steps = vec![];
+    for (to, mut op) in tape.ops {
+        let mut products = vec![];
+        match &mut op {
+            &mut Op::Product(a, b) if uses[to.at()] == 1 && moves[to.at()] => {
+                taken[to.at()] = Some([a, b]);
+                continue;
+            }
+            Op::Sum { terms, .. } => {
+                let product = |row: Row, factor| taken[row.at()].map(|of| Product { factor, of });
+                products.extend(terms.iter().filter_map(|term| product(term.row, term.factor)));
+                terms.retain(|term| taken[term.row.at()].is_none());
+            }
+            _ => {}
+        }
+        steps.push(Step { to, op, products });
+    }
+    steps
+}
+
+impl Step {
+    fn operands(&self) -> Vec<Row> {
+        let mut operands = self.op.operands();
+        operands.extend(self.products.iter().flat_map(|product| product.of));
+        operands.sort_unstable();
+        operands.dedup();
+        operands
+    }
+
+    fn values(&self) -> impl Iterator<Item = Row> {
+        self.op.values(self.to)
+    }
+
+    /// Writes it to a list, its values at free places; the places of what is done with then are free.
+    fn lower(&self, places: &mut Places, is_done: impl Fn(Row) -> bool, list: &mut List) {
+        let place = |row: Row| places.of[row.at()];
+        let products = self.products.iter().map(|product| Product { of: product.of.map(place), ..*product });
+        let next = |terms: &[Term<f64>]| {
+            list.terms.extend(terms.iter().map(|term| Term { row: place(term.row), ..*term }));
+            list.products.extend(products);
+            Next { terms: terms.len() as u32, products: self.products.len() as u32 }
+        };
+        let op = self.op.map(place, |x| x, next);
+        places.leave(self.operands(), &is_done);
+        places.take(self.values());
+        places.leave(self.values(), &is_done);
+        list.steps.push((places.of[self.to.at()], op));
+    }
+}
+
+/// Where values stand.
+struct Places {
+    of: Vec<Row>,
+    count: u32,
+    free: Vec<Row>,
+}
+
+impl Places {
+    /// Gives a value a place, or two values places beside each other.
+    fn take(&mut self, mut values: impl Iterator<Item = Row>) {
+        let (first, second) = (values.next().expect("an operation has a value"), values.next());
+        let free = if second.is_none() { self.free.pop() } else { None };
+        for value in [Some(first), second].into_iter().flatten() {
+            self.of[value.at()] = free.unwrap_or(Row(self.count));
+            self.count += u32::from(free.is_none());
+        }
+    }
+
+    fn leave(&mut self, values: impl IntoIterator<Item = Row>, is_done: impl Fn(Row) -> bool) {
+        let done = values.into_iter().filter(|&value| is_done(value));
+        self.free.extend(done.map(|value| self.of[value.at()]));
+    }
+}
