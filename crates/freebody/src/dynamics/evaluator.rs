@@ -43,7 +43,7 @@ impl Workspace<'_> {
         } else {
             self.move_to(t, q, u);
         }
-        self.solve()?;
+        self.solve_reactions()?;
         self.check_finite()?;
         self.write_solution(accelerations, reactions);
         Ok(())

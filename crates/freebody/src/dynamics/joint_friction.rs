@@ -91,7 +91,7 @@ impl Workspace<'_> {
                 return Ok(());
             }
             self.joint_friction_forces = wanted;
-            self.solve_once(route, Wanted::Reactions)?;
+            self.solve_once(route, Wanted::Rank)?;
         }
         Err(self.self_locking())
     }

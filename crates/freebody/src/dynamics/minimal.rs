@@ -131,8 +131,10 @@ pub struct Memory {
 pub(super) enum Wanted {
     /// Accelerations and multipliers.
     Motion,
-    /// All reactions too, and whether they are determinate.
+    /// All reactions too.
     Reactions,
+    /// The rank of the rows too, and the motions that they leave.
+    Rank,
 }
 
 /// Along what the multipliers act.
@@ -171,10 +173,12 @@ impl Workspace<'_> {
         self.solved.nu_dot.copy_from_slice(&found.a);
         self.solved.lambda.clone_from(&found.lambda);
         self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
+        if self.dense.form == Form::Islands || wanted != Wanted::Motion {
+            self.propagate_joint_wrenches();
+        }
         if self.dense.form != Form::Islands {
             return Ok(());
         }
-        self.propagate_joint_wrenches();
         // One step of iterative refinement: what is left of the balances and open of the rows, asked of the factored equations
         // again. Small masses behind large ones keep their digits.
         self.unbalanced_along_joints(force);
@@ -186,7 +190,7 @@ impl Workspace<'_> {
         self.solved.nu_dot.iter_mut().zip(&found.a).for_each(|(x, d)| *x += d);
         self.solved.lambda.iter_mut().zip(&found.lambda).for_each(|(x, d)| *x += d);
         self.k.propagate_motion(self.m, &self.solved.nu_dot, true, &mut self.solved.bodies);
-        if wanted == Wanted::Reactions {
+        if wanted != Wanted::Motion {
             self.propagate_joint_wrenches();
         }
         Ok(())
@@ -220,10 +224,10 @@ impl Workspace<'_> {
 
     /// Factors mass matrix and rows of the present state.
     pub(super) fn factor(&mut self, force: Force) -> Result<(), DynamicsError> {
-        self.factor_for(Wanted::Reactions, force)
+        self.factor_for(Wanted::Rank, force)
     }
 
-    /// The same, where nothing but the accelerations and multipliers may be wanted: no rank, no self-stresses.
+    /// The same, where the rank of the rows need not be wanted.
     pub(super) fn factor_for(&mut self, wanted: Wanted, force: Force) -> Result<(), DynamicsError> {
         let at = self.placed.view(self.m, &self.n, &self.k);
         let d = &mut self.dense;
@@ -235,7 +239,7 @@ impl Workspace<'_> {
         if own {
             rows_in_coordinates(at, &self.rows, self.length, Row::loads, &mut d.b, &mut d.sizes);
         }
-        let factored = match wanted == Wanted::Motion && d.factor_clear(own) {
+        let factored = match wanted != Wanted::Rank && d.factor_clear(own) {
             true => Ok(()),
             false => d.factor_scaled(own),
         };

@@ -337,6 +337,16 @@ impl<'m> Workspace<'m> {
         self.turn_gear_flanks(route, Wanted::Motion)
     }
 
+    /// Solves the present state for its accelerations and all reactions: whether these are determinate is known then, and where all are
+    /// no more about the rank of the rows.
+    ///
+    /// # Errors
+    /// As [`Workspace::solve`].
+    pub fn solve_reactions(&mut self) -> Result<(), DynamicsError> {
+        let wanted = if self.m.is_hybrid() { Wanted::Rank } else { Wanted::Reactions };
+        self.solve_for(self.cheapest(), wanted)
+    }
+
     fn cheapest(&self) -> Route {
         self.preferred.unwrap_or(if self.many_loops { Route::Constraints } else { Route::Minimal })
     }
@@ -346,10 +356,14 @@ impl<'m> Workspace<'m> {
     /// # Errors
     /// As [`Workspace::solve`].
     pub fn solve_by(&mut self, route: Route) -> Result<(), DynamicsError> {
+        self.solve_for(route, Wanted::Rank)
+    }
+
+    fn solve_for(&mut self, route: Route, wanted: Wanted) -> Result<(), DynamicsError> {
         self.placed.bearing = None;
         self.joint_friction_forces.fill(0.0);
-        self.solve_once(route, Wanted::Reactions)?;
-        self.turn_gear_flanks(route, Wanted::Reactions)?;
+        self.solve_once(route, wanted)?;
+        self.turn_gear_flanks(route, wanted)?;
         match self.m.joint_friction.is_empty() {
             true => Ok(()),
             false => self.solve_joint_friction(route),
@@ -385,7 +399,7 @@ impl<'m> Workspace<'m> {
                 let (sweep, arms, loads) = (&mut self.articulated_body, &self.arms, &self.loads);
                 match wanted {
                     Wanted::Motion => sweep.solve(at, arms, loads, nu_dot, bodies, |_, _| {}),
-                    Wanted::Reactions => {
+                    Wanted::Reactions | Wanted::Rank => {
                         sweep.solve(at, arms, loads, nu_dot, bodies, |i, wrench| joint_wrenches[i] = wrench)
                     }
                 }

@@ -200,7 +200,7 @@ impl Workspace<'_> {
     /// Whether the last solution says that every reaction is determinate: in a tree, and where it found the rows of loops independent.
     pub(super) fn is_determinate(&self) -> bool {
         let solved_by_null_space = self.m.unilateral.is_empty() && self.cheapest() == Route::Minimal;
-        !self.is_closed() || solved_by_null_space && self.dense.saddle.self_stress().cols() == 0
+        !self.is_closed() || solved_by_null_space && self.dense.self_stress().cols() == 0
     }
 
     /// All independent self-stresses at the present, solved state; the mechanism must not be too large for a

@@ -195,7 +195,7 @@ impl Trajectory {
             if workspace.is_closed() && !phase.mode.resting {
                 let (q, rest) = y.split_at_mut(n);
                 workspace.project_positions_with(&phase.mode, t, q, &rest[..n], &phase.locked)?;
-                workspace.project_velocities(&phase.mode, t, q, &mut rest[..n])?;
+                workspace.close_rates(&mut rest[..n])?;
             }
             workspace.place(&phase.mode, t, &y[..n], &y[n..2 * n]);
             visit(workspace, t, &y)?;
@@ -240,7 +240,7 @@ impl Trajectory {
         self.each(m, times, |workspace, _, y| {
             let mut row = y[..2 * n].to_vec();
             row.resize(3 * n + reactions, f64::NAN);
-            if passed(workspace.solve())?.is_some() {
+            if passed(workspace.solve_reactions())?.is_some() {
                 let (accelerations, reactions) = row[2 * n..].split_at_mut(n);
                 workspace.write_solution(accelerations, reactions);
             }
