@@ -105,7 +105,7 @@ def members(count, *names, seed=1):
     [
         (PENDULUMS, ("alpha", "beta"), ("beta",), ("L", "m2")),
         (CART, ("s", "theta", "z", "x"), ("theta", "phi"), ("L", "k")),
-        (FOUR_BAR, ("phi",), (), ("L",)),
+        (FOUR_BAR, ("phi",), ("phi",), ("L",)),
     ],
 )
 def test_each_member_is_what_simulate_makes_of_it_to_the_last_bit(text, q0, u0, p):

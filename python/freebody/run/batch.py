@@ -112,20 +112,40 @@ class Members:
         for rows, columns in ((q, self.q), (u, self.u)):
             for name, column in columns.items():
                 rows[:, core.coordinate_names.index(name)] = column
+        return self._parameters(state.p), q, u
+
+    def _parameters(self, p: Array) -> Array:
+        """Rows of parameters, from those of a member."""
         if not self.p:
-            return state.p[None, :], q, u
+            return p[None, :]
+        core = self.model.compile()
         named = {
-            each["name"]: value
-            for each, value in zip(core.metadata["parameters"], state.p, strict=True)
-            if each["name"] in self.same
+            each["name"]: value for each, value in zip(core.metadata["parameters"], p, strict=True) if each["name"] in self.same
         }
-        columns = {name: np.full(self.count, value) for name, value in named.items()} | self.p
-        return core.bind_rows(columns), q, u
+        return core.bind_rows({name: np.full(self.count, value) for name, value in named.items()} | self.p)
 
     def _assembled(self, t: float, threads: int) -> tuple[Array, Array, Array]:
         """Each for itself."""
-        asked = [self._asked(i) for i in range(self.count or 0)]
+        asked = self._alike() if self._are_alike() else [self._asked(i) for i in range(self.count or 0)]
         return np.array([each["p"] for each in asked]), *self.model.compile().starts(asked, t, threads)
+
+    def _are_alike(self) -> bool:
+        """Whether no number of a start follows from parameters that differ."""
+        same = [value for name, value in self.same.items() if name != "rates"] + [*self.same.get("rates", {}).values()]
+        return not self.p or (_is_plain(self.model.lowered().start) and all(isinstance(value, (int, float)) for value in same))
+
+    def _alike(self) -> list[Assembly]:
+        """What is asked of the first, with what distinguishes the others."""
+        first = self._asked(0)
+        rows = np.broadcast_to(self._parameters(first["p"]), (self.count or 0, len(first["p"])))
+
+        def of(member: int, same: dict[str, float], columns: dict[str, Array]) -> dict[str, float]:
+            return same | {name: float(column[member]) for name, column in columns.items()}
+
+        return [
+            {**first, "p": p, "fixed": of(i, first["fixed"], self.q), "rates": of(i, first["rates"], self.u)}
+            for i, p in enumerate(rows)
+        ]
 
     def _asked(self, i: int) -> Assembly:
         """The start of a member as it is asked for."""
