@@ -86,7 +86,9 @@ def pendulums():
         end = batch.STEPS * batch.STEP
         return made.batch(fan, until=end, method="rk4", step=batch.STEP, t_eval=[end])
 
-    yield Entry("freebody, m.batch", solve, says="in lanes, on all cores", read=lambda found: found.q.values[:, -1] + np.pi / 2)
+    yield Entry(
+        "freebody, m.batch", solve, says="64 side by side, on all cores", read=lambda found: found.q.values[:, -1] + np.pi / 2
+    )
 
 
 def block():
