@@ -11,7 +11,7 @@ import numpy as np
 
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
-from freebody.run.records import quote
+from freebody.run.records import Array, quote
 
 from .phases import called
 from .stretches import first_zero
@@ -45,6 +45,7 @@ _STOPS = re.compile(
     r"\b(?:stops|stopped|comes? to (?:rest|a (?:stop|halt|standstill))|stands? still|(?:momentarily|instantaneously) at rest)\b"
 )
 _SPEED = re.compile(r"\b(?:speed|velocity|fast(?:est)?|slow(?:est)?)\b")
+_LOOKS = 33  # times of a run, at which it is looked for what moves most
 _STILL = 1e-6  # of the rate with which something moves at first: below it it rests
 _TURNS = 1e-6  # of what is typical, what a second derivative is at least where something turns: what stays so does not
 _PLACE = re.compile(
@@ -98,14 +99,17 @@ def _coming_to_rest(checker: Checker) -> str | None:
     run, names = checker.own_motion, checker.sampler.names
     if len(names) == 1:
         return names[0]
-    rates = lambda t: np.abs([run.evaluate(f"rate({spell(name)})", np.array([t]))[0] for name in names]) / checker.sampler.sizes
-    begins = max(float(run.t[0]), checker.sampler.own.t)
-    first = rates(begins)
-    k = int(np.argmax(first))
-    ends = first_zero(lambda times: run.evaluate(f"rate({spell(names[k])})", times), begins, float(run.outcome.t)) or float(
-        run.outcome.t
-    )
-    return names[k] if np.all(rates(ends) <= _STILL * first[k]) else None
+    begins, ends = max(float(run.t[0]), checker.sampler.own.t), float(run.outcome.t)
+
+    def rates(times: Array) -> Array:
+        """Of each coordinate, beside what it typically is, (n, nt)."""
+        found = [np.abs(run.evaluate(f"rate({spell(name)})", times)) for name in names]
+        return np.array(found) / checker.sampler.sizes[:, None]
+
+    most = rates(np.linspace(begins, ends, _LOOKS)).max(axis=1)
+    k = int(np.argmax(most))
+    stops = first_zero(lambda times: run.evaluate(f"rate({spell(names[k])})", times), begins, ends) or ends
+    return names[k] if np.all(rates(np.array([stops])) <= _STILL * most[k]) else None
 
 
 def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tuple[str, ...]:

@@ -58,7 +58,10 @@ def with_held(checker: Checker, declared: Declared, condition: str) -> tuple[Che
 
 
 def _hold(mechanism: Builder, name: str, law: str) -> None:
-    mechanism.motion(_free(mechanism, "hold"), spell(name), law)
+    driven = [motion for motion, given in mechanism.model.motions.items() if given.of in (name, spell(name))]
+    for motion in driven:
+        del mechanism.model.motions[motion]
+    mechanism.motion(driven[0] if driven else _free(mechanism, "hold"), spell(name), law)
     start = mechanism.model.initial
     if start is not None:
         start.rates.pop(name, None)

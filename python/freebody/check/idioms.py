@@ -52,6 +52,12 @@ _TAN_OF = re.compile(
     r"(\b(?:with|where|and)\s+)\\?tan\s*\\?\(?\s*([^\W\d]\w*)\)?\s*=\s*([^=,;]+?)\s*/\s*(\((?:[^()]|\([^()]*\))*\)|[^\s()]+)\s*\Z"
 )
 """``… with tan φ = c ω/(k − m ω²)``, of a phase."""
+_LAW_BEHIND = re.compile(r"\A(\s*(?:(?:starting|released)\s+)?from\s+rest),\s*[$TUVWE_{}()\d₁₂→\\to+−=\s-]+:(?!=)")
+"""``from rest, T_1 + U_{1→2} = T_2: …``."""
+_REST_BEHIND = re.compile(r"\A\s*([^:=]+?),\s*((?:starting\s+|released\s+)?from\s+rest)\s*:(?!=)")
+"""``left pinion, angular impulse, from rest: …``."""
+_OBSERVER = re.compile(r"\A\s*for\s+an\s+(?=observer\b[^:=]*:)")
+_BOTH_SIDES = re.compile(r"\A\s*(?:both\s+)?before\s+[^:=]*?\band\s+after\s+(?:it|that)\s*:(?!=)")
 _NAME = r"(\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?)"
 _SLOPE = re.compile(
     rf"\\[dt]?frac\s*\{{\s*d\s*\^\s*\{{?2\}}?\s*{_NAME}\s*\}}\s*\{{\s*d\s*{_NAME}\s*\^\s*\{{?2\}}?\s*\}}"
@@ -79,6 +85,7 @@ def usual(text: str) -> str:
     text = _WHEN_INSIDE.sub(r"\1:", _LABEL_FIRST.sub(r"\1: ", text))
     text = _CONSTANT_IF.sub(r"\1: constant: ", _AT_RELEASE.sub(r"\1", _BEFORE_NEXT.sub(r"\1", text)))
     text = _TAN_OF.sub(r"\1\2 = atan2(\3, \4)", _FROM_TO.sub(r"from \1 to \2:", _WHICH_SIDE.sub("", _SEEN.sub("", text))))
+    text = _BOTH_SIDES.sub("", _OBSERVER.sub("", _REST_BEHIND.sub(r"\2: \1:", _LAW_BEHIND.sub(r"\1:", text))))
     text = _FIRST_TIME.sub(r"when \1, from the start: \2", text)
     text = _STAGE.sub(r"during \1", text)
     text = _FREQUENCY_OF.sub(r"\1", _HELD_AND.sub(r"\1 (\2), \3", text))
