@@ -17,55 +17,60 @@ _ABROAD = {
     "for": "für|pour|para",
 }
 """Words of other languages with which a condition begins."""
-_FOREIGN = [(re.compile(rf"\A\s*(?:{words})\s+(?=[^:\n]*:(?!=))", re.IGNORECASE), f"{word} ") for word, words in _ABROAD.items()]
-_LABEL_FIRST = re.compile(r"\A\s*\(((?=[^()]*\b[a-z]{4})[A-Za-z]+(?:[\s,']+[A-Za-z]+)+)\)\s+(?=[^\s:])")
-"""``(shoe B, moments about the pin)  F c = …``."""
-_WHEN_INSIDE = re.compile(
-    rf"\A\s*(?!(?:{CONDITION})\b)[A-Za-z][^=:;\n()]*\(((?:(?:just|right)\s+)?(?:after|before|while|until|when|once)\s[^()=<>:]+)\)\s*:(?!=)"
-)
-"""``jaws together (after the blow):``."""
-_BEFORE_NEXT = re.compile(
-    r"\A(\s*(?:just\s+)?after\b[^:=\n]*?),?\s+(?:and\s+)?before\s+(?:the\s+)?(?:second|next|third)\b[^:=,\n]*(?=[:,])"
-)
-_AT_RELEASE = re.compile(
-    r"\A(\s*(?:(?:just|right|immediately)\s+(?:after|at)|at)\s+(?:the\s+)?(?:release|start|beginning)(?:\s+from\s+rest)?)\s*\([^():]*=[^():]*\)(?=\s*:)"
-)
-"""``right after the release (θ = θ_0, θ' = 0):``, where it starts so."""
-_CONSTANT_IF = re.compile(r"\A\s*constant,?\s+(if\b[^:\n]*?)\s*:(?!=)\s*")
-"""``constant, if d = 0: …``."""
-_HELD_AND = re.compile(r"\b(held|locked|fixed|clamped|blocked)\s*\(([^()=,:]+=[^()=,:]+),\s*([^():]+=[^():]+)\)(?=[^:=]*:)")
-"""``link locked (θ = 0, d = 0)``."""
-_FREQUENCY_OF = re.compile(r"(frequenc(?:y|ies))\s+of\s+the\s+\w+(?=\s+(?:with|when|if|for|where)\b)")
-_STAGE = re.compile(
-    r"\A\s*(?:the\s+)?((?:recovery|coasting|rebound|(?:free\s+)?flight|(?:second|next|later|last|final)\s+(?:phase|stage|part|stretch|stroke))"
-    r"(?:\s+(?:of|on|with|by)\s+[a-z ]+)?)\s*(?:\([^()=]*\)\s*)?(?=[:,](?!=))"
-)
-"""``recovery (handle free):``, the name of a stretch."""
-_SEEN = re.compile(rf"\A\s*(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\s+[^,:=]+,\s+(?=(?:{CONDITION})\b[^:]*:)")
-"""``as seen from the cage, until it lands:``."""
-_FIRST_TIME = re.compile(r"\A\s*([^:=]+=[^:=]+?)\s+(?:for the first time|first|again)\s+at\s+(\$?t\s*=[^:]+)\Z")
-"""``h = 0 for the first time at t = …``."""
-_WHICH_SIDE = re.compile(r"\s*\((?:index(?:es)?\s+)?1:?\s[^()]*\bbefore\b[^()]*\b2:?\s[^()]*\bafter\b[^()]*\)(?=\s*:)")
-"""``bounce (1 just before, 2 just after):``."""
-_FROM_TO = re.compile(r"\A[^:=]*?\b(?:from\s+)?(t_?[1₁])\s+to\s+(t_?[2₂])\s*:(?!=)")
-_TAN_OF = re.compile(
-    r"(\b(?:with|where|and)\s+)\\?tan\s*\\?\(?\s*([^\W\d]\w*)\)?\s*=\s*([^=,;]+?)\s*/\s*(\((?:[^()]|\([^()]*\))*\)|[^\s()]+)\s*\Z"
-)
-"""``… with tan φ = c ω/(k − m ω²)``, of a phase."""
-_LAW_BEHIND = re.compile(r"\A(\s*(?:(?:starting|released)\s+)?from\s+rest),\s*[$TUVWE_{}()\d₁₂→\\to+−=\s-]+:(?!=)")
-"""``from rest, T_1 + U_{1→2} = T_2: …``."""
-_REST_BEHIND = re.compile(r"\A\s*([^:=]+?),\s*((?:starting\s+|released\s+)?from\s+rest)\s*:(?!=)")
-"""``left pinion, angular impulse, from rest: …``."""
-_OBSERVER = re.compile(r"\A\s*for\s+an\s+(?=observer\b[^:=]*:)")
-_BOTH_SIDES = re.compile(r"\A\s*(?:both\s+)?before\s+[^:=]*?\band\s+after\s+(?:it|that)\s*:(?!=)")
 _NAME = r"(\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?)"
+_FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
+_PUT: tuple[tuple[str, str], ...] = (
+    (r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)", ""),  # ω = const = v/r
+    *((rf"(?i)\A\s*(?:{words})\s+(?=[^:\n]*:(?!=))", f"{word} ") for word, words in _ABROAD.items()),
+    # (shoe B, moments about the pin)  F c = …
+    (r"\A\s*\(((?=[^()]*\b[a-z]{4})[A-Za-z]+(?:[\s,']+[A-Za-z]+)+)\)\s+(?=[^\s:])", r"\1: "),
+    # jaws together (after the blow): …
+    (
+        rf"\A\s*(?!(?:{CONDITION})\b)[A-Za-z][^=:;\n()]*"
+        r"\(((?:(?:just|right)\s+)?(?:after|before|while|until|when|once)\s[^()=<>:]+)\)\s*:(?!=)",
+        r"\1:",
+    ),
+    # after the first blow, before the second: …
+    (r"\A(\s*(?:just\s+)?after\b[^:=\n]*?),?\s+(?:and\s+)?before\s+(?:the\s+)?(?:second|next|third)\b[^:=,\n]*(?=[:,])", r"\1"),
+    # right after the release (θ = θ_0, θ' = 0): where it starts so
+    (
+        r"\A(\s*(?:(?:just|right|immediately)\s+(?:after|at)|at)\s+(?:the\s+)?(?:release|start|beginning)(?:\s+from\s+rest)?)"
+        r"\s*\([^():]*=[^():]*\)(?=\s*:)",
+        r"\1",
+    ),
+    (r"\A\s*constant,?\s+(if\b[^:\n]*?)\s*:(?!=)\s*", r"\1: constant: "),
+    # as seen from the cage, until it lands: …
+    (rf"\A\s*(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\s+[^,:=]+,\s+(?=(?:{CONDITION})\b[^:]*:)", ""),
+    # bounce (1 just before, 2 just after): …
+    (r"\s*\((?:index(?:es)?\s+)?1:?\s[^()]*\bbefore\b[^()]*\b2:?\s[^()]*\bafter\b[^()]*\)(?=\s*:)", ""),
+    (r"\A[^:=]*?\b(?:from\s+)?(t_?[1₁])\s+to\s+(t_?[2₂])\s*:(?!=)", r"from \1 to \2:"),
+    # … with tan φ = c ω/(k − m ω²), of a phase
+    (
+        r"(\b(?:with|where|and)\s+)\\?tan\s*\\?\(?\s*([^\W\d]\w*)\)?\s*=\s*([^=,;]+?)\s*/\s*(\((?:[^()]|\([^()]*\))*\)|[^\s()]+)\s*\Z",
+        r"\1\2 = atan2(\3, \4)",
+    ),
+    (rf"\A(\s*{_FROM_REST}),\s*[$TUVWE_{{}}()\d₁₂→\\to+−=\s-]+:(?!=)", r"\1:"),  # from rest, T_1 + U_{1→2} = T_2: …
+    (rf"\A\s*([^:=]+?),\s*({_FROM_REST})\s*:(?!=)", r"\2: \1:"),  # left pinion, angular impulse, from rest: …
+    (r"\A\s*for\s+an\s+(?=observer\b[^:=]*:)", ""),
+    (r"\A\s*(?:both\s+)?before\s+[^:=]*?\band\s+after\s+(?:it|that)\s*:(?!=)", ""),
+    # h = 0 for the first time at t = …
+    (r"\A\s*([^:=]+=[^:=]+?)\s+(?:for the first time|first|again)\s+at\s+(\$?t\s*=[^:]+)\Z", r"when \1, from the start: \2"),
+    # recovery (handle free): the name of a stretch
+    (
+        r"\A\s*(?:the\s+)?((?:recovery|coasting|rebound|(?:free\s+)?flight|(?:second|next|later|last|final)\s+(?:phase|stage|part|stretch|stroke))"
+        r"(?:\s+(?:of|on|with|by)\s+[a-z ]+)?)\s*(?:\([^()=]*\)\s*)?(?=[:,](?!=))",
+        r"during \1",
+    ),
+    # link locked (θ = 0, d = 0)
+    (r"\b(held|locked|fixed|clamped|blocked)\s*\(([^()=,:]+=[^()=,:]+),\s*([^():]+=[^():]+)\)(?=[^:=]*:)", r"\1 (\2), \3"),
+    (r"(frequenc(?:y|ies))\s+of\s+the\s+\w+(?=\s+(?:with|when|if|for|where)\b)", r"\1"),
+)
+"""What is written, and what is read for it, one after the other."""
 _SLOPE = re.compile(
     rf"\\[dt]?frac\s*\{{\s*d\s*\^\s*\{{?2\}}?\s*{_NAME}\s*\}}\s*\{{\s*d\s*{_NAME}\s*\^\s*\{{?2\}}?\s*\}}"
     rf"|(?<![\w\\])d(?:²|\^2)\s*{_NAME}\s*/\s*d\s*{_NAME}(?:²|\^2)"
 )
 """``d²u/dθ²``, of which t is read elsewhere."""
-
-
 _LESS = r"(?:<=|>=|[<>≤≥]|\\(?:leq?|geq?|lt|gt)(?![a-z]))"
 _IN_LABEL = (
     re.compile(rf"\(([^()=:]*{_LESS}[^()=:]*)\)"),
@@ -74,21 +79,13 @@ _IN_LABEL = (
 """``on the ice (x > 0):``, ``energy, x < 0:``."""
 _SAYS_WHEN = re.compile(r"\s*(?:if|when|for|while|until|once|as|given|limit|only)\b")
 _LONG_WORD = re.compile(r"(?<![\\A-Za-z])(?!sin|cos|tan|sqrt)[A-Za-z]{3,}")
-_CONSTANT_SIDE = re.compile(r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)")
 
 
 def usual(text: str) -> str:
     """A statement in the ways of writing that are read."""
-    text = _CONSTANT_SIDE.sub("", _ranged(text))
-    for words, word in _FOREIGN:
-        text = words.sub(word, text)
-    text = _WHEN_INSIDE.sub(r"\1:", _LABEL_FIRST.sub(r"\1: ", text))
-    text = _CONSTANT_IF.sub(r"\1: constant: ", _AT_RELEASE.sub(r"\1", _BEFORE_NEXT.sub(r"\1", text)))
-    text = _TAN_OF.sub(r"\1\2 = atan2(\3, \4)", _FROM_TO.sub(r"from \1 to \2:", _WHICH_SIDE.sub("", _SEEN.sub("", text))))
-    text = _BOTH_SIDES.sub("", _OBSERVER.sub("", _REST_BEHIND.sub(r"\2: \1:", _LAW_BEHIND.sub(r"\1:", text))))
-    text = _FIRST_TIME.sub(r"when \1, from the start: \2", text)
-    text = _STAGE.sub(r"during \1", text)
-    text = _FREQUENCY_OF.sub(r"\1", _HELD_AND.sub(r"\1 (\2), \3", text))
+    text = _ranged(text)
+    for written, read in _PUT:
+        text = re.sub(written, read, text)
     return _SLOPE.sub(_slope, text)
 
 
