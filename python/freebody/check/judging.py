@@ -243,7 +243,10 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
         or glance()
     ):
         return None
-    for family in (since, replace(since, through=True)):
+    ways = [since, replace(since, through=True)]
+    if forward := one_sense(case, equation):
+        ways.append(replace(since, above=forward[0].above))
+    for family in ways:
         if of_family(case, equation, family, SAMPLES):
             verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
             return replace(verdict, assumption=FROM_START) if verdict.ok else None

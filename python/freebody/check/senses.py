@@ -19,25 +19,23 @@ if TYPE_CHECKING:
 
 _SIZE = re.compile(r"speed\(|hypot\(")
 _DEPENDS = re.compile(r"\b(?:abs|sign)\(")
+_RUBBED = re.compile(r"\bsign\(((?:rate|omega|vx|vy)\([^()]*\))\)")
+"""What dry friction takes the sense of."""
 
 
 def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
-    """The motions in which the rates that an equation has in a higher power keep the sense that they have at the start, in words; None
-    where it has none, or nothing depends on it."""
+    """The motions in which the rates that an equation has in a higher power keep the sense that they have at the start, else those of
+    which dry friction does, in words; None where nothing depends on one."""
     known = case.meaning
     if not _DEPENDS.search(known.mechanics):
         return None
     powers = (n for n in walk(equation) if isinstance(n, Pow) and isinstance(n.base, Sym) and isinstance(n.exponent, Num))
     rates = [n.base for n in powers if n.exponent.value > 1 and known.vocabulary.is_rate(n.base)]
-    rates += [
-        n
-        for call in walk(equation)
-        if isinstance(call, Fn) and call.name == "ln"
-        for n in call.args
-        if known.vocabulary.is_rate(n)
-    ]
+    logarithms = (n for n in walk(equation) if isinstance(n, Fn) and n.name == "ln")
+    rates += [n for each in logarithms for n in each.args if known.vocabulary.is_rate(n)]
     said = {n: known.read_from(n) for n in dict.fromkeys(rates)}
-    return _as_at_start(case, {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said)
+    said = {n: text for n, text in said.items() if f"({text})" in known.mechanics.replace(" ", "")} or said
+    return _as_at_start(case, said or {Sym(text): text for text in _RUBBED.findall(known.mechanics)})
 
 
 def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
