@@ -126,7 +126,7 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):
-        return _of(f"y({quote(body)}.G)" if body else "centre_y()", least)
+        return _of(f"y({quote(body)}.G)", least) if body else ()
     return _of(spell(names[0]), least) if _PLACE.search(words) and len(names) == 1 else ()
 
 
