@@ -378,3 +378,8 @@ def test_past_its_budget_it_says_what_it_has() -> None:
     assert verdict.kind is Kind.WRONG
     assert "no more was looked for" in str(verdict)
     assert checker.check("1/3 m L^2 θ'' = 1/2 m g L sin θ").ok
+
+
+def test_a_function_of_nothing_is_a_factor_like_any_other():
+    verdict = system("S19.16/model").check("(m1 l^2/3) thetaddot cos(0) = T")
+    assert verdict.kind is Kind.WRONG and verdict.mends

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from .families import Family
 from .user_symbols import AMPLITUDE
+from .usual_names import ENERGIES
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -21,7 +22,10 @@ _SAID = re.compile(
 )
 """``steady-state amplitude of x: X = …``."""
 _IS = re.compile(rf"({_SYMBOL})\s*=(?!=)\s*(.+)", re.S)
-_STEADY = re.compile(r"if ([^:]*\bin the steady state\b[^:]*): ?([^:]+)", re.S)
+_REPEATS = "in the steady state"
+_STEADY = re.compile(rf"if ([^:]*\b{_REPEATS}\b[^:]*): ?([^:]+)", re.S)
+_NAME = "amp"
+"""What it is called that has no letter of its own."""
 _WORDS = re.compile(r"\s*(?:(?:in|for|the|its|resulting|steady|state|motion|vibrations?|oscillations?)\b[\s,]*)*")
 
 
@@ -47,10 +51,10 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
 
 
 def _judged(checker: Checker, declared: Declared, conditions: str, statement: str) -> Verdict:
-    """Of the steady state, if something drives the model; of amplitudes the size is judged: a sign says how they follow what drives."""
-    driven = checker.sampler.has(Family(steady=True))
-    how = "in the steady state" if driven else "from the start"
-    under = ", ".join(part for part in (how, conditions.replace("in the steady state", "").strip(" ,")) if part)
+    """Of the steady state where that is said or something drives the model; of amplitudes the size is judged: a sign says how they follow
+    what drives."""
+    steady = _REPEATS in conditions or checker.sampler.has(Family(steady=True))
+    under = ", ".join(filter(None, (_REPEATS if steady else "from the start", conditions.replace(_REPEATS, "").strip(" ,"))))
     verdict = checker.check(f"if {under}: {statement}", declared)
     said, *names = re.split(r"(?=\swhere\s)", statement, maxsplit=1)
     sides = said.split("=")
@@ -62,10 +66,9 @@ def _judged(checker: Checker, declared: Declared, conditions: str, statement: st
 
 def _of(checker: Checker, declared: Declared, what: str | None, letter: str) -> str | None:
     """Of which quantity an amplitude is; None where that is not clear."""
-    if what and not what.islower() and checker.symbols(declared).spelt(what) is None:
-        return None
-    if what and (meaning := checker.symbols(declared).spelt(what)):
-        return meaning.texts[0]
+    meaning = checker.symbols(declared).spelt(what) if what else None
+    if meaning or (what and not what.islower()):
+        return meaning.texts[0] if meaning else None
     found = _capitals(checker, declared, letter)
     if letter in found:
         return found[letter]
@@ -79,12 +82,8 @@ def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str,
     found = {}
     for name in dict.fromkeys(re.findall(_SYMBOL, statement)):
         small = name.lower()
-        is_new = name != small and name not in _ENERGIES and known.spelt(name) is None
+        is_new = name != small and name not in ENERGIES and known.spelt(name) is None
         meaning = known.spelt(small) if is_new else None
         if meaning and meaning.kind in ("coordinate", "gauge", "declared"):
             found[name] = meaning.texts[0]
     return found
-
-
-_NAME = "amp"
-_ENERGIES = ("E", "T", "V")

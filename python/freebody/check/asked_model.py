@@ -222,15 +222,12 @@ class AskedModel:
             rows -= np.outer(rows @ along, along)
         return found
 
-    def only_starts(self, name: str) -> bool:
-        """Whether a parameter with a formula says where or how fast the model starts."""
-        derived = any(each["name"] == name and isinstance(each["value"], str) for each in self.spec["parameters"])
+    @cached_property
+    def derived_start(self) -> set[str]:
+        """Parameters with a formula that say where or how fast the model starts."""
         start = self.mechanism.model.initial
-        return (
-            derived
-            and start is not None
-            and re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", start.model_dump_json()) is not None
-        )
+        read = set(re.findall(r"[^\W\d]\w*", start.model_dump_json())) if start else set()
+        return {each["name"] for each in self.spec["parameters"] if isinstance(each["value"], str)} & read
 
     @cached_property
     def frictions(self) -> list[str]:
@@ -246,10 +243,10 @@ class AskedModel:
         return [name for name in self.free_parameters if name in written]
 
     @cached_property
-    def torsional(self) -> list[str]:
+    def torsional(self) -> set[str]:
         """Free parameters that are the stiffness of a torsion spring."""
-        written = [force["with"].get("stiffness") for force in self.spec["forces"] if force["type"] == "torsion_spring"]
-        return [name for name in self.free_parameters if name in written]
+        written = {force["with"].get("stiffness") for force in self.spec["forces"] if force["type"] == "torsion_spring"}
+        return written & self.free_parameters.keys()
 
     @cached_property
     def gravities(self) -> list[str]:

@@ -26,6 +26,7 @@ from .families import BEFORE, Family, NoMotion
 from .figures import figures, rounding
 from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, OFTEN, REACH, SLIGHT, magnitude, residual, unreached
+from .user_symbols import OF_TIME
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -52,7 +53,6 @@ WORDS: dict[str, dict[str, Any]] = {
 _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
 _SQUARE = re.compile(r"(\S+?)\s*(?:²|\^\{?2\}?)")
-_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
 _OTHER_THAN = re.compile(r"([^=<>≤≥≠]+)(?:≠|\\neq?(?![a-z])|!=)([^=<>≤≥≠]+)")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
@@ -126,9 +126,7 @@ def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
 
 def _has_bare_angles(case: Case, equation: Equation) -> bool:
     """Whether angles stand outside of functions, where no torsion spring has them so."""
-    springs = {
-        n for n in symbols_in(equation) if case.meaning.texts(n)[:1] and case.meaning.texts(n)[0] in case.sampler.torsional
-    }
+    springs = {n for n in symbols_in(equation) if not case.sampler.torsional.isdisjoint(case.meaning.texts(n))}
     linear = (n for n in walk(equation) if isinstance(n, Fn) or (isinstance(n, Mul) and springs & n.symbols))
     inside = {id(n) for part in linear for n in walk(part)}
     known = case.meaning.vocabulary
@@ -347,7 +345,7 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if found := _ABOVE.fullmatch(part):
         more, less = (found[1], found[3]) if found[2] in _MORE else (found[3], found[1])
         above = _meant(f"({more}) - ({less})", checker, declared)
-        return replace(given, above=(*given.above, above), since=given.since or ("start" if _TIME.search(above) else ""))
+        return replace(given, above=(*given.above, above), since=given.since or ("start" if OF_TIME.search(above) else ""))
     if part.count("=") != 1:
         raise ModelProblem(f"`{part}` is no hypothesis", f"write `m1 = 2*m2`, `M -> inf`, or one of: {', '.join(WORDS)}")
     left, right = (side.strip() for side in part.split("="))
@@ -358,7 +356,7 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     ):
         return replace(given, held=(*given.held, (name, value)))
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
-    asks_past = "⟦" in vanishing or _TIME.search(vanishing)
+    asks_past = "⟦" in vanishing or OF_TIME.search(vanishing)
     since = given.since or ("start" if asks_past else "")
     return replace(given, vanishing=(*given.vanishing, vanishing), since=since)
 

@@ -42,8 +42,8 @@ _BEYOND = re.compile(
 """What reads more than the configuration."""
 _SOLVED = re.compile(rf"\b(accel|ax|ay|alpha|tension)\(|\.({_FORCES})\b")
 """What reads an acceleration or an unknown force."""
-_STEADY = re.compile(r"[^\W\d]\w*\s*\*\s*t|t\s*\*\s*[^\W\d]\w*")
-"""The law of what turns steadily, which has a letter for its rate."""
+_UNIFORM = re.compile(r"[^\W\d]\w*\s*\*\s*t|t\s*\*\s*[^\W\d]\w*")
+"""The law of what moves uniformly, which has a letter for its rate."""
 _SUMMED = re.compile(r"\.work\b|\bfriction_work\(")
 """What is summed up from the start of a motion on."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
@@ -137,7 +137,8 @@ class StatementSymbols:
         """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
         said = [text for n in symbols_in(equation) for text in self.texts(Sym(n.name))]
         words = {word for text in said for word in _WORD.findall(text)}
-        return "t" in said or not words.isdisjoint(self.of_start_alone) or any(map(self.sampler.only_starts, words))
+        derived = {name for name in self.sampler.derived_start if not _named(name, self.mechanics)}
+        return "t" in said or not words.isdisjoint(derived.union(self.of_start_alone))
 
     @cached_property
     def of_start_alone(self) -> list[str]:
@@ -268,8 +269,8 @@ class StatementSymbols:
         said = {self._one(n).texts for n in movable}
         measured = (*self.sampler.coordinates, *self.sampler.metadata["closure_coordinates"])
         names = [c["name"] for c in measured if c["name"].isidentifier() and c["name"] in self.symbols.meanings]
-        steady = {motion["of"] for motion in self.sampler.spec["motions"] if _STEADY.fullmatch(str(motion["is"]))}
-        names = [name for name in names if name not in steady]
+        uniform = {motion["of"] for motion in self.sampler.spec["motions"] if _UNIFORM.fullmatch(str(motion["is"]))}
+        names = [name for name in names if name not in uniform]
         found = [*movable, *(Sym(name) for name in names if (name,) not in said)]
         declared = [n for n in map(Sym, self.symbols.of_kind("declared")) if n not in found and self._moves(n)]
         return [*found, *declared[: max(len(self.sampler.coordinates) - len(found), 0)]]

@@ -16,14 +16,13 @@ from .asked_model import AskedModel
 from .families import BEFORE, Family, Samples
 from .moments import Moments
 from .stretches import zeros
-from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
+from .user_symbols import LARGEST, LEAST, MOMENT, OF_START, OF_TIME
 
 _EXACT = 1e-13  # tolerance of runs whose course matters
 _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _LONG = 12.0  # of the time typical of the model: how long a run is followed at least
 _INSIDE = 0.5, 0.3, 0.8  # parts of a stretch
 _ZEROS = 4  # of an expression on a stretch, that are looked at
-_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
 _ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
 """What is asked of more than the start."""
 
@@ -57,7 +56,7 @@ class FollowedModel(AskedModel):
         alone = (
             text
             for text in of_start
-            if not _TIME.search(text) and not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any()
+            if not OF_TIME.search(text) and not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any()
         )
         places = [OF_START.sub(r"(\1)", text) for text in alone]
         if family.since == BEFORE or all(self.vanishes(text, start) for text in places):

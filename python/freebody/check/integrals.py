@@ -26,10 +26,8 @@ _SAME = 1e-9  # by how much two places may differ, relative
 _DOUBLED = 10  # times that a motion is followed twice as long, until something on it has had its largest value
 _LOOKS, _FINER, _NEARLY = 129, 4, 0.03
 """Times at which it is looked for, how often again between two, and what part of its changes it may lack where it is looked for first."""
-_NEAR, _BACK = (
-    1e-11,
-    1e-8,
-)  # tolerance of the motion whose amplitude is asked for, and by how much that may miss when it comes back
+_NEAR = 1e-11  # tolerance of the motion whose amplitude is asked for
+_BACK = 1e-8  # of what it goes to and fro, by which it may miss when it comes back
 _TURNS = 8, 32, 128  # of the time typical of it, on which it turns three times
 _ENDS = ("1", "2", "f", "e")
 """Indices of the moment at which a stretch ends."""

@@ -7,7 +7,6 @@ from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from itertools import chain, islice
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,9 +29,6 @@ from .residual import FAILS, HOLDS, OFTEN, Residual, equation_sides, jacobian, r
 from .senses import holds_with_either_root, of_root, one_sense
 from .stated import Correction
 from .verdict import Kind, Verdict, evidence
-
-if TYPE_CHECKING:
-    pass
 
 _FAR = 2.0  # size of a correction from which on one is looked for among the balances
 _SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
@@ -235,6 +231,7 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
         return None
     since = replace(given, since="start")
     glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)
+    # What is said of after an event is of the motion that has come there.
     known = figure or case.meaning.speaks_of_start(equation) or "after" in case.sampler.moment
     if not (
         known

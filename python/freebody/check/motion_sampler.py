@@ -161,7 +161,7 @@ class MotionSampler(FollowedModel):
         ]
         if (found := with_parameters(self, family.vanishing, self.started(values), values, free)) is None:
             raise NoMotion(f"`{stated(family.vanishing[0])}` cannot be arranged by parameters in the steady state")
-        numbers = dict(zip((p["name"] for p in self.metadata["parameters"]), found.p.tolist(), strict=False))
+        numbers = dict(zip((p["name"] for p in self.metadata["parameters"]), found.p.tolist(), strict=True))
         return {name: numbers.get(name, value) for name, value in values.items()}
 
     def _read(self, texts: Sequence[str], state: State, start: State | None) -> list[float]:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends
+from freebody.symbolic.tree import ZERO, Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, addends
 
 from .coefficients import multiplied, product, recognised
 
@@ -62,7 +62,7 @@ def power_of(base: Node, n: int) -> Node:
 def _sum(node: Node, own: Mapping[Sym, Node]) -> Node:
     """A sum in other letters, term by term."""
     terms = [written(sign * number, powers) for sign, term in addends(node) for number, powers in [powers_of(term, own)]]
-    return Add(tuple(terms)) if len(terms) > 1 else terms[0]
+    return Add(tuple(terms)) if len(terms) > 1 else terms[0] if terms else ZERO
 
 
 def _times(parts: Iterable[tuple[float, dict[Node, int]]]) -> tuple[float, dict[Node, int]]:

@@ -152,6 +152,8 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     """A statement without words that say nothing of it, and with the conditions among them in the words of claims; names that are
     ``known`` are no words. And what is to be said of what was passed over."""
     passed: list[str] = []
+    if (read := usual(text)) != text:
+        passed.append(f"It is read as: {read.strip()}")
 
     def told(found: re.Match[str], what: str) -> str:
         passed.append(f"`{found[0].strip(' ,')}` is read as {what}.")
@@ -163,9 +165,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
         is_comment = "→" in words or _is_comment(words, known, measured)
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
-    said = _IN_LATEX.sub(
-        _of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), usual(text)))
-    ).lstrip()
+    said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), read))).lstrip()
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(r"_{\1}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)

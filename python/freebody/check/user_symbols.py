@@ -27,7 +27,7 @@ Masses = Callable[[], Mapping[str, tuple[Array, Array]]]
 class Meaning:
     """What a symbol is. ``texts`` are one expression for a number, three for a vector along i, j, k.
 
-    ``kind`` is parameter, coordinate, gauge, time, gravity, direction, reaction, initial or declared; ``dimension`` None fits any.
+    ``kind`` is parameter, coordinate, gauge, time, gravity, direction, reaction, initial, amplitude or declared; ``dimension`` None fits any.
     """
 
     kind: str
@@ -104,6 +104,8 @@ AMPLITUDE = "the amplitude of "
 """How one begins of half of what a quantity goes to and fro from a state on."""
 OF_START = re.compile("⟦(.+?)⟧")
 """A part of a text whose value where the motion starts is asked, or at a moment that stands behind it."""
+OF_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
+"""The time itself in an expression of the model language."""
 MOMENT = " @ "
 """What stands between an expression and the moment of the motion at which its value is asked."""
 SUMMED = "summed up: "

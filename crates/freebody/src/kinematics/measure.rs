@@ -2,7 +2,7 @@
 
 use super::{MotionView, Poses, SeededView, StateView};
 use crate::expr::Env;
-use crate::gauges::{ModelExpr, ModelVariable, Reading};
+use crate::gauges::{is_measured, ModelExpr, ModelVariable, Reading};
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
 use crate::plane::{Twist, Wrench};
@@ -116,8 +116,11 @@ impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
         }
     }
     fn rate(&self, of: &ModelExpr) -> S {
-        let known = self.rates.iter().find(|(expr, _)| std::ptr::eq(*expr, of));
-        known.map_or_else(|| jet(&self.moving(), of).d1, |(_, rate)| *rate)
+        match self.rates.iter().find(|(expr, _)| std::ptr::eq(*expr, of)) {
+            Some((_, rate)) => *rate,
+            None if is_measured(of) => jet(&self.moving(), of).d1,
+            None => S::of(f64::NAN),
+        }
     }
     fn accel(&self, of: &ModelExpr) -> S {
         jet(&self.moving(), of).d2

@@ -2,8 +2,10 @@
 
 use super::dense::Segment;
 use super::probe::{Node, Probe};
-use super::roots::{chebyshev, chebyshev_points, extrema, monomial, value, SAMPLES};
+use super::roots::{chebyshev_points, SAMPLES};
 use super::system::{DynamicsError, Role, Spent, System};
+
+mod nodes;
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -18,21 +20,8 @@ const GRAZE_OF_ACTION: f64 = 1.0;
 const DOUBT: f64 = 10.0;
 /// Mean over swing from which a polynomial cannot reach zero: |Tₖ| ≤ 1, and a little for the rounding of its sums.
 const CLEAR_OF_ZERO: f64 = 1.001;
-/// Part of a half step past its end where what crosses zero in it may turn back.
-const PAST: f64 = 0.1;
-/// A polynomial is trusted when its last coefficients are below this many times its swing,
-const CONVERGED: f64 = 1e-9;
-/// or below this many times its distance from zero.
-const FAR_FROM_ZERO: f64 = 1e-2;
-/// A function changes at most this many times as fast as its steepest secant.
-const STEEPER: f64 = 1.5;
-/// Parabolas by which an extremum is brought nearer.
-const PARABOLAS: usize = 3;
 /// Size of a value, over that of its function, at a change of sign that is no zero: there the function jumps.
 const JUMP: f64 = 1e-6;
-/// Values of one function in one step that are asked for beside the samples and extrema.
-const PATIENCE: usize = 300;
-
 /// How a switching function met zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -234,90 +223,6 @@ impl EventDetector {
         true
     }
 
-    /// The samples and, when zero is near, the extrema of the function, in order: between two
-    /// neighbours the function is monotone.
-    fn nodes(&self, i: usize, values: &[f64; SAMPLES], probe: &mut Probe) -> Result<Vec<Node>, DynamicsError> {
-        let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
-        let mut nodes: Vec<Node> = self.points.iter().zip(values).map(sample).collect();
-        if values.iter().all(|value| *value == values[0]) {
-            return Ok(nodes);
-        }
-        let coefficients = chebyshev(values);
-        let swing: f64 = coefficients[1..].iter().map(|c| c.abs()).sum();
-        if coefficients[0].abs() > CLEAR_OF_ZERO * swing {
-            return Ok(nodes);
-        }
-        let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);
-        let (mut past, mut dip) = (None, 0.0_f64);
-        for x in extrema(&polynomial, 1.0 + PAST) {
-            let t = probe.time(x);
-            if x <= 1.0 {
-                let value = probe.one(i, t)?;
-                nodes.push(Node { t, value, is_extremum: true });
-                if memory.is_guard
-                    && value < dip
-                    && probe.closed(i, t)?.is_some_and(|value| value > -TOUCH * memory.size)
-                {
-                    dip = value;
-                }
-            } else if past.is_none()
-                && value(&polynomial, x).abs() <= 2.0 * memory.graze.max(memory.doubt).max(TOUCH) * memory.size
-            {
-                past = Some(Node { t, value: probe.one(i, t)?, is_extremum: true });
-            }
-        }
-        // What touches zero on the loops may dip below it on the dense output, which is off them.
-        nodes.iter_mut().filter(|node| (dip..0.0).contains(&node.value)).for_each(|node| node.value = 0.0);
-        let (t0, later) = (probe.segment.t0, probe.ahead());
-        nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
-        let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
-        let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
-        if !(tail <= CONVERGED * swing || tail <= FAR_FROM_ZERO * nearest) {
-            nodes = self.between(i, &nodes, values, probe)?;
-            if !memory.is_guard {
-                nodes = turns(i, &nodes, probe)?;
-            }
-        }
-        nodes.extend(past);
-        Ok(nodes)
-    }
-
-    /// The nodes with further ones wherever the function may reach zero between two and come back. The distance of
-    /// things that pass each other is a V, which no polynomial follows; but it changes no faster than they move.
-    fn between(
-        &self,
-        i: usize,
-        nodes: &[Node],
-        values: &[f64; SAMPLES],
-        probe: &mut Probe,
-    ) -> Result<Vec<Node>, DynamicsError> {
-        let times = self.points.map(|x| probe.time(x));
-        let secant = |j: usize| ((values[j + 1] - values[j]) / (times[j + 1] - times[j])).abs();
-        let steepest = STEEPER * (0..SAMPLES - 1).map(secant).fold(0.0, f64::max);
-        let memory = &self.memory[i];
-        let clear = TOUCH * memory.size;
-        let mut patience = PATIENCE;
-        let mut found = vec![nodes[0]];
-        for &node in &nodes[1..] {
-            let mut later = vec![node];
-            while let Some(&b) = later.last() {
-                let a = found[found.len() - 1];
-                let same = a.value * b.value > 0.0 && a.value.abs().min(b.value.abs()) > clear;
-                let t = 0.5 * (a.t + b.t);
-                let near = same && a.value.abs() + b.value.abs() < steepest * (b.t - a.t).abs();
-                // It was heading for the other side where it acted.
-                let back = memory.is_spent && found.len() == 1 && b.value * f64::from(memory.now.side) < 0.0;
-                if !(near || back) || patience == 0 || t == a.t || t == b.t {
-                    found.extend(later.pop());
-                } else {
-                    patience -= 1;
-                    later.push(Node { t, value: probe.one(i, t)?, is_extremum: false });
-                }
-            }
-        }
-        Ok(found)
-    }
-
     fn walk(
         &mut self,
         i: usize,
@@ -483,31 +388,4 @@ impl EventDetector {
         memory.is_spent = true;
         memory.now = Place { side, reach: 0.0, grazes: None, last_touch: t, ..memory.now };
     }
-}
-
-/// The nodes of function `i` with its extrema as they are themselves, not as those of a polynomial that does not follow it: each node
-/// beyond both of its neighbours, brought nearer by parabolas.
-fn turns(i: usize, nodes: &[Node], probe: &mut Probe) -> Result<Vec<Node>, DynamicsError> {
-    let mut found = nodes.to_vec();
-    for k in 1..nodes.len() - 1 {
-        let [mut a, mut b, mut c] = [nodes[k - 1], nodes[k], nodes[k + 1]];
-        b.is_extremum = (b.value - a.value) * (b.value - c.value) > 0.0;
-        for _ in 0..if b.is_extremum { PARABOLAS } else { 0 } {
-            let (left, right) = ((b.value - a.value) / (b.t - a.t), (c.value - b.value) / (c.t - b.t));
-            let t = 0.5 * (a.t + b.t - left * (c.t - a.t) / (right - left));
-            let node = Node { t, value: probe.one(i, t)?, is_extremum: true };
-            let (is_farther, is_later) = ((node.value - b.value) * left > 0.0, (t - b.t) * (c.t - b.t) > 0.0);
-            match (is_farther, is_later) {
-                (true, true) => (a, b) = (b, node),
-                (true, false) => (b, c) = (node, b),
-                (false, true) => c = node,
-                (false, false) => a = node,
-            }
-            if !(t != b.t || is_farther) || a.t == b.t || b.t == c.t {
-                break;
-            }
-        }
-        found[k] = b;
-    }
-    Ok(found)
 }
