@@ -2,7 +2,7 @@
 
 use super::{MotionView, Poses, SeededView, StateView};
 use crate::expr::Env;
-use crate::gauges::{is_measured, ModelExpr, ModelVariable, Reading};
+use crate::gauges::{ModelExpr, ModelVariable, Reading};
 use crate::mechanism::Mechanism;
 use crate::mode::Mode;
 use crate::plane::{Twist, Wrench};
@@ -101,6 +101,11 @@ impl<S: Scalar> Observed<'_, S> {
     }
 }
 
+/// Whether jets give the time derivative of an expression: it has no rates and nothing that is found by solving an instant.
+fn reads_nothing(of: &ModelExpr) -> bool {
+    !of.depends_on_rates() && of.variables().all(|variable| !matches!(variable, ModelVariable::Reading(_)))
+}
+
 impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
     fn variable(&self, variable: &ModelVariable) -> S {
         match variable {
@@ -118,7 +123,7 @@ impl<S: Scalar> Env<S, ModelVariable> for Observed<'_, S> {
     fn rate(&self, of: &ModelExpr) -> S {
         match self.rates.iter().find(|(expr, _)| std::ptr::eq(*expr, of)) {
             Some((_, rate)) => *rate,
-            None if is_measured(of) => jet(&self.moving(), of).d1,
+            None if reads_nothing(of) => jet(&self.moving(), of).d1,
             None => S::of(f64::NAN),
         }
     }
