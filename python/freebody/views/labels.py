@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -101,19 +101,23 @@ def placed(labels: Sequence[Label], obstacles: Obstacles, frame: Array | None = 
     choices = [_choice(label, obstacles, frame) for label in labels]
     largest = sorted(range(len(labels)), key=lambda i: -float(np.prod(choices[i].half)))
     forced = sorted(largest, key=lambda i: -float(np.median(choices[i].cost)))
-    _, chosen = min((_swept(choices, order) for order in (largest, forced, largest[::-1])), key=lambda found: found[0])
+    between = cache(lambda i, j, at: _between(choices[i], choices[j], at))
+    orders = (largest, forced, largest[::-1])
+    _, chosen = min((_swept(choices, order, between) for order in orders), key=lambda found: found[0])
     found = [(label, c.centres[i], c.half, c.leaders[i]) for label, c, i in zip(labels, choices, chosen, strict=True)]
     return [Placed(*place, None if np.isnan(leader).any() else leader) for *place, leader in found]
 
 
-def _swept(choices: Sequence[_Choice], order: Sequence[int]) -> tuple[float, list[int]]:
-    """The cost of a set of places, and the set: each label in its turn takes its cheapest place beside the others, again and again."""
+def _swept(
+    choices: Sequence[_Choice], order: Sequence[int], between: Callable[[int, int, int], Array]
+) -> tuple[float, list[int]]:
+    """The cost of a set of places, and the set: each label in its turn takes its cheapest place beside the others, again and again.
+    ``between``: what each place of one label costs beside a place of another."""
     chosen = [-1] * len(choices)
     for _ in range(_SWEEPS):
         before, total = list(chosen), 0.0
         for i in order:
-            others = [(choices[j], at) for j, at in enumerate(chosen) if j != i and at >= 0]
-            cost = choices[i].cost + sum(_between(choices[i], *other) for other in others)
+            cost = choices[i].cost + sum(between(i, j, at) for j, at in enumerate(chosen) if j != i and at >= 0)
             chosen[i] = int(np.argmin(cost))
             total += float(cost[chosen[i]])
         if chosen == before:
@@ -125,9 +129,15 @@ def _between(mine: _Choice, other: _Choice, at: int) -> Array:
     """What each place of a label costs (k,) beside another that has its place."""
     centre = other.centres[at]
     shared: Array = np.prod(np.clip(mine.half + other.half - np.abs(mine.centres - centre), 0, None), axis=1)
-    led = (np.abs(mine.along - centre) < other.half).all(axis=2).any(axis=1)
-    crossed = (np.abs(mine.centres[:, None] - other.along[at]) < mine.half).all(axis=2).any(axis=1)
-    return 1e3 * shared + _CROSSED * led + _CROSSED * crossed
+    led = _within(mine.along - centre, other.half)
+    crossed = _within(mine.centres[:, None] - other.along[at], mine.half)
+    return 1e3 * shared + _CROSSED * led.any(axis=1) + _CROSSED * crossed.any(axis=1)
+
+
+def _within(offsets: Array, half: Array) -> Array:
+    """Which places (…, 2) from a centre are within half extents about it."""
+    inside: Array = (np.abs(offsets[..., 0]) < half[0]) & (np.abs(offsets[..., 1]) < half[1])
+    return inside
 
 
 def _choice(label: Label, obstacles: Obstacles, frame: Array | None) -> _Choice:
@@ -142,8 +152,9 @@ def _choice(label: Label, obstacles: Obstacles, frame: Array | None) -> _Choice:
 
     reached = (np.abs(obstacles.places - centres.mean(axis=0)) < half + np.ptp(centres, axis=0)).all(axis=1)
     (x, y), weights = obstacles.places[reached].T, obstacles.weights[reached]
-    over = (np.abs(np.subtract.outer(centres[:, 0], x)) < half[0]) & (np.abs(np.subtract.outer(centres[:, 1], y)) < half[1])
-    cost = over @ weights + near
+    low, high = (centres - half).T[..., None], (centres + half).T[..., None]
+    over = (low[0] < x) & (x < high[0]) & (low[1] < y) & (y < high[1])
+    cost = np.where(over, weights, 0.0).sum(axis=1) + near
     if frame is not None:
         cost += _OUTSIDE * np.clip([frame[0] - centres + half, centres + half - frame[1]], 0, None).sum(axis=(0, 2))
 

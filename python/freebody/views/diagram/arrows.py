@@ -77,7 +77,7 @@ def arranged(actions: Sequence[Action], scenery: Scenery, per_newton: float | No
     for _ in range(_SWEEPS):
         before = list(chosen)
         for i, choices in enumerate(offered):
-            others = [arrow for j, arrow in enumerate(chosen) if arrow is not None and j != i]
+            others = _Drawn.of([arrow for j, arrow in enumerate(chosen) if arrow is not None and j != i])
             costs = [alone + _among(choice, others) for choice, alone in zip(choices, own[i], strict=True)]
             chosen[i] = choices[int(np.argmin(costs))]
         if all(new is old for new, old in zip(chosen, before, strict=True)):
@@ -123,16 +123,29 @@ def _alone(arrow: Arrow, scenery: Scenery) -> float:
     return 1.5 * inside + 1.0 * drawn + 0.6 * arrow.length + reverse + aside
 
 
-def _among(arrow: Arrow, others: Sequence[Arrow]) -> float:
+@dataclass(frozen=True)
+class _Drawn:
+    """Arrows, places along them (k, 2), their heads, and these with the points where they act."""
+
+    arrows: Sequence[Arrow]
+    ink: Array
+    heads: Array
+    places: Array
+
+    @classmethod
+    def of(cls, arrows: Sequence[Arrow]) -> _Drawn:
+        heads, acting = (np.array(ends).reshape(-1, 2) for ends in ([a.head for a in arrows], [a.at for a in arrows]))
+        return cls(arrows, dense([arrow.line for arrow in arrows]), heads, np.vstack([heads, acting]))
+
+
+def _among(arrow: Arrow, others: _Drawn) -> float:
     """What an arrow hides of others, and they of it."""
-    passed = [(shared(arrow, other), min(arrow.length, other.length)) for other in others]
+    passed = [(shared(arrow, other), min(arrow.length, other.length)) for other in others.arrows]
     hidden = sum(_PASSING + over / shorter for over, shorter in passed if over > _MEETING)
-    near = _near(_beyond(arrow, dense([arrow.line])), dense([other.line for other in others]), 4.0)
-    heads = np.array([other.head for other in others]).reshape(-1, 2)
-    places = np.vstack([heads, np.array([other.at for other in others]).reshape(-1, 2)])
-    meeting = np.hypot(*(places - arrow.at).T) < 1.0
-    crowded = int((np.hypot(*(places - arrow.head).T)[~meeting] < _HEAD_ROOM).sum())
-    converging = int((np.hypot(*(heads - arrow.head).T) < 1.0).sum())
+    near = _near(_beyond(arrow, dense([arrow.line])), others.ink, 4.0)
+    meeting = np.hypot(*(others.places - arrow.at).T) < 1.0
+    crowded = int((np.hypot(*(others.places - arrow.head).T)[~meeting] < _HEAD_ROOM).sum())
+    converging = int((np.hypot(*(others.heads - arrow.head).T) < 1.0).sum())
     return _HIDDEN * hidden + 12.0 * near + 40.0 * crowded + 8.0 * converging
 
 
