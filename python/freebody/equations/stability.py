@@ -9,6 +9,7 @@ from typing import Any
 
 from freebody.equations.solve import TooLarge, rational_in_symbols
 from freebody.symbolic.decimals import is_measured, measured, rational
+from freebody.symbolic.factoring import factor
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.presentation import PATIENCE, presented
 from freebody.symbolic.to_sympy import sympy, to_sympy
@@ -66,7 +67,8 @@ def factors(polynomial: Sequence[Tree], nomenclature: Nomenclature | None = None
         return [*made, (rest, 1)]
     s = sympy.Dummy("s")
     above, _ = sympy.fraction(sympy.together(sympy.Poly(expressions, s).as_expr()))
-    found = [(sympy.Poly(factor, s), count) for factor, count in sympy.factor_list(above)[1] if factor.has(s)]
+    powers = (part.as_base_exp() for part in sympy.Mul.make_args(factor(above)) if part.has(s))
+    found = [(sympy.Poly(base, s), int(count)) for base, count in powers]
     return made + [
         ([presented(c / p.LC(), nomenclature, patience=PATIENCE) for c in p.all_coeffs()], count) for p, count in found
     ]
@@ -138,13 +140,12 @@ def _conditions(a: Sequence[Any], even: bool) -> list[Any]:
 
 def _reduced(condition: Any) -> Any:
     """The condition without factors that are positive; None if it holds."""
-    factored = sympy.factor(sympy.cancel(sympy.together(condition)))
     rest = sympy.S.One
-    for factor in (f for part in sympy.fraction(factored) for f in sympy.Mul.make_args(sympy.factor(part))):
-        if factor.is_number:
-            rest *= sympy.sign(factor)
-        elif not factor.is_positive:  # an odd power has the sign of its base
-            rest *= factor.base if factor.is_Pow and factor.exp.is_Integer and factor.exp % 2 else factor
+    for each in sympy.Mul.make_args(factor(condition)):
+        if each.is_number:
+            rest *= sympy.sign(each)
+        elif not each.is_positive:  # an odd power has the sign of its base
+            rest *= each.base if each.is_Pow and each.exp.is_Integer and each.exp % 2 else each
     return None if rest.is_positive else rest
 
 
@@ -169,7 +170,7 @@ def _polynomial(matrix: Sequence[Sequence[Tree]], positive: Collection[str]) -> 
 
     def short(coefficient: Any) -> Any:
         """In factors; with measured numbers as one sum over another, since round-off hides what it has in common."""
-        return to_sympy(measured(coefficient), positive=positive, real=True) if rounded else sympy.factor(coefficient)
+        return to_sympy(measured(coefficient), positive=positive, real=True) if rounded else factor(coefficient)
 
     return sympy.Poly([short(coefficient.xreplace(back)) for coefficient in polynomial.all_coeffs()], polynomial.gen)
 

@@ -22,6 +22,7 @@ from freebody.impact.impacts import NoImpact, find
 from freebody.impact.symbols import ImpulsiveState
 from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.factoring import factor
 from freebody.symbolic.nomenclature import Nomenclature, SymbolEntry
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import Mul, Sym, Tree, replace
@@ -219,11 +220,11 @@ def _zeros(expression: Any, x: Any, value: Any) -> Iterator[Any]:
     made = TR8(expression)
     for _ in range(3):
         made = sympy.factor_terms(TR9(made))
-    for factor in sympy.Mul.make_args(sympy.factor(made)):
-        inner = factor.args[0] if isinstance(factor, (sympy.sin, sympy.cos)) else factor
+    for part in sympy.Mul.make_args(factor(made)):
+        inner = part.args[0] if isinstance(part, (sympy.sin, sympy.cos)) else part
         if inner.has(x) and sympy.expand(inner).diff(x, 2) == 0:
-            quarter = sympy.pi / 2 if isinstance(factor, sympy.cos) else sympy.Integer(0)
-            turns = round((value(inner) - float(quarter)) / np.pi) if inner is not factor else 0
+            quarter = sympy.pi / 2 if isinstance(part, sympy.cos) else sympy.Integer(0)
+            turns = round((value(inner) - float(quarter)) / np.pi) if inner is not part else 0
             yield from sympy.solve(inner - quarter - turns * sympy.pi, x)
 
 
@@ -231,7 +232,7 @@ def _short(expression: Any) -> Any:
     """The shortest of some forms."""
     from sympy.simplify.fu import TR8, TR9
 
-    simple = sympy.trigsimp(sympy.factor(sympy.trigsimp(expression)))
+    simple = sympy.trigsimp(factor(sympy.trigsimp(expression)))
     above, below = (TR8(sympy.expand(part)) for part in sympy.fraction(sympy.together(simple)))
     forms = [expression, simple, TR9(sympy.expand(simple)), sympy.cancel(above / below)]
     return min(map(sympy.factor_terms, forms), key=sympy.count_ops)

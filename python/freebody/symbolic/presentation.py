@@ -24,6 +24,7 @@ from typing import Any
 
 from freebody.symbolic.algebra import equal, factored, grouped, pythagorean
 from freebody.symbolic.decimals import is_measured, measured
+from freebody.symbolic.factoring import factor
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.text import text
@@ -111,7 +112,7 @@ def length(tree: Tree, nomenclature: Nomenclature | None = None) -> tuple[int, i
 
 
 def _forms(expression: Any, nomenclature: Nomenclature | None) -> Iterator[Any]:
-    together = sympy.factor(sympy.cancel(sympy.together(expression)))
+    together = factor(expression)
     yield together
     ways = [[shown for way in _ways(part) for shown in _collected(way(part))] for part in sympy.fraction(together)]
     above, below = (
@@ -124,7 +125,7 @@ def _forms(expression: Any, nomenclature: Nomenclature | None) -> Iterator[Any]:
     if together.count_ops() < _LARGE:
         yield sympy.trigsimp(together)
         yield sympy.factor_terms(sympy.trigsimp(ways[0][0])) / sympy.factor_terms(sympy.trigsimp(ways[1][0]))
-        yield sympy.factor(sympy.trigsimp(sympy.expand_trig(together)))
+        yield factor(sympy.trigsimp(sympy.expand_trig(together)))
 
 
 def _ways(part: Any) -> list[Callable[[Any], Any]]:
@@ -145,7 +146,7 @@ def _without_squares(part: Any, rules: list[tuple[Any, Any]]) -> Any:
             continue
         polynomial = sympy.Poly(spread, gone)
         part = sum(c * (1 - kept**2) ** (n // 2) * gone ** (n % 2) for (n,), c in polynomial.terms())
-    return sympy.factor(sympy.expand(part))
+    return factor(sympy.expand(part))
 
 
 def _collected(part: Any) -> list[Any]:
@@ -153,5 +154,5 @@ def _collected(part: Any) -> list[Any]:
     moving = [*part.atoms(sympy.sin, sympy.cos), *(symbol for symbol in part.free_symbols if symbol.name.endswith("'"))]
     spread = sympy.expand(part)
     order = sorted(moving, key=str)
-    collected = sympy.collect(spread, order, lambda factor: sympy.collect(factor, order, sympy.factor))
+    collected = sympy.collect(spread, order, lambda part: sympy.collect(part, order, factor))
     return [sympy.factor_terms(part), sympy.factor_terms(collected), sympy.factor_terms(spread)]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.factoring import factor
 from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
 from freebody.symbolic.tree import Sym, Tree
 
@@ -34,7 +35,7 @@ def with_plain_roots(tree: Tree, known: Mapping[Any, Any], values: Mapping[Sym, 
     plain = {p: length ** (_HALVES * p.exp) for p in powers if (length := known.get(sympy.expand(p.base))) is not None}
     made = expression.xreplace(plain)
     roots = [node for node in made.atoms(sympy.Pow) if (_HALVES * node.exp).is_Integer and not node.exp.is_Integer]
-    parts = {root: sympy.fraction(sympy.factor(sympy.trigsimp(sympy.together(root.base)))) for root in roots}
+    parts = {root: sympy.fraction(factor(sympy.trigsimp(sympy.together(root.base)))) for root in roots}
     bare = {root: _root(above, values) / _root(below, values) for root, (above, below) in parts.items()}
     made = made.xreplace({root: bare[root] ** (_HALVES * root.exp) for root in roots})
     return from_sympy(made) if plain or roots else tree
@@ -43,9 +44,9 @@ def with_plain_roots(tree: Tree, known: Mapping[Any, Any], values: Mapping[Sym, 
 def _root(part: Any, values: Mapping[Sym, float]) -> Any:
     """The root of a product, without those of squares."""
     outside, inside = sympy.S.One, sympy.S.One
-    for factor in sympy.Mul.make_args(part):
-        base, times = factor.as_base_exp()
+    for each in sympy.Mul.make_args(part):
+        base, times = each.as_base_exp()
         sign = int(np.sign(evaluate(from_sympy(base), values))) if times == _HALVES else 0
         outside *= sign * base if sign else 1
-        inside *= 1 if sign else factor
+        inside *= 1 if sign else each
     return outside * sympy.sqrt(inside)

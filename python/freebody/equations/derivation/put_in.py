@@ -15,11 +15,12 @@ from freebody.solve.figures import figure
 from freebody.solve.symbolic_state import Row, SymbolicState
 from freebody.symbolic.algebra import difference, factored, opposite, pythagorean, quotient, signed, spread
 from freebody.symbolic.evaluate import evaluate
+from freebody.symbolic.factoring import factor
 from freebody.symbolic.linear import linear_in
 from freebody.symbolic.nomenclature import SymbolEntry
 from freebody.symbolic.presentation import length
 from freebody.symbolic.symbols import SUPERSCRIPTS, Name
-from freebody.symbolic.to_sympy import from_sympy, sympy, to_sympy
+from freebody.symbolic.to_sympy import from_sympy, to_sympy
 from freebody.symbolic.tree import (
     ONE,
     ZERO,
@@ -259,7 +260,7 @@ class Closed:
         except ValueError:
             return []
         found = quotient(negative(linear.rest), linear.coefficients[moving[0]])
-        found = from_sympy(sympy.factor(sympy.together(to_sympy(found))))
+        found = from_sympy(factor(to_sympy(found)))
         found = signed(opposite(negative(found)) if is_negative(found) else found, self.subject.constants)
         return [Equation(moving[0], found, "So")] if not is_zero(found) and length(found)[0] <= _SHORT else []
 
