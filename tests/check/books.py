@@ -36,10 +36,10 @@ from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 
-_CONSTANT = re.compile(r"(?:.*:)?\s*constant:(.+)", re.S)
+_CONSTANT = re.compile(r"(?:.*[:,])?\s*constant:(.+)", re.S)
 _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
-_TENDS = re.compile(r"→|->")
+_TENDS = re.compile(r"→|->|\\to\b")
 _OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_₀-₉])")
 _NUMBERED = re.compile(r"\bomega_\d\b")
 """One of several natural frequencies, as a correction writes it."""
@@ -124,8 +124,9 @@ class Book:
             said = [_OMEGA.sub(name, text) for text in said]
         try:
             cases = [self.checker.case(text) for text in said]
-        except StatementError:  # it has letters of moments that its condition alone gives
+        except StatementError:  # it has letters of moments, or a frequency, that its condition alone gives
             said[1], letters = self._of_impact(said[1])
+            letters |= {"ω_n": "1 rad/s"} if _OMEGA.search(one + other) else {}
             try:
                 cases = [self.checker.case(text, letters) for text in said]
             except StatementError:

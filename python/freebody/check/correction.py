@@ -91,10 +91,10 @@ class _Found:
     def size(self) -> float:
         return sum(edit.size for edit in self.edits)
 
-    def correction(self, given: str, why: str) -> Correction:
+    def correction(self, given: str, why: str, as_written: Callable[[Equation], Equation]) -> Correction:
         edits = self.edits
         where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
-        shown = edits[0].shown if len(edits) == 1 and edits[0].shown else self.after
+        shown = edits[0].shown if len(edits) == 1 and edits[0].shown else as_written(self.after)
         return Correction(tuple(map(stated, edits)), spell(tidied(shown)), self.size, where, given, why)
 
 
@@ -155,8 +155,8 @@ def _of_row(
         if some and least < _LIKELY:
             break
     if some:
-        found, given = min(some, key=lambda pair: pair[0][0].size)
-        yield from (each.correction(given, searches[0][0].why(each)) for each in found)
+        (found, given), (first, _) = min(some, key=lambda pair: pair[0][0].size), searches[0]
+        yield from (each.correction(given, first.why(each), first.differentiated.as_written) for each in found)
 
 
 def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], part: float) -> list[Correction]:

@@ -117,11 +117,17 @@ class DerivativeEdits:
                     if rate(inside, self._constants) == node:
                         yield node, inside
 
+    def as_written(self, equation: Equation) -> Equation:
+        """An edited equation with the derivatives that were not touched as derivatives."""
+        for node, inside in self._differentiated:
+            equation = exchange(equation, node, _derivative(inside))
+        return equation
+
     def _outside(self, node: Node, edit: Edit) -> Edit:
         """An edit of what is differentiated as one of the equation."""
         inside = edit.after.left
         after = exchange(self.equation, node, rate(inside, self._constants))
-        shown = exchange(self.equation, node, Sym(f"d/dt({spell(tidied(inside))})"))
+        shown = exchange(self.equation, node, _derivative(inside))
         extra = edit.extra + _TAKEN * (edit.kind == "extra term")
         return Edit(edit.kind, edit.old, edit.new, after, extra, edit.words, shown)
 
@@ -160,6 +166,10 @@ class DerivativeEdits:
             with suppress(StatementError, KeyError, ValueError):
                 row[:] = sampled(rate(node, self._constants), self.values)
         return rows
+
+
+def _derivative(inside: Node) -> Sym:
+    return Sym(f"d/dt({spell(tidied(inside))})")
 
 
 def _terms(given: Equation) -> tuple[Node, ...]:

@@ -235,14 +235,14 @@ class Vocabulary:
 
     @cached_property
     def _shapes(self) -> list[tuple[Node, ...]]:
-        """1, and sines and cosines of angles, their sums and differences, and products of two."""
+        """1, and sines and cosines of angles, their sums and differences, angles as such, and products of two sines or cosines."""
         arguments: list[Node] = list(self.angles)
         for a, b in combinations(self.angles, 2):
             arguments += [Add((a, Negative(b))), Add((a, b))]
         single = [Fn(name, (argument,)) for argument in arguments for name in ("sin", "cos")]
         plain = [Fn(name, (argument,)) for argument in self.angles for name in ("sin", "cos")]
         double = [(_square(a),) if a == b else (a, b) for a, b in combinations_with_replacement(plain, 2)]
-        return [(), *((s,) for s in single), *double]
+        return [(), *((s,) for s in single), *((angle,) for angle in self.angles), *double]
 
 
 def _square(node: Node) -> Node:
