@@ -41,3 +41,30 @@ def test_amplitudes_are_judged(model, says, kind):
     checker = Checker(Mechanism.loads(text))
     checker.correcting = False
     assert checker.check(says).kind is kind
+
+
+ROD = """
+freebody: 1
+parameters: {m: 1.3 kg, l: 0.62 m, g: 9.81 m/s^2, F0: 21 N, Ω: 5.3 1/s}
+gravity: g
+bodies: {rod: {shape: rod, length: l, mass: m}}
+joints: {pin: {type: hinge, of: [ground.O, rod.start], coordinate: {name: θ, zero: -90 deg}}}
+forces: {wind: {type: force, at: rod.end, x: F0*cos(Ω*t)}}
+initial: {θ: 10 deg}
+"""
+
+
+@pytest.mark.parametrize(
+    ("says", "kind"),
+    [
+        ("natural frequency: ω² = 3 g/(2 l)", Kind.TRUE),
+        ("natural frequency: ω² = g/l", Kind.WRONG),
+        ("small oscillations: ⅓ m l² θ'' + ½ m g l θ = F0 l cos Ωt", Kind.TRUE),
+        ("small oscillations: ⅓ m l² θ'' + ½ m g l θ = ½ F0 l cos Ωt", Kind.WRONG),
+    ],
+)
+def test_what_drives_does_not_shift_the_place_about_which_a_model_swings(says, kind):
+    """At first the wind would hold the rod at arctan(2 F0/(m g))."""
+    checker = Checker(Mechanism.loads(ROD))
+    checker.correcting = False
+    assert checker.check(says).kind is kind

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from time import thread_time
 from typing import TYPE_CHECKING, Any
 
@@ -53,6 +53,8 @@ _BLOW = re.compile(BLOW)
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
+_REMARK = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
+_LIKELY = 2.0  # size of a correction up to which it says that a statement is wrong, though of some words it is not known what they ask
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
 _SMALL_ONE = re.compile(r"small\s+([^\s:,=]+)\s*:(?=.*(?:ω|omega|τ|tau|\b[Tf]\b|\b[Tf]_))", re.S)
@@ -135,7 +137,8 @@ class Checker:
             return replace(found, text=verdict.text) if found else verdict
         except StatementError as error:
             is_of_omega = re.search("`(?:ω|omega)(?:_[A-Za-z])?`", error.what) is not None
-            if found := (is_of_omega and self._of_frequencies(*how)) or self._without_laws(*how):
+            others = (self._of_frequencies,) * is_of_omega + (self._without_laws, partial(self._without_remark, error))
+            if found := next(filter(None, (other(*how) for other in others)), None):
                 return found
             raise
 
@@ -184,6 +187,23 @@ class Checker:
                 if law or found.kind is not Kind.DIMENSIONS:
                     passed = (f"`{law}` is read as a law that comes before, and not judged.",) if law else ()
                     return replace(found, text=text.strip(), notes=(*found.notes, *passed))
+        return None
+
+    def _without_remark(self, error: StatementError, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
+        """The verdict where words among conditions are not understood: about the motions of which the others are. What is true of these is
+        so; that something is wrong is said only where a likely correction is true of all of them, too."""
+        words = _REMARK.fullmatch(error.what)
+        other = re.sub(rf"{re.escape(words[1])}\s*,|,\s*{re.escape(words[1])}(?=\s*[:,])", "", text) if words else text
+        if other == text:
+            return None
+        checker = copy(self)
+        checker.correcting = True
+        with suppress(StatementError):
+            found = checker.check(other, letters, how[0])
+            if found.ok or (found.kind is Kind.WRONG and found.mends and found.mends[0].size <= _LIKELY):
+                note = f"`{words[1]}` is not understood, and passed over."  # type: ignore[index]
+                mends = found.mends if self.correcting and how[1] else ()
+                return replace(found, text=text.strip(), mends=mends, notes=(*found.notes, note))
         return None
 
     def _checked(self, text: str, letters: Declared | None, hypothesis: Family | None, correcting: bool) -> Verdict:

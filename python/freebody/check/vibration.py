@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, ModelError, MotionError, State
+from freebody.core import Array, CompiledModel, ModelError, MotionError, State, quote
 from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
 from freebody.stability.equilibria import equilibria, newton_step, rest_near
@@ -199,7 +199,7 @@ class Vibration:
         try:
             if core.metadata["states"] or sampler.is_held:
                 return None
-            first = self._placed(sampler.own if self._later else sampler.first)
+            first = self._placed(self._undriven(sampler.own if self._later else sampler.first))
             free = _space(core, first).free
             if not free:
                 return None
@@ -215,6 +215,36 @@ class Vibration:
         if not swinging and (far := self._at_rest(first)) and _swings(_space(core, far).a):
             return far
         return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
+
+    def _undriven(self, state: State) -> State:
+        """A state without what drives the model."""
+        return self.sampler.moved(state, state.q, {}, p=self._bound(self._amplitude)) if self._amplitude else state
+
+    def _bound(self, values: Mapping[str, float]) -> Array:
+        """The parameters of the model, some of them changed."""
+        return self.sampler.core.bind({**self.sampler.free_parameters, **values})
+
+    @cached_property
+    def _amplitude(self) -> dict[str, float]:
+        """The parameter that is 0 where nothing drives the model to and fro, if there is one: it swings about where it rests then."""
+        sampler, core, first = self.sampler, self.sampler.core, self.sampler.first
+        falls = [f"accel({quote(name)})" for name in sampler.names]
+
+        def is_steady(zero: Mapping[str, float]) -> bool:
+            try:
+                p = self._bound(zero)
+                states = (sampler.moved(first, first.q, {}, t=first.t + late / sampler.rate, p=p) for late in _LATE)
+                found = np.array([core.evaluate(falls, state) for state in states])
+            except (MotionError, ModelError):  # nothing has such a mass, or stiffness
+                return False
+            return bool(np.ptp(found, axis=0).max(initial=0.0) <= _NOTHING * np.abs(found).max(initial=0.0))
+
+        if self._is_turned or self._later or is_steady({}):
+            return {}
+        amplitudes = (
+            name for name, its in sampler.start.parameters.items() if name in self.parameters and (its is None or its.time != -1)
+        )
+        return next((zero for name in amplitudes if is_steady(zero := {name: 0.0})), {})
 
     def quantities(self, row: Array) -> Mapping[str, float]:
         """What it has with other parameters; NaN where it is none."""
@@ -257,7 +287,7 @@ class Vibration:
             except (MotionError, ModelError, ModelProblem, SingularConfiguration):
                 return None
             return a if there and _swings(a := _space(core, there).a) else None
-        p = core.bind(values)
+        p = core.bind(values | self._amplitude)
         for stages in (1, _STAGES):
             state = rest
             for done in np.arange(1, stages + 1) / stages:
