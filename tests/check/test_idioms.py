@@ -18,6 +18,8 @@ PUT = {
     "link locked (θ = 0, d = 0): F = 0": "link locked (θ = 0), d = 0: F = 0",
     "natural frequency of the rotor with θ = 0: ω = 1": "natural frequency with θ = 0: ω = 1",
     "recovery (handle free): E = const": "during recovery: E = const",
+    "\\text{plank + spool: } P = M a": "plank + spool: P = M a",
+    "small, from equilibrium: m a = F": "for small motions: m a = F",
     "d²u/dθ² + u = p": "((u'' θ' − u' θ'')/(θ')^3) + u = p",
 }
 AS_WRITTEN = ("(N_1 - N_2) b = mu N h", "(M + m) a = F", "d²x/dt² = −g", "at the top (θ' = 0): N = m g", "sin θ = 0")

@@ -18,6 +18,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, unsigned, walk
 
+from .assumptions import first_order
 from .coefficients import tidied
 from .component_edits import component_edits, exchanges
 from .derivative_edits import DerivativeEdits
@@ -454,6 +455,9 @@ class _Search:
         held = self.family.held and unreached(
             equation, self.values, reach=reach
         )  # what is held at 0, or stays it, may hide what is wrong
+        if self.family.small and holds:
+            with suppress(NoMotion):
+                holds = first_order(self.case, equation, self.family)
         return holds and not held and not (self.family.since and not all(map(self._moves, terms(equation))))
 
     def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:

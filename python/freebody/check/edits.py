@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import combinations
+from itertools import combinations, product
 from typing import TypeVar
 
 from freebody.symbolic.dimensions import LENGTH, MASS, NUMBER_ONLY, Dimension
@@ -151,6 +151,7 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
             kept = [factors[:i] + factors[i + 1 :] for i in range(len(factors))]
             yield from (("extra factor", Mul(rest, **at) if len(rest) > 1 else rest[0]) for rest in kept)
             yield from (("brackets", new) for new in _below(factors, node.span))
+            yield from (("symbol", new) for new in _own_motions(factors, vocabulary, node.span))
         case Quotient(top=top, bottom=bottom):
             yield "extra factor", top
             yield "missing factor", Mul((top, bottom), **at)
@@ -177,6 +178,19 @@ def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
                 fraction = Quotient(factor.top, Mul((factor.bottom, *factors[i + 1 : end])), span=span)
                 rest = (*factors[:i], fraction, *factors[end:])
                 yield Mul(rest, span=span) if len(rest) > 1 else fraction
+
+
+def _own_motions(factors: tuple[Node, ...], vocabulary: Vocabulary, span: tuple[int, int]) -> Iterator[Node]:
+    """Masses that were taken to move as one: M v² + m ẏ² for (M + m) v²."""
+    totals = [f for f in factors if isinstance(f, Add) and all(n in vocabulary.parameters for n in f.terms)]
+    motions = [(f, f.base if isinstance(f, Pow) else f) for f in factors]
+    for (factor, motion), total in product(motions, totals):
+        for other in vocabulary.motions_like(motion) if isinstance(motion, Sym) else ():
+            moved = replace(factor, base=other) if isinstance(factor, Pow) else other
+            for alone in total.terms:
+                parts = ((mass, moved if mass is alone else factor) for mass in total.terms)
+                each = (tuple(m if f is total else x if f is factor else f for f in factors) for m, x in parts)
+                yield Add(tuple(map(Mul, each)), span=span)
 
 
 def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[str, Node]]:

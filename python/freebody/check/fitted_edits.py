@@ -307,11 +307,12 @@ class FittedEdits:
             lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
             alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
             bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
+            alike += [Add((a, Negative(b))) for a, b in combinations(masses[:_MOST_LENGTHS], 2)]
             alike += [Add((a, c)) for a, b in combinations(lengths[:_MOST_LENGTHS], 2) for c in (Negative(b), b)]
             kept = [n for n, its in known.parameters.items() if its == NUMBER_ONLY and n not in known.angular]
             alike += [Add((_ONE, c)) for n in kept[:_MOST_SHARES] for c in (n, Negative(n))]  # 1 − e² of a blow
             own = [n for n in (*bases, Sym("t")) if n in said]
-            moving = [n for n in said if n in known.others]
+            moving = [n for n in said if Sym(n.name) in known.others]
             answers = [side for side in map(unsigned, (equation.left, equation.right)) if isinstance(side, Sym)]
             if all(known.dimension(n) == FORCE for n in answers):  # no answer, or that of a force
                 moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
@@ -407,7 +408,7 @@ class FittedEdits:
         """Terms that an equation may hold, of its dimension over ``less`` and with derivatives up to the ``highest``, and their values."""
         its = self._of(equation)
         wanted = None if its is None else its.times(less, -1)
-        moving = tuple(n for n in symbols_in(equation) if n in self.vocabulary.others)
+        moving = tuple(n for n in symbols_in(equation) if Sym(n.name) in self.vocabulary.others)
         long = self._angles(equation)
         key = (wanted, moving, long, highest)
         if key not in self._made:

@@ -34,7 +34,7 @@ class SquareEdits:
     _made: dict[Dimension, tuple[list[Node], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """The square of a speed that lacks a part of it: that of the ground, or of a rotation."""
+        """The square of a speed that is that of something else, and of one that lacks a part: that of the ground, or of a rotation."""
         node, base = required.node, required.node.base if isinstance(required.node, Pow) else None
         its = None if base is None else dimension(base, self.vocabulary.dimensions)
         if base is None or its not in _SPEEDS or node.exponent != Num(2.0) or required.needed.ndim != 1:
@@ -43,6 +43,9 @@ class SquareEdits:
         if not np.isfinite(lost).all() or not lost.any():
             return
         nodes, rows = self._parts_of_speeds(its)
+        alike = (np.abs(rows**2 - required.needed) <= _NEARLY * np.abs(required.needed)).all(axis=1)
+        for other in (nodes[place] for place in np.flatnonzero(alike) if not isinstance(nodes[place], Sym)):
+            yield Edit.at(equation, "symbol", node, Pow(other, node.exponent, span=node.span), 0.02 * depth(other))
         # (base + k part)² is what is needed: lost = 2 k base part + k² part²
         linear, square = 2 * value * rows, rows**2
         ll, ls, ss = (np.sum(a * b, axis=1) for a, b in ((linear, linear), (linear, square), (square, square)))

@@ -57,6 +57,12 @@ class Vocabulary:
         group = next((group for group in groups if plain in group), {})
         return [Sym(n.name, symbol.dots) for n in group if n != plain and group[n] == group[plain]]
 
+    def motions_like(self, symbol: Sym) -> list[Sym]:
+        """Other rates and accelerations of the dimension of one."""
+        its = self.dimension(symbol)
+        every = (*(Sym(q.name, dots) for q in self.coordinates for dots in (1, 2)), *self.others)
+        return [n for n in every if n != symbol and its is not None and its.time < 0 and self.dimension(n) == its]
+
     @cached_property
     def sizes(self) -> list[Sym]:
         """What products are made of that is no angle: parameters, coordinates, and letters for lengths and inertias that change."""

@@ -13,7 +13,7 @@ _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _WHILE = r"while|during|until|between(?=\s+(?:\w+\s+)?\w+s\s*[:,])"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|{_WHILE})\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
 _LABELLED = re.compile(
-    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|{_WHILE}|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|{_WHILE}|small)\b[^:;\n]*:(?!=))"
+    rf"\A(?!\s*(?:{_STARTS}|{_SINCE}|with|in|on|{_WHILE}|only|same)\b)(?:(?:[^=<>:;,\n]*[,:]\s*){{1,3}}?(?=(?:{_STARTS}|{_WHILE}|small|with(?=[^:;\n]*=))\b[^:;\n]*:(?!=))"
     rf"|[^=<>:;,()\n]*\s(?=(?:{_STARTS}|with)\s[^:;\n]*[=<>][^:;\n]*:(?!=)))(?<!\A)"
 )
 """``energy, at θ = 0:``, ``the mode with y_1 = y_2:``."""
