@@ -77,7 +77,7 @@ def functions() -> str:
 
 def readings() -> str:
     """What can be read of a part of the model by a word behind its name."""
-    owners = {"joint": "JOINT", "motion": "MOTION", "force": "FORCE", "limit": "contact, string, stop"}
+    owners = {"joint": "JOINT", "motion": "MOTION, coupling", "force": "FORCE", "limit": "contact, string, stop"}
     rows = ((owners[kind], "; ".join(f"`.{word}` {doc}" for word, doc in words)) for kind, words in cards.phrases().items())
     return _table(("of", "word"), rows)
 

@@ -113,15 +113,20 @@ def is_of_higher_order(case: Case, equation: Equation) -> bool:
 
 
 def tiny(case: Case, equation: Equation) -> tuple[str, Case] | None:
-    """The statement of motions so small that sines are angles, in words; None where it is not of such ones already, and no angle stands outside
+    """The statement of motions so small that sines are angles, in words; None where it is of such ones already, or no angle stands outside
     of sines and cosines."""
-    if given := case.hypothesis.small:
-        nearer = replace(case.hypothesis, small=tuple((text, size * _TINY / SMALL) for text, size in given))
-        return "", replace(case, hypothesis=nearer, known={})
-    if not _has_bare_angles(case, equation):
+    if case.hypothesis.small or not _has_bare_angles(case, equation):
         return None
     words, family = _small(case, equation, _TINY)
     return words, replace(case, hypothesis=family, known={})
+
+
+def nearer(case: Case) -> Case:
+    """The same statement, where it is of small motions of such small ones."""
+    if not (given := case.hypothesis.small):
+        return case
+    small = tuple((text, size * _TINY / SMALL) for text, size in given)
+    return replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
 
 
 def _has_bare_angles(case: Case, equation: Equation) -> bool:

@@ -20,7 +20,7 @@ from freebody.run.moments import Unreached
 from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Fn, Sym, walk
+from freebody.symbolic.tree import Fn, Sym, addends, walk
 
 from .budget import Budget
 from .families import ALL, Family, NoMotion, Samples
@@ -208,14 +208,16 @@ class StatementSymbols:
         return dimension._replace(angle=0)
 
     def _turns(self, parameter: Sym) -> bool:
-        """Whether a parameter without a unit stands in a sine or cosine of the model."""
-        return bool(re.search(rf"\b(sin|cos|tan)\((?:[^()]*[^\w.])?{re.escape(parameter.name)}(?![\w.])", self.mechanics))
+        """Whether a parameter without a unit is an angle in a sine or cosine of the model, and no factor of one."""
+        term = rf"(?:[\d.]+\s*\*\s*)?{re.escape(parameter.name)}\s*(?:[*/]\s*[\d.]+\s*)?"
+        return bool(re.search(rf"\b(sin|cos|tan)\((?:[^()]*[+-])?\s*{term}[+)-]", self.mechanics))
 
     @cached_property
     def _turning(self) -> frozenset[Sym]:
-        """The symbols in sines and cosines."""
+        """The symbols that are angles in sines and cosines, and no factors of one."""
         calls = (n for n in walk(self.program) if isinstance(n, Fn) and n.name in ("sin", "cos", "tan"))
-        return frozenset(n for call in calls for n in symbols_in(call))
+        terms = (symbols_in(term) for call in calls for _, term in addends(call.args[0], expand=True))
+        return frozenset(found[0] for found in terms if len(found) == 1)
 
     @cached_property
     def _parameters(self) -> list[Sym]:

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import chain
 from typing import TypeVar
 
-from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
 
 from .language.statements import without_ones
 
@@ -19,10 +19,13 @@ _NUMERATOR = 60
 _ONE = Num(1.0, "1")
 _BESIDE_PI = {1, 2, 4, 8}
 """Figures beside π² and below the line beside π: other ones are angles of a model, in disguise."""
+_BESIDE_ROOTS = 4
+"""The largest figure beside √2 and √3."""
 
 
 def recognised(value: float) -> Node | None:
-    """A number as a person writes it: p/q with q ≤ 24, or so many π or π², or parts of them, as of a lead p/(2 π); None where it is neither."""
+    """A number as a person writes it: p/q with q ≤ 24, or so many π or π², or parts of them, as of a lead p/(2 π), or of √2 and √3, as sines
+    have them; None where it is neither."""
     for power in (0, 1, 2, -1, -2):
         part = Fraction(abs(value) / math.pi**power).limit_denominator(_DENOMINATOR)
         if not part or part.numerator > _NUMERATOR or abs(float(part) * math.pi**power / abs(value) - 1) >= _SAME:
@@ -33,6 +36,13 @@ def recognised(value: float) -> Node | None:
         top, bottom = (_with_pi(figure, n) for figure, n in ((above, power), (below, -power)))
         found = top if bottom == Num(1.0) else Quotient(top, bottom)
         return Negative(found) if value < 0 else found
+    for n in (2, 3):
+        part = Fraction(abs(value) / math.sqrt(n)).limit_denominator(_BESIDE_ROOTS)
+        if part and part.numerator <= _BESIDE_ROOTS and abs(float(part) * math.sqrt(n) / abs(value) - 1) < _SAME:
+            above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
+            top = product([*([above] if part.numerator > 1 else []), Fn("sqrt", (Num(float(n), str(n)),))])
+            found = Quotient(top, below) if part.denominator > 1 else top
+            return Negative(found) if value < 0 else found
     return None
 
 

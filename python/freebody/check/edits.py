@@ -199,6 +199,10 @@ def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[s
     if len(calls) > 1 and len({n.name for n in calls}) == 1:  # how far it moves along the other direction
         turned = _exchanged(Add(terms, span=span), calls)
         yield from (("function", new) for new in (turned, Negative(turned, span=span)))
+    if len(terms) > 2:
+        for one, other in combinations(terms, 2):
+            if _are_components(one, other):
+                yield "sign", Add(tuple(Negative(t) if t is one or t is other else t for t in terms), span=span)
     two = Num(2.0, "2")
     if all(isinstance(term, Pow) and term.exponent == two for term in terms):
         yield "power", Pow(Add(tuple(term.base for term in terms if isinstance(term, Pow))), two, span=span)
@@ -206,6 +210,13 @@ def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[s
         tops, bottoms = zip(*((term.top, term.bottom) for term in terms if isinstance(term, Quotient)), strict=True)
         if all(top == tops[0] for top in tops):
             yield "inverses", Quotient(tops[0], Add(bottoms), span=span)
+
+
+def _are_components(one: Node, other: Node) -> bool:
+    """Whether two terms have the cosine and the sine of an angle, as what lies along a direction has them."""
+    calls = ({n for n in walk(term) if isinstance(n, Fn) and n.name in _OTHER} for term in (one, other))
+    (first, *more), (second, *others) = (tuple(found) or (None,) for found in calls)
+    return bool(first and second) and not more and not others and Fn(_OTHER[first.name], first.args) == second
 
 
 def _over(top: Node, bottom: Node) -> Node:
@@ -245,6 +256,9 @@ def _angles(argument: Node, vocabulary: Vocabulary) -> Iterator[Node]:
             yield from (Add((a, b)), Add((a, Negative(b))))
             if not isinstance(argument, Sym):
                 yield Add((b, Negative(a)))
+    if not isinstance(argument, Num):  # pairs of poles, waves round a circle
+        counts = (n for n, its in vocabulary.parameters.items() if its == NUMBER_ONLY and n not in vocabulary.angular)
+        yield from (Mul((count, argument)) for count in counts if count not in argument.symbols)
     if isinstance(argument, Add):
         yield from (Add((*argument.terms, a)) for b in known for a in (b, Negative(b)))
     yield Mul((Num(2.0, "2"), argument))

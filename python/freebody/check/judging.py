@@ -16,7 +16,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import is_zero
 from freebody.symbolic.tree import Sym
 
-from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, of_family, tiny
+from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, nearer, of_family, tiny
 from .case import Case
 from .correction import MOST, SECOND, corrections
 from .families import ALL, NoMotion, Samples
@@ -187,7 +187,7 @@ def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Ver
     if case.hypothesis.numbers and says_a_figure(equation):
         others, last = corrected_figures(equation, case.values())
         return Verdict(Kind.WRONG, text, "off in the last digit" if last else "", mends=others, evidence=seen)
-    fixes = tuple(islice(corrections(case, equation), MOST))
+    fixes = tuple(islice(corrections(nearer(case), equation), MOST))
     single = [each for each in fixes if len(each.edits) == 1]
     slip = any(each.is_slip for each in single)
     lacks = bool(single) and not slip and is_of_higher_order(case, equation)  # who keeps sines has not taken all for small

@@ -49,6 +49,7 @@ _OF_BODIES = (1 / 12, 1 / 4, 1 / 3, 2 / 5, 2 / 3)
 """Factors of moments of inertia, any of which is taken for another."""
 _OF_RODS = (1 / 12, 1 / 6, 1 / 3, 2 / 3)
 _ODD = 0.5
+_ROOTED = 0.6  # that a root of a number, as of a sine, is beside what moves and not in the place of another number
 _USUAL = 0.1  # for one usual number for another
 _MIXED = 1.0  # for an acceleration or a force in an energy or a momentum
 _FORGOTTEN = 0.3  # for a number before a weight or a mass times its acceleration
@@ -109,6 +110,7 @@ class Likelihood:
                 odd_here = is_constraint(self.equation, self.vocabulary) or not (answers or self._has_mass_beside(old))
                 odd = _of_number(old, new, self.values, _ODD if odd_here else _USUAL)
                 odd = min(odd, _USUAL) if self._at_instant and answers else odd
+                odd += _ROOTED * (bool(old.symbols) and new is not None and any(map(_is_root_of_number, walk(new))))
                 return odd + _FORGOTTEN * (odd > 0 and self._has_load and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 return self._of_symbol(old, new) + _ODD * any(
@@ -443,6 +445,10 @@ def _is_of_motion(powers: Mapping[Node, int], known: Vocabulary) -> bool:
         power == 2 and isinstance(base, Sym) and known.is_rate(base) and base not in known.parameters
         for base, power in powers.items()
     )
+
+
+def _is_root_of_number(node: Node) -> bool:
+    return isinstance(node, Fn) and node.name == "sqrt" and not node.symbols
 
 
 def _is_answer(side: Node | None) -> bool:

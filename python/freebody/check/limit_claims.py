@@ -18,9 +18,9 @@ from .assumptions import (
     family,
     first_order,
     first_order_from_start,
+    nearer,
     says_zero,
     small_from_start,
-    tiny,
     vanishes,
     wider,
 )
@@ -113,10 +113,10 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
         if not (from_start or _first_order(case, equation, from_start is None)):
             # What names the time alone may be of anything that is driven.
             of_start = from_start is not None and case.meaning.of_start_alone
-            near = ("", small_from_start(case)) if of_start else tiny(case, equation)
+            near = small_from_start(case) if of_start else nearer(case)
             mends: tuple[Correction, ...] = ()
             with suppress(NoMotion):
-                mends = tuple(corrections(near[1], equation, SECOND)) if case.correcting and near else ()
+                mends = tuple(corrections(near, equation, SECOND)) if case.correcting else ()
             values = (case if from_start is None else small_from_start(case, SMALL)).values()
             seen = evidence(residual(equation, values), values)
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)

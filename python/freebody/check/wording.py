@@ -150,7 +150,7 @@ _LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=cons
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
-_GIVEN_BEFORE_LABEL = re.compile(rf"\s*((?:{_SYMBOL}\s*=\s*[\d.]+(?:,\s*|\s+and\s+))+)([A-Za-z][\w\s'-]*:(?!=).+)", re.S)
+_GIVEN_BEFORE_LABEL = re.compile(rf"\s*((?:{_SYMBOL}\s*=\s*[\d.]+(?:,\s*|\s+and\s+))+)([A-Za-z][\w\s'\\-]*:(?!=).+)", re.S)
 """``a = 0, c = 0, natural frequencies: …``."""
 _GIVEN_FIRST = re.compile(
     rf"((?:[^\W\d][\w{{}}\\]*\s*=\s*\d+(?:\.\d+)?(?:\s+[A-Za-z°][^\s,;]*|°)?(?:\s*,\s*|\s+and\s+|\s*(?=;)))+);\s*((?:{_STARTS})\b.+)",

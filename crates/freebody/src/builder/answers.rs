@@ -79,7 +79,7 @@ pub const MOTION: &[Answer] = &[
 ];
 /// Of a force of the model.
 const ACTING: &[Answer] = &[
-    answer("value", Unit::Load, Reading::Force, "its value"),
+    answer("value", Unit::Load, Reading::Force, "its value; its size where it is given by components"),
     answer("power", Unit::Is("W"), Reading::ForcePower, "its power"),
     answer("work", Unit::Is("J"), Reading::ForceWork, "its work since the start"),
 ];

@@ -124,14 +124,16 @@ pub fn plate_load<S: Scalar>(at: StateView<'_, S>, force: usize) -> Wrench<S> {
     }
 }
 
-/// The size of a force as its user gave it: the value of its laws together, N or N·m; 0 where it is not in place.
+/// A force as its user gave it: the value of its laws together, N or N·m, or the size of what has components; 0 where it is not in place.
 pub fn force_value<S: Scalar>(at: StateView<'_, S>, force: usize) -> S {
     if !at.mode.has(Part::Force(force)) {
         return S::zero();
     }
     let force = &at.m.forces[force];
     let gauge_forces = force.gauge_forces.iter().fold(S::zero(), |sum, p| sum + gauge_force_value(at, p));
-    let point_forces = force.point_forces.iter().fold(S::zero(), |sum, p| sum + pushed(at, p).2.norm());
+    let point_force =
+        |p: &PointForce| p.value.as_ref().map_or_else(|| pushed(at, p).2.norm(), |value| value.eval(&State(at)));
+    let point_forces = force.point_forces.iter().fold(S::zero(), |sum, p| sum + point_force(p));
     let plate = force.plate.as_ref().map_or(S::zero(), |plate| plate_friction(at, plate).f.norm());
     gauge_forces + point_forces + plate
 }

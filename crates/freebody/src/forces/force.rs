@@ -24,8 +24,10 @@ impl ForceKind for AtPoint {
     fn lower(&self, fields: &mut Fields) -> Result<Force, CompileError> {
         let along = fields.law("direction")?;
         let (size, x, y) = (fields.law("value")?, fields.law("x")?, fields.law("y")?);
+        let by_components = [&x, &y].iter().any(|component| **component != ModelExpr::constant(0.0));
         let applied = PointForce {
             site: fields.site("at")?,
+            value: (!by_components).then(|| size.clone()),
             x: x + size.clone() * ModelExpr::cos(along.clone()),
             y: y + size * ModelExpr::sin(along),
             with_body: fields.word("frame", &["fixed", "body"])? == "body",

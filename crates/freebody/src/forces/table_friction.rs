@@ -36,7 +36,7 @@ impl ForceKind for TableFriction {
         let on = |site| {
             let (vx, vy) = (rate(ModelVariable::X(site)), rate(ModelVariable::Y(site)));
             let slope = share.clone() / vx.clone().hypot(vy.clone());
-            PointForce { site, x: -(slope.clone() * vx), y: -(slope * vy), with_body: false }
+            PointForce { site, x: -(slope.clone() * vx), y: -(slope * vy), value: None, with_body: false }
         };
         Ok(Force { point_forces: sites.into_iter().map(on).collect(), ..Force::default() })
     }

@@ -79,6 +79,8 @@ pub struct PointForce {
     pub x: ModelExpr,
     /// Component along y, N.
     pub y: ModelExpr,
+    /// Its value in a direction, N, where it is given so: negative, it acts the other way.
+    pub value: Option<ModelExpr>,
     /// Whether x and y are the body's axes.
     pub with_body: bool,
 }

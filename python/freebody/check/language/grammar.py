@@ -292,7 +292,7 @@ class Line:
         return found
 
     def bare_argument(self, token: Token) -> Node:
-        """One symbol, a number before it and a ``t`` behind it."""
+        """One symbol, a number before it, and behind it a ``t``, or directly behind what is constant what is not: sin pδ."""
         sign = self.accept("-")
         if self.now.kind not in ("number", "symbol", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
@@ -302,7 +302,9 @@ class Line:
                 factors.append(unit)
             elif self.now.kind == "symbol" and token.text != "sqrt":
                 factors.append(self.primary())
-        if self.now.kind == "symbol" and self.now.text == "t" and not self.now.dots:
+        fixed = isinstance(factors[-1], Sym) and not factors[-1].dots and factors[-1].name in self.names.constants
+        changing = fixed and self.now.attached and self.now.text not in self.names.constants
+        if self.now.kind == "symbol" and not self.now.dots and (self.now.text == "t" or changing):
             factors.append(self.primary())
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found
