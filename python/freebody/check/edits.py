@@ -57,6 +57,7 @@ _MOST_CALLS = 6
 """Sines and cosines of an angle, of which two are exchanged."""
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 """Whole numbers that are mistaken for each other."""
+_ONE = Num(1.0, "1")
 _SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
 _OTHER = {"sin": "cos", "cos": "sin"}
 _UNSIGNED = (LENGTH, MASS, Dimension(2, 1))
@@ -140,6 +141,10 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
                 yield from (("symbol", Negative(other, **at)) for other in vocabulary.alike(node))
         case Fn(name=function, args=(argument,)):
             yield from (("function", Fn(other, (argument,), **at)) for other in _SWAPS.get(function, ()))
+            if function in _OTHER:
+                yield from (
+                    ("function", Add((_ONE, Negative(Fn(each, (argument,)))), **at)) for each in (function, _OTHER[function])
+                )
             yield from (("angle", Fn(function, (angle,), **at)) for angle in _angles(argument, vocabulary))
         case Pow(base=base, exponent=Num(value=n)):
             yield from (("power", Pow(base, Num(m, f"{m:g}"), **at)) for m in (n - 1, n + 1) if m > 1)
@@ -195,6 +200,9 @@ def _own_motions(factors: tuple[Node, ...], vocabulary: Vocabulary, span: tuple[
 
 def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[str, Node]]:
     """The square of a sum for the sum of squares, and one fraction for those of each: what is not linear, taken term by term."""
+    match terms:
+        case (Num(value=1.0), Negative(of=Fn(name="sin" | "cos" as name, args=args))):  # how far it is below another place
+            yield from (("function", Fn(other, args, span=span)) for other in (_OTHER[name], name))
     calls = {n: Fn(_OTHER[n.name], n.args) for n in walk(Add(terms)) if isinstance(n, Fn) and n.name in _OTHER}
     if len(calls) > 1 and len({n.name for n in calls}) == 1:  # how far it moves along the other direction
         turned = _exchanged(Add(terms, span=span), calls)

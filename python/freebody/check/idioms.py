@@ -23,6 +23,18 @@ _PUT: tuple[tuple[str, str], ...] = (
     (r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)", ""),  # ω = const = v/r
     *((rf"(?i)\A\s*(?:{words})\s+(?=[^:\n]*:(?!=))", f"{word} ") for word, words in _ABROAD.items()),
     (r"\A\s*\\(?:text|textrm|mbox|mathrm)\s*\{([^{}:=]+):\s*\}\s*", r"\1: "),  # \text{plank + spool: } …
+    # at θ = 0, just after release: …
+    (
+        r"\A\s*(?:at|when|for)\s+([^:,=]+=[^:,=]+),\s+(?:just|right|immediately)\s+(?:after|at|upon)\s+(?:the\s+)?(?:release|start)\s*:(?!=)",
+        r"at the start, \1:",
+    ),
+    # after half a turn (θ = π): …
+    (r"\A\s*after\s+(?:a|an|one|half|two|three|\d+)\b[^:()=]*\(([^():]*=[^():]*)\)\s*:(?!=)", r"when \1:"),
+    # let go at β = 0: what is let go is at rest
+    (
+        r"\A([^:=]*\b(?:released|let\s+go|dropped|set\s+free))\s+(?:at|from|with|where|in)\s+(?=[^\s:=]+\s*=[^:=]*:(?!=))",
+        r"\1 from rest at ",
+    ),
     # small, from equilibrium: …
     (
         r"\A\s*small,?\s+(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?\s*:(?!=)",

@@ -261,8 +261,8 @@ class Likelihood:
             yield from [symbol] * (1 + load + arm + 2 * self._is_another_name(symbol))
         quotients = [n for n in walk(term) if isinstance(n, Quotient)]
         below = {n for each in quotients for n in each.bottom.symbols}
-        if missing and below and (new or not self._has_quotient):
-            yield from [term] * (2 if new else 1)
+        if missing and below and (new or not self._below):
+            yield from [term] * (2 if new else 1 if self._has_mass_times_acceleration else 3)  # energies have no fractions
         if missing and below and dimension(term, known.dimensions) != self._dimension:  # a fraction in what stands there
             yield from [term] * 2
         for symbol in below - self._below:
@@ -343,10 +343,6 @@ class Likelihood:
     @cached_property
     def _parts(self) -> set[Node]:
         return {*walk(self.equation)}
-
-    @cached_property
-    def _has_quotient(self) -> bool:
-        return any(isinstance(n, Quotient) for n in self._parts)
 
     @cached_property
     def _below(self) -> set[Sym]:

@@ -203,7 +203,7 @@ class Vocabulary:
     def _works(self, wanted: Known) -> Iterator[tuple[tuple[Node, ...], Known]]:
         """What changes with the motion in an energy, a couple times an angle or the difference of two, and in a power, a rate times an acceleration or a force."""
         if wanted == ENERGY:
-            couples = [n for n in (*self.parameters, *self.others) if self.dimension(n) == ENERGY]
+            couples = [n for n in (*self.parameters, *self.others) if self.dimension(n) == ENERGY and n not in self.energies]
             couples += [n for n in self.parameters if self.dimension(n) is None]
             turned: list[Node] = [n for n in self.coordinates if n in self.angular]
             turned += [Add((a, Negative(b))) for a, b in combinations(turned, 2)]
