@@ -37,6 +37,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 
 _CONSTANT = re.compile(r"(?:.*[:,])?\s*constant:(.+)", re.S)
+_IS_CONSTANT = re.compile(r"=\s*const(?:ant)?\.?\s*\Z")
 _CONDITION = re.compile(r"^.*:(?!=)|^limit:|\bas\s+\S+\s*(?:→|->).*$")
 """What says of which motions an equation is."""
 _TENDS = re.compile(r"→|->|\\to\b")
@@ -181,7 +182,7 @@ class Book:
 
     def _equation(self, text: str) -> str:
         """What is said without the words that say of which motions; of a constant, that it is 0; of a limit, that it is reached."""
-        return _TENDS.sub("=", _CONDITION.sub("", _CONSTANT.sub(r"\1 = 0", self._plain(text))))
+        return _IS_CONSTANT.sub("= 0", _TENDS.sub("=", _CONDITION.sub("", _CONSTANT.sub(r"\1 = 0", self._plain(text)))))
 
     def _plain(self, text: str) -> str:
         """What is said, with its condition first and without remarks."""

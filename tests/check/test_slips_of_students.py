@@ -9,6 +9,61 @@ from freebody.check.file import judged_alone
 
 SLIPS = {
     "a ratio upside down": ("gears_and_drum", "ω_B = R/r ω", "ω_B = r/R ω", "upside down"),
+    "a motion of its own": (
+        "cam_plate",
+        "P v = d/dt[½ (M + m) v² + m g y + ½ k (y + d)²]",
+        "P v = d/dt[½ M v² + ½ m ẏ² + m g y + ½ k (y + d)²]",
+        "another quantity",
+    ),
+    "a speed that turns": (
+        "spool_tied_to_wall",
+        "E = ½ M v² + ½ m v² + ½ m k² ω²",
+        "E = ½ M v² + ½ m (r ω)² + ½ m k² ω²",
+        "another quantity",
+    ),
+    "an angle as such": (
+        "wheelset_hunting",
+        "d/dt(½ m y'² + ½ k y²) = −2 f y'²/v",
+        "d/dt(½ m y'² + ½ k y²) = −2 f y'²/v + 2 f ψ y'",
+        "is left out",
+    ),
+    "of several masses that move apart": (
+        "jib_with_pulley",
+        "O_y + P sin β − (m_b + m_p + m_1 + m_2) g = 0",
+        "O_y + P sin β − (m_b + m_p + m_1 + m_2) g = −(m_2 − m_1) ẍ",
+        "a mass times its acceleration",
+    ),
+    "a root for a half": ("omni_robot", "m (w' + u θ') = ½ (F_3 − F_2)", "m (w' + u θ') = √3/2 (F_3 − F_2)", "a number"),
+    "both components in the other sense": (
+        "omni_robot",
+        "r ω_1 = R θ' + x' cos θ + y' sin θ",
+        "r ω_1 = R θ' − x' cos θ − y' sin θ",
+        "the constraint",
+    ),
+    "a count in an angle": (
+        "magnetic_coupling",
+        "J_3 γ'' = T_0 sin(β − γ) − c γ'²",
+        "J_3 γ'' = T_0 sin(p (β − γ)) − c γ'²",
+        "the angle is measured",
+    ),
+    "a height of another place": (
+        "eccentric_drum",
+        "from rest at θ = 0: ½ I_O θ'² + ½ m y'² = m g y + M g e (1 − cos θ) − Q θ",
+        "½ I_O θ'² + ½ m y'² = m g y + M g e sin θ − Q θ",
+        "sine and cosine",
+    ),
+    "weights that pull against each other": (
+        "ball_in_lift",
+        "work–energy while the ball flies: Q φ = ½ (M + m_c + J/r²)(v_C² − v_0²) + (M + m_c) g r φ",
+        "Q φ = ½ (M + m_c + J/r²)(v_C² − v_0²) + (M − m_c) g r φ",
+        "the other sense",
+    ),
+    "a coupling of small motions": (
+        "hinged_deck",
+        "for small angles: E = m_1 u'²/6 + m_2 (u'² + w'²)/6",
+        "E = m_1 u'²/6 + m_2 (u'² + u' w' + w'²)/6",
+        "is left out",
+    ),
     "a ratio that counts twice": (
         "gears_and_drum",
         "Q + m g d r/R = (I_A + (I_B + m d²) r/R) α",

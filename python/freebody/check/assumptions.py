@@ -69,7 +69,8 @@ _STATES = 16
 _SOME = 4  # states on motions from the start, near which terms may still be small, on which each has to take part
 _PART = 0.85  # of the budget, so that there is time for the balance that comes nearest
 _AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
-_TINY = 1e-4  # rad, or so much of a typical length, at which sines are angles to 1e-8, and energies are above round-off
+_TINY = 1e-7  # rad, or so much of a typical length, at which what is left of a true linear equation is little beside its terms, and round-off, too
+_TINY_OF_ENERGY = 1e-4  # the same of an energy, whose square of it is no round-off
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _NOTHING = 1e-9  # of its parts, below which a term is 0
 _HELD = 1e-9  # of the rates that can be given at will, below which a coordinate has none
@@ -125,7 +126,8 @@ def nearer(case: Case) -> Case:
     """The same statement, where it is of small motions of such small ones."""
     if not (given := case.hypothesis.small):
         return case
-    small = tuple((text, size * _TINY / SMALL) for text, size in given)
+    energies = any(not n.symbols.isdisjoint(case.meaning.vocabulary.energies) for n in case.equations)
+    small = tuple((text, size * (_TINY_OF_ENERGY if energies else _TINY) / SMALL) for text, size in given)
     return replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
 
 

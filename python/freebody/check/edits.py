@@ -190,7 +190,8 @@ def _own_motions(factors: tuple[Node, ...], vocabulary: Vocabulary, span: tuple[
     totals = [f for f in factors if isinstance(f, Add) and all(n in vocabulary.parameters for n in f.terms)]
     motions = [(f, f.base if isinstance(f, Pow) else f) for f in factors]
     for (factor, motion), total in product(motions, totals):
-        for other in vocabulary.motions_like(motion) if isinstance(motion, Sym) else ():
+        moves = isinstance(motion, Sym) and motion not in vocabulary.parameters
+        for other in vocabulary.motions_like(motion) if moves else ():
             moved = replace(factor, base=other) if isinstance(factor, Pow) else other
             for alone in total.terms:
                 parts = ((mass, moved if mass is alone else factor) for mass in total.terms)

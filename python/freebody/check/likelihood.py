@@ -12,7 +12,7 @@ import numpy as np
 
 from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME, Known
 from freebody.symbolic.evaluate import Array
-from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, Sym, unsigned, walk
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, unsigned, walk
 
 from .edits import FIGURES, Edit
 from .language.dimensions import dimension
@@ -99,8 +99,18 @@ class Likelihood:
         if cancels(edit.after) and not cancels(self.equation):
             return math.inf
         if isinstance(edit.new, Negative) and dimension(edit.new, self.vocabulary.dimensions) in (MASS, INERTIA):
-            return math.inf
+            return 0.0 if self._weighs(edit.old) else math.inf
         return self._of_kind(edit) + self._opens(edit)
+
+    def _weighs(self, mass: Node | None) -> bool:
+        """Whether a mass stands in a sum times g: weights may pull against each other."""
+        products = (n.factors for n in walk(self.equation) if isinstance(n, Mul))
+        weights = (
+            factors
+            for factors in products
+            if any(self.vocabulary.dimension(f) == _ACCELERATION for f in factors if isinstance(f, Sym))
+        )
+        return any(isinstance(f, Add) and any(term is mass for term in f.terms) for factors in weights for f in factors)
 
     def _of_kind(self, edit: Edit) -> float:
         """That of an edit that puts something in."""
@@ -261,8 +271,10 @@ class Likelihood:
             yield from [symbol] * (1 + load + arm + 2 * self._is_another_name(symbol))
         quotients = [n for n in walk(term) if isinstance(n, Quotient)]
         below = {n for each in quotients for n in each.bottom.symbols}
-        if missing and below and (new or not self._below):
-            yield from [term] * (2 if new else 1 if self._has_mass_times_acceleration else 3)  # energies have no fractions
+        if missing and below and (new or not self._has_quotient):
+            yield from [term] * (2 if new else 1)
+        if missing and below - self._below and self._dimension == ENERGY and not self._has_mass_times_acceleration:
+            yield from [term] * 3  # energies have no fractions
         if missing and below and dimension(term, known.dimensions) != self._dimension:  # a fraction in what stands there
             yield from [term] * 2
         for symbol in below - self._below:
@@ -343,6 +355,10 @@ class Likelihood:
     @cached_property
     def _parts(self) -> set[Node]:
         return {*walk(self.equation)}
+
+    @cached_property
+    def _has_quotient(self) -> bool:
+        return any(isinstance(n, Quotient) for n in self._parts)
 
     @cached_property
     def _below(self) -> set[Sym]:
