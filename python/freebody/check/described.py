@@ -119,10 +119,11 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
         if pattern.search(words):
             length = _length(checker)
             return _of(length, (side == "least") is not least) if length else ()
-    letters = checker.symbols(declared).meanings
-    for word in re.findall(r"[^\W\d]\w*", words):
-        if len(word) <= _LETTER and word in letters and letters[word].kind in ("coordinate", "declared", "reading"):
-            return _signed(letters[word].needed(1)[0], *_second(letters[word]), least=least)
+    known = checker.symbols(declared)
+    for word in re.findall(r"\\?[^\W\d]\w*", words):
+        letter = known.spelt(word) if word.startswith("\\") else known.meanings.get(word) if len(word) <= _LETTER else None
+        if letter and letter.kind in ("coordinate", "declared", "reading"):
+            return _signed(letter.needed(1)[0], *_second(letter), least=least)
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):

@@ -35,6 +35,7 @@ _PUT: tuple[tuple[str, str], ...] = (
         r"\A([^:=]*\b(?:released|let\s+go|dropped|set\s+free))\s+(?:at|from|with|where|in)\s+(?=[^\s:=]+\s*=[^:=]*:(?!=))",
         r"\1 from rest at ",
     ),
+    (r"\A\s*after\s+(?:a\s+|the\s+)?(?:time\s+)?t\s+from\s+rest\s*:(?!=)", "from rest:"),
     # small, from equilibrium: …
     (
         r"\A\s*small,?\s+(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?\s*:(?!=)",

@@ -61,7 +61,7 @@ _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=
 _UNIFORM = re.compile(
     r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speeds?|velocit(?:y|ies)|motion)|(?:moving\s+)?uniformly"
 )
-_SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?"
+_SYMBOL = r"(?:\\[A-Za-z]+|[^\W\d])(?:_?\{?\w\}?)?'{0,2}"
 _SMALL = re.compile(
     rf"(?:\A\s*|(?<=,)\s*)(?:(?:for|with|at)\s+)?small\s+({_SYMBOL}(?:(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*|(?:\s*=\s*[-+−]?\s*{_SYMBOL})+))\s*(?=:(?!=)|,\s*(?:{CONDITION})\b)"
 )
@@ -238,7 +238,7 @@ def as_claim(text: str) -> str:
     found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
     if not found:
         return text
-    word, words = " ".join(found[1].split()), _plainly(found[2])
+    word, words = " ".join(found[1].split()), " ".join(_plainly(found[2]).split())
     return _conditional("while" if word == "as" and _GOES_ON.match(words) else word, words, found[3])
 
 
