@@ -64,8 +64,11 @@ class Mechanism:
     def bind_rows(self, names: list[str], columns: Array) -> Array:
         """Parameters (members, np), those of the names given in columns (members, k)."""
 
-    def starts(self, t: float, asked: list[Mapping[str, Any]], threads: int) -> list[Array]:
-        """q and u (members, n); of each is asked ``{"p", "fixed", "guess", "rates", "points", "branch"}`` as in ``assemble``."""
+    def starts(
+        self, t: float, asked: list[Mapping[str, Any]], p: Array, columns: Sequence[Mapping[str, Array]], threads: int
+    ) -> list[Array]:
+        """q and u (members, n) at p (members, np); of each, or of all, is asked ``{"fixed", "guess", "rates", "points", "branch"}`` as in
+        ``assemble``, with other values of what is fixed and of rates by columns (members,)."""
 
     def reaction_names(self) -> list[str]: ...
     def runs_in_lanes(self) -> bool: ...
@@ -74,6 +77,7 @@ class Mechanism:
         states: Sequence[Array],
         span: Sequence[float],
         times: Array,
+        made: Array,
         threads: int,
         method: str,
         rtol: float,
@@ -84,9 +88,9 @@ class Mechanism:
         painleve: str,
         reactions: bool,
         max_steps: int = 1_000_000,
-    ) -> tuple[Array, list[tuple[Any, bool, float, str, str]]]:
-        """Of p (members or 1, np), q and u (members, n): the states (members, nt, 2 n), with ``reactions`` followed by accelerations and all
-        reactions, and how each motion ended: name, whether that is as asked, when, a sentence, the item that it is about."""
+    ) -> list[tuple[Any, bool, float, str, str]]:
+        """Of p (members or 1, np), q and u (members, n): writes the states (members, nt, 2 n), with ``reactions`` followed by accelerations
+        and all reactions, to ``made``; how each motion ended: name, whether that is as asked, when, a sentence, the item that it is about."""
 
     def assemble(
         self,

@@ -190,9 +190,9 @@ class Moving:
         With ``reactions=True`` it holds ``accelerations`` (member, time, coordinate) and ``reactions`` (member, time, reaction), too, by the
         names that ``evaluator`` gives them: ``"pivot.Fx"``. They are solved again at each of these times, and NaN where indeterminate.
 
-        ``method="rk4"`` with a ``step`` (s) carries trees side by side; all else is made motion by motion. Both run on all ``threads``,
-        and have the same bits on any number of them, in any order. Raises ``ModelFileError`` for arrays that do not fit together,
-        and ``MotionError`` for a member that has no start.
+        Trees, and small loops by the default method, are carried side by side where nothing happens; all else is made motion by motion. Both
+        run on all ``threads``, and have the same bits on any number of them, in any order. Raises ``ModelFileError`` for arrays that do not fit
+        together, and ``MotionError`` for a member that has no start.
         """
         from freebody.run.batch import Members, batch
 

@@ -8,41 +8,41 @@ use freebody::error::CompileError;
 use freebody::hybrid::Settings;
 use freebody::initial::Initial;
 use freebody::mechanism::Mechanism;
-use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
 
-/// Of each motion its rows at each time, and how it ended: the name, whether it did what was asked, when, a sentence, and its item.
-pub type Made<'py> = (Bound<'py, PyArray3<f64>>, Vec<(&'static str, bool, f64, String, String)>);
+/// Of each motion how it ended: the name, whether it did what was asked, when, a sentence, and its item.
+pub type Endings = Vec<(&'static str, bool, f64, String, String)>;
 
 /// Parameters, coordinates and rates, in rows.
 pub type Rows<'py> = [PyReadonlyArray2<'py, f64>; 3];
 
 #[allow(clippy::too_many_arguments)]
-pub fn batch<'py>(
-    py: Python<'py>,
+pub fn batch(
+    py: Python<'_>,
     m: &Mechanism,
-    [p, q, u]: &Rows<'py>,
+    [p, q, u]: &Rows<'_>,
     [t, until]: [f64; 2],
-    times: &PyReadonlyArray1<'py, f64>,
+    times: &PyReadonlyArray1<'_, f64>,
+    mut made: PyReadwriteArray3<'_, f64>,
     reactions: bool,
     settings: &Settings,
     threads: usize,
-) -> PyResult<Made<'py>> {
+) -> PyResult<Endings> {
     settings.integrator().map_err(errors::motion)?;
     let members = q.shape()[0];
     let (p, q, u, times) = (p.as_slice()?, q.as_slice()?, u.as_slice()?, times.as_slice()?);
     let batch = Batch { m, members, p, q, u, t, until, times, reactions, settings, threads };
-    let made = unless_stopped(py, |go_on| batch.run(go_on))?;
-    let rows = array(py, made.rows, [members, times.len(), batch.width()])?;
-    Ok((rows, made.endings.into_iter().map(|e| (e.name, e.is_ok, e.t, e.sentence, e.path)).collect()))
+    let rows = made.as_slice_mut()?;
+    let endings = unless_stopped(py, |go_on| batch.run(rows, go_on))?;
+    Ok(endings.into_iter().map(|e| (e.name, e.is_ok, e.t, e.sentence, e.path)).collect())
 }
 
 /// What a member is asked to be at its start, as `Assembly` of the Python package.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct Asked<'py> {
-    p: PyReadonlyArray1<'py, f64>,
+pub struct Asked {
     fixed: BTreeMap<String, f64>,
     guess: BTreeMap<String, f64>,
     rates: BTreeMap<String, f64>,
@@ -50,21 +50,37 @@ pub struct Asked<'py> {
     branch: BTreeMap<String, i64>,
 }
 
-/// The same with its names looked up.
-pub fn wish(compiled: &mut Compiled, Asked { p, fixed, guess, rates, points, branch }: Asked<'_>) -> PyResult<Wish> {
-    let wish = compiled.wish(&Initial { fixed, guess, rates, points, branch, from: None }).map_err(errors::model)?;
-    Ok((p.as_slice()?.to_vec(), wish))
-}
+/// Of each member a value of what is fixed, by name, and of what rate is.
+pub type Columns<'py> = [BTreeMap<String, PyReadonlyArray1<'py, f64>>; 2];
 
-/// Coordinates and rates at the starts, in rows.
+/// Coordinates and rates at the starts, in rows: of each as it is asked for, or of all as one is, but for what stands in columns.
 pub fn starts<'py>(
     py: Python<'py>,
-    m: &Mechanism,
+    compiled: &mut Compiled,
     t: f64,
-    wishes: &[Wish],
+    asked: Vec<Asked>,
+    p: &PyReadonlyArray2<'py, f64>,
+    columns: &Columns<'py>,
     threads: usize,
 ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
-    let found = unless_stopped(py, |go_on| batch::starts(m, t, wishes, threads, go_on))?;
+    let wish = |Asked { fixed, guess, rates, points, branch }: Asked| {
+        compiled.wish(&Initial { fixed, guess, rates, points, branch, from: None }).map_err(errors::model)
+    };
+    let wishes = asked.into_iter().map(wish).collect::<PyResult<Vec<_>>>()?;
+    let ([members, width], p) = ([p.shape()[0], p.shape()[1]], p.as_slice()?);
+    let mut named = vec![];
+    for (columns, of_rate) in columns.iter().zip([false, true]) {
+        for (name, column) in columns {
+            named.push((name, column.as_slice()?, of_rate));
+        }
+    }
+    let m = &compiled.mechanism;
+    let wish = |member: usize| -> Wish {
+        let mut wish = wishes[member.min(wishes.len() - 1)].clone();
+        named.iter().for_each(|(name, column, of_rate)| wish.ask(m, name, column[member], *of_rate));
+        (p[member * width..][..width].to_vec(), wish)
+    };
+    let found = unless_stopped(py, |go_on| batch::starts(m, t, members, &wish, threads, go_on))?;
     let found = found.map_err(|(member, error)| errors::motion_of(error, &format!(" (member {member})")))?;
     let rows = |part: usize| {
         array(py, found.iter().flat_map(|state| state[part].iter().copied()).collect(), [found.len(), m.freedom()])

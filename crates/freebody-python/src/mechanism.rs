@@ -1,6 +1,6 @@
 //! A compiled mechanism.
 
-use crate::batch::{self, Made, Rows};
+use crate::batch::{self, Columns, Endings, Rows};
 use crate::data::{array, data, plain};
 use crate::errors;
 use crate::instant::{balances, solution};
@@ -16,7 +16,7 @@ use freebody::mode::Mode;
 use freebody::motion::Options;
 use freebody::scalar::DoubleDouble;
 use freebody::symbolic::{answer, Query, Setting};
-use numpy::{PyArray1, PyArray2, PyReadonlyArray1};
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray3};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyDict;
@@ -315,12 +315,12 @@ impl Mechanism {
         &self,
         py: Python<'py>,
         t: f64,
-        asked: Vec<batch::Asked<'py>>,
+        asked: Vec<batch::Asked>,
+        p: PyReadonlyArray2<'py, f64>,
+        columns: Columns<'py>,
         threads: usize,
     ) -> PyResult<[Bound<'py, PyArray2<f64>>; 2]> {
-        let wishes: PyResult<Vec<_>> =
-            asked.into_iter().map(|asked| batch::wish(&mut self.of.names(), asked)).collect();
-        batch::starts(py, &self.of.mechanism(), t, &wishes?, threads)
+        batch::starts(py, &mut self.of.names(), t, asked, &p, &columns, threads)
     }
 
     /// The names of the reactions of a batch, as of an evaluator.
@@ -333,7 +333,7 @@ impl Mechanism {
         freebody::batch::fits_lanes(&self.of.mechanism())
     }
 
-    #[pyo3(signature = (states, span, times, threads, method, rtol, step, max_step, route, impacts, painleve, reactions, max_steps=1_000_000))]
+    #[pyo3(signature = (states, span, times, made, threads, method, rtol, step, max_step, route, impacts, painleve, reactions, max_steps=1_000_000))]
     #[allow(clippy::too_many_arguments)]
     fn batch<'py>(
         &self,
@@ -341,6 +341,7 @@ impl Mechanism {
         states: Rows<'py>,
         span: [f64; 2],
         times: Array<'py>,
+        made: PyReadwriteArray3<'py, f64>,
         threads: usize,
         method: &str,
         rtol: f64,
@@ -351,10 +352,10 @@ impl Mechanism {
         painleve: &str,
         reactions: bool,
         max_steps: usize,
-    ) -> PyResult<Made<'py>> {
+    ) -> PyResult<Endings> {
         let options = Options { rtol, first_step: step, max_step: max_step.unwrap_or(f64::INFINITY), max_steps };
         let settings = Settings::named([method, route, impacts, painleve], options).map_err(errors::model)?;
-        batch::batch(py, &self.of.mechanism(), &states, span, &times, reactions, &settings, threads)
+        batch::batch(py, &self.of.mechanism(), &states, span, &times, made, reactions, &settings, threads)
     }
 }
 

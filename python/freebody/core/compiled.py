@@ -13,9 +13,8 @@ import numpy as np
 from freebody import _core
 
 from .cards import methods
-from .errors import OutcomeKind
 from .free_bodies import FreeBodies
-from .motion import Outcome, Trajectory
+from .motion import Trajectory
 from .solution import RowDerivatives, Solution, SymbolicAnswers
 from .state import Array, State
 
@@ -129,10 +128,20 @@ class CompiledModel:
         member."""
         return self.mechanism.bind_rows(list(columns), np.column_stack(list(columns.values())))
 
-    def starts(self, asked: Sequence[Mapping[str, Any]], t: float, threads: int) -> tuple[Array, Array]:
-        """Coordinates and rates (members, n) of many starts, each to the last bit as ``assemble`` finds it by these arguments. Raises
-        ``MotionError``, which names the first member that has none."""
-        q, u = self.mechanism.starts(t, list(asked), threads)
+    def starts(
+        self,
+        asked: Sequence[Mapping[str, Any]],
+        p: Array,
+        t: float,
+        threads: int,
+        fixed: Mapping[str, Array] | None = None,
+        rates: Mapping[str, Array] | None = None,
+    ) -> tuple[Array, Array]:
+        """Coordinates and rates (members, n) of many starts at the rows of ``p``, each to the last bit as ``assemble`` finds it by the
+        arguments ``asked`` of it. Those of one are asked of all, with other values of what is ``fixed`` and of ``rates`` by columns
+        (members,). Raises ``MotionError``, which names the first member that has none."""
+        columns = [{name: np.ascontiguousarray(column) for name, column in (each or {}).items()} for each in (fixed, rates)]
+        q, u = self.mechanism.starts(t, list(asked), np.ascontiguousarray(p), columns, threads)
         return q, u
 
     @property
@@ -146,15 +155,17 @@ class CompiledModel:
         return self.mechanism.reaction_names()
 
     def batch(
-        self, p: Array, q: Array, u: Array, t: float, until: float, times: Array, threads: int, **settings: Any
-    ) -> tuple[Array, list[Outcome]]:
+        self, p: Array, q: Array, u: Array, t: float, until: float, times: Array, threads: int, reactions: bool, **settings: Any
+    ) -> tuple[Array, dict[str, list[Any]]]:
         """The motions from many states, in rows of ``q``, ``u`` and ``p`` (or one row of ``p`` for all): coordinates and rates (members,
         nt, 2 n) at ``times``, with ``reactions=True`` followed by accelerations and reactions (members, nt, 3 n + k), NaN after the end of
-        a motion, and how each ended. The other ``settings`` as in ``simulate``. Each has the same bits on any number of ``threads``, and
-        whatever stands beside it."""
+        a motion, and how each ended, in columns like the fields of ``Outcome``. The other ``settings`` as in ``simulate``. Each has the same
+        bits on any number of ``threads``, and whatever stands beside it."""
         rows = [np.ascontiguousarray(each) for each in (p, q, u)]
-        found, endings = self.mechanism.batch(rows, [t, until], times, threads, **settings)
-        return found, [Outcome(OutcomeKind(name), *ending) for name, *ending in endings]
+        n = q.shape[1]
+        made = np.empty((len(q), len(times), 3 * n + len(self.reaction_names) if reactions else 2 * n))
+        endings = self.mechanism.batch(rows, [t, until], times, made, threads, reactions=reactions, **settings)
+        return made, dict(zip(("name", "ok", "t", "sentence", "path"), map(list, zip(*endings, strict=True)), strict=True))
 
     def assemble(
         self,

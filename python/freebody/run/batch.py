@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from freebody.core import Array, ModelError, Outcome, Settings
+from freebody.core import Array, ModelError, Settings
 from freebody.model.errors import ModelFileError
 from freebody.model.start import Assembly, Start
 
@@ -126,26 +126,19 @@ class Members:
 
     def _assembled(self, t: float, threads: int) -> tuple[Array, Array, Array]:
         """Each for itself."""
-        asked = self._alike() if self._are_alike() else [self._asked(i) for i in range(self.count or 0)]
-        return np.array([each["p"] for each in asked]), *self.model.compile().starts(asked, t, threads)
+        core = self.model.compile()
+        if not self._are_alike():
+            asked = [self._asked(i) for i in range(self.count or 0)]
+            p = np.array([each["p"] for each in asked])
+            return p, *core.starts(asked, p, t, threads)
+        first = self._asked(0)
+        p = np.broadcast_to(self._parameters(first["p"]), (self.count or 0, len(first["p"])))
+        return p, *core.starts([first], p, t, threads, self.q, self.u)
 
     def _are_alike(self) -> bool:
         """Whether no number of a start follows from parameters that differ."""
         same = [value for name, value in self.same.items() if name != "rates"] + [*self.same.get("rates", {}).values()]
         return not self.p or (_is_plain(self.model.lowered().start) and all(isinstance(value, (int, float)) for value in same))
-
-    def _alike(self) -> list[Assembly]:
-        """What is asked of the first, with what distinguishes the others."""
-        first = self._asked(0)
-        rows = np.broadcast_to(self._parameters(first["p"]), (self.count or 0, len(first["p"])))
-
-        def of(member: int, same: dict[str, float], columns: dict[str, Array]) -> dict[str, float]:
-            return same | {name: float(column[member]) for name, column in columns.items()}
-
-        return [
-            {**first, "p": p, "fixed": of(i, first["fixed"], self.q), "rates": of(i, first["rates"], self.u)}
-            for i, p in enumerate(rows)
-        ]
 
     def _asked(self, i: int) -> Assembly:
         """The start of a member as it is asked for."""
@@ -180,6 +173,8 @@ def batch(
     threads = threads or _cores()
     p, q, u = members.states(t, threads)
     times = _times(settings, t, t_eval)
+    if not len(times):
+        raise members.error("t_eval is empty", "give at least one time")
     n = q.shape[1]
     figures = len(q) * len(times) * (3 * n + len(core.reaction_names) if reactions else 2 * n)
     if figures > MAX_FIGURES:
@@ -203,17 +198,17 @@ def batch(
     return xarray.Dataset(variables | _ended(endings), labels, {"title": core.name, "method": settings.method})
 
 
-def _ended(endings: Sequence[Outcome]) -> dict[str, Any]:
+def _ended(endings: Mapping[str, list[Any]]) -> dict[str, Any]:
     """How the motions ended, as variables."""
     return {
         "outcome": (
             "member",
-            np.array([each.name.value for each in endings]),
+            np.array(endings["name"]),
             {"long_name": "how the motion ended; NaN after that"},
         ),
-        "ok": ("member", np.array([each.ok for each in endings]), {"long_name": "whether it ended as was asked"}),
-        "end": ("member", np.array([each.t for each in endings]), {"units": "s", "long_name": "when it ended"}),
-        "sentence": ("member", np.array([each.sentence for each in endings]), {"long_name": "how it ended, in a sentence"}),
+        "ok": ("member", np.array(endings["ok"]), {"long_name": "whether it ended as was asked"}),
+        "end": ("member", np.array(endings["t"]), {"units": "s", "long_name": "when it ended"}),
+        "sentence": ("member", np.array(endings["sentence"]), {"long_name": "how it ended, in a sentence"}),
     }
 
 

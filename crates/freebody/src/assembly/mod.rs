@@ -7,6 +7,7 @@ mod released;
 use crate::dynamics::{DynamicsError, Workspace, OPEN};
 use crate::gauges::ModelExpr;
 use crate::kinematics::{jet, MotionView};
+use crate::mechanism::Mechanism;
 use crate::scalar::real;
 use closing::{descend, rows};
 use continuation::follow;
@@ -30,6 +31,19 @@ pub struct AssemblyRequest {
     pub free: Vec<bool>,
     /// A state from which the one asked for is to be reached, so that it is of the same assembly.
     pub from: Option<Closed>,
+}
+
+impl AssemblyRequest {
+    /// Asks for another value of a gauge that is held, or of its rate.
+    pub fn ask(&mut self, m: &Mechanism, name: &str, value: f64, of_rate: bool) {
+        let (held, start) = match of_rate {
+            false => (&mut self.held, &mut self.start),
+            true => (&mut self.held_rates, &mut self.start_rates),
+        };
+        held.iter_mut().filter(|(gauge, ..)| gauge == name).for_each(|(.., asked)| *asked = value);
+        let own = start.iter_mut().enumerate().filter(|(i, _)| m.coordinate(*i).name == name);
+        own.for_each(|(_, start)| *start = value);
+    }
 }
 
 /// A state with all loops closed.
@@ -211,7 +225,11 @@ fn velocities(
 ) -> Result<Vec<f64>, DynamicsError> {
     let mut u = request.start_rates.clone();
     for _ in 0..3 {
+        let before = u.clone();
         workspace.project_velocities_with(t, q, &mut u, &request.held_rates)?;
+        if u == before {
+            break;
+        }
     }
     workspace.move_to(t, q, &u);
     workspace.check_rates(&request.held_rates, &request.start_rates)?;

@@ -1,17 +1,19 @@
 //! Many motions of one mechanism: side by side where its equations are the same operations for all, each for itself where not;
-//! over threads. A motion has the bits of [`simulate`], whatever stands beside it.
+//! over threads. A motion has the same bits whatever stands beside it; but where it finds its steps side by side, those of [`simulate`].
 
+mod paces;
 mod side_by_side;
 mod starts;
 mod threads;
 
 pub use starts::{starts, Wish};
 
-use crate::dynamics::{reaction_names, DynamicsError, TreeMotion};
+use crate::dynamics::{reaction_names, DynamicsError, SmoothMotion, Workspace};
 use crate::hybrid::{simulate, Settings, Start, Trajectory};
 use crate::mechanism::Mechanism;
-use crate::motion::Outcome;
+use crate::motion::{self, Outcome, TIGHTEST};
 use crate::series::Traced;
+use paces::Paces;
 use side_by_side::{SideBySide, SIDE_BY_SIDE};
 use threads::share_out;
 
@@ -56,41 +58,34 @@ pub struct Ending {
     pub path: String,
 }
 
-/// Motions made.
-pub struct Motions {
-    /// Of each motion, at each time, coordinates and rates; where they are wanted accelerations, and reactions in the order of
-    /// [`reaction_names`]. NaN after its end.
-    pub rows: Vec<f64>,
-    /// How each ended.
-    pub endings: Vec<Ending>,
-}
-
 /// Whether the motions of a mechanism by fixed steps can run side by side.
 pub fn fits_lanes(m: &Mechanism) -> bool {
-    TreeMotion::<Traced>::fits(m)
+    m.is_tree() && SmoothMotion::<Traced>::fits(m)
 }
 
 impl Batch<'_> {
-    /// Makes them. `go_on` is asked now and then; None where it answers false.
-    pub fn run(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Motions> {
+    /// Writes of each motion, at each time, coordinates and rates; where they are wanted accelerations, and reactions in the order of
+    /// [`reaction_names`]; NaN after its end. Answers how each ended. `go_on` is asked now and then; None where it answers false.
+    pub fn run(&self, rows: &mut [f64], go_on: &mut dyn FnMut() -> bool) -> Option<Vec<Ending>> {
         let width = self.times.len() * self.width();
-        let mut made =
-            Motions { rows: vec![f64::NAN; self.members * width], endings: vec![Ending::default(); self.members] };
+        let mut endings = vec![Ending::default(); self.members];
         let recorded = self.is_march().then(|| self.record()).flatten();
-        let block = if recorded.is_some() { SIDE_BY_SIDE } else { 1 };
-        let rows = made.rows.chunks_mut((block * width).max(1));
-        let todo = rows.zip(made.endings.chunks_mut(block)).enumerate();
+        let readings = self.has_own_steps().then(|| self.readings()).flatten();
+        let block = if recorded.is_some() || readings.is_some() { SIDE_BY_SIDE } else { 1 };
+        let todo = rows.chunks_mut((block * width).max(1)).zip(endings.chunks_mut(block)).enumerate();
         let begin = || {
             let mut beside = recorded.as_ref().map(|recorded| SideBySide::new(self, recorded));
+            let mut paces = readings.as_ref().map(|readings| Paces::new(self, readings));
             move |(i, (rows, endings)): (usize, (&mut [f64], &mut [Ending]))| {
-                match &mut beside {
-                    Some(beside) => beside.make(i * block, rows, endings),
-                    None => endings[0] = self.alone(i, rows),
+                match (&mut beside, &mut paces) {
+                    (Some(beside), _) => beside.make(i * block, rows, endings),
+                    (_, Some(paces)) => paces.make(i * block, rows, endings),
+                    _ => endings[0] = self.alone(i, rows),
                 }
                 true
             }
         };
-        share_out(todo, self.threads, begin, go_on).then_some(made)
+        share_out(todo, self.threads, begin, go_on).then_some(endings)
     }
 
     /// How many numbers there are of a motion at a time.
@@ -104,7 +99,28 @@ impl Batch<'_> {
         let Some(step) = self.settings.options.first_step else { return false };
         let steps = (self.until - self.t).abs() / step.abs();
         let resolution = 4.0 * f64::EPSILON * self.t.abs().max(self.until.abs());
-        self.settings.marches() && step.abs() > resolution && steps < self.settings.options.max_steps as f64
+        self.m.is_tree()
+            && self.settings.marches()
+            && step.abs() > resolution
+            && steps < self.settings.options.max_steps as f64
+    }
+
+    /// Whether each member finds its steps by the default method, and nothing is to be refused.
+    fn has_own_steps(&self) -> bool {
+        let Settings { method, route, options, .. } = self.settings;
+        let is_step = |step: f64| step.is_finite() && step != 0.0;
+        *method == motion::METHODS[0].name
+            && route.is_none()
+            && options.rtol >= TIGHTEST
+            && options.max_step > 0.0
+            && options.first_step.is_none_or(is_step)
+    }
+
+    /// Goes to the start of a member.
+    fn place(&self, member: usize, workspace: &mut Workspace) {
+        let [q, u] = self.state(member);
+        workspace.restart(self.parameters(member));
+        workspace.move_to(self.t, q, u);
     }
 
     /// The parameters of a member.
@@ -123,6 +139,7 @@ impl Batch<'_> {
 
     /// One motion for itself.
     fn alone(&self, member: usize, rows: &mut [f64]) -> Ending {
+        rows.fill(f64::NAN);
         let [q, u] = self.state(member);
         let start = Start { p: self.parameters(member), t: self.t, q, u, mode: None };
         let made = simulate(self.m, &start, self.until, self.settings, &mut |_| true);

@@ -3,6 +3,7 @@
 use super::{Batch, Ending};
 use crate::dynamics::{reaction_names, Workspace};
 use crate::hybrid::Recorded;
+use crate::mechanism::Reading;
 use crate::motion::{march, Outcome, Span};
 use crate::scalar::Block;
 use multiversion::multiversion;
@@ -10,7 +11,7 @@ use multiversion::multiversion;
 /// How many: the time to read an operation is then little beside that to do it, and what it works on is near at hand.
 pub const SIDE_BY_SIDE: usize = 64;
 
-type Lanes = Block<SIDE_BY_SIDE>;
+pub type Lanes = Block<SIDE_BY_SIDE>;
 
 /// What makes them, one block of members after the other.
 pub struct SideBySide<'a> {
@@ -27,9 +28,8 @@ impl Batch<'_> {
     /// The equations of its members, as they are for the first.
     pub fn record(&self) -> Option<Recorded> {
         let mut workspace = Workspace::new(self.m, self.parameters(0));
-        let [q, u] = self.state(0);
-        workspace.move_to(self.t, q, u);
-        Recorded::new(&workspace)
+        self.place(0, &mut workspace);
+        Recorded::new(&workspace, Reading::Rates)
     }
 }
 
@@ -54,10 +54,7 @@ impl<'a> SideBySide<'a> {
             let is_made = starts[lane] && ends[lane] && self.write(first + lane, lane, rows);
             *ending = match is_made {
                 true => Ending::of(&Outcome::Completed, batch.until, Outcome::Completed.to_string()),
-                false => {
-                    rows.fill(f64::NAN);
-                    batch.alone(first + lane, rows)
-                }
+                false => batch.alone(first + lane, rows),
             };
         }
     }
@@ -71,10 +68,9 @@ impl<'a> SideBySide<'a> {
             let member = (first + lane).min(batch.members - 1);
             let (p, [q, u]) = (batch.parameters(member), batch.state(member));
             let is_solved = self.solve(p, batch.t, [q, u], &mut solution);
-            let n = self.workspace.at().n;
             put(&mut self.start, lane, [q, u, &p[m.first_state()..]].concat());
-            put(&mut self.numbers, lane, self.recorded.numbers(n));
-            is_solved && self.recorded.fits(n)
+            put(&mut self.numbers, lane, self.recorded.numbers(&self.workspace));
+            is_solved && self.recorded.holds_at(&mut self.workspace)
         })
     }
 
@@ -102,7 +98,7 @@ impl<'a> SideBySide<'a> {
 }
 
 /// Puts values into a lane of blocks.
-fn put(blocks: &mut Vec<Lanes>, lane: usize, values: impl IntoIterator<Item = f64>) {
+pub fn put(blocks: &mut Vec<Lanes>, lane: usize, values: impl IntoIterator<Item = f64>) {
     for (i, value) in values.into_iter().enumerate() {
         if i == blocks.len() {
             blocks.push(Block::of(0.0));
@@ -120,5 +116,5 @@ fn carry(
     start: &[Lanes],
     shown: &mut Vec<Lanes>,
 ) -> [bool; SIDE_BY_SIDE] {
-    march(span, start, |t, y, dy| recorded.program.run(memory, t, y, dy), |y| shown.extend_from_slice(y))
+    march(span, start, |t, y, dy| recorded.program.run(memory, Block::of(t), y, dy), |y| shown.extend_from_slice(y))
 }

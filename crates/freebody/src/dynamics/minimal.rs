@@ -181,7 +181,7 @@ impl Workspace<'_> {
         }
         // One step of iterative refinement: what is left of the balances and open of the rows, asked of the factored equations
         // again. Small masses behind large ones keep their digits.
-        self.unbalanced_along_joints(force);
+        powers_along_joints(self.at(), &self.solved.joint_wrenches, force);
         self.dense.g.mul_vec_into(&self.solved.nu_dot, gap);
         gap.iter_mut().zip(&*asked).for_each(|(gap, asked)| *gap = asked - *gap);
         self.check_consistent(asked, gap)?;
@@ -196,17 +196,6 @@ impl Workspace<'_> {
         Ok(())
     }
 
-    /// What the loads that the joints of the tree must pass do along their freedom, where they can pass nothing: what is left of
-    /// the balances.
-    fn unbalanced_along_joints(&self, out: &mut [f64]) {
-        for (i, body) in self.m.bodies.iter().enumerate() {
-            let Some(b) = body.tree_joint else { continue };
-            for k in 0..b.freedom {
-                out[b.start + k] = -self.solved.joint_wrenches[i].power(self.k.motion_subspace[i][k]);
-            }
-        }
-    }
-
     /// Finds the closing rows of the present state, and the generalized forces less what velocities ask for.
     pub(super) fn set_forces(&mut self, force: &mut Vec<f64>) {
         force.clear();
@@ -219,7 +208,12 @@ impl Workspace<'_> {
         let wrenches = &mut self.solved.joint_wrenches;
         residual_into(at, &self.loads, &self.solved.bodies, &[], &[], wrenches);
         pass_to_ground(at, wrenches);
-        self.unbalanced_along_joints(force);
+        powers_along_joints(at, wrenches, force);
+    }
+
+    /// Whether elimination in the order given solved the present state.
+    pub(crate) fn is_clear(&self) -> bool {
+        self.dense.form == Form::Quasidefinite && self.is_factored(0.0, false)
     }
 
     /// Factors mass matrix and rows of the present state.
@@ -364,6 +358,17 @@ impl Workspace<'_> {
         let (at, s) = (self.placed.view(self.m, &self.n, &self.k), &mut self.solved);
         residual_into(at, &self.loads, &s.bodies, &self.rows, &s.lambda, &mut s.joint_wrenches);
         pass_to_ground(at, &mut s.joint_wrenches);
+    }
+}
+
+/// What the loads that the joints of the tree must pass do along their freedom, where they can pass nothing: what is left of the
+/// balances.
+pub(super) fn powers_along_joints<S: Scalar>(at: StateView<'_, S>, wrenches: &[Wrench<S>], out: &mut [S]) {
+    for (i, body) in at.m.bodies.iter().enumerate() {
+        let Some(b) = body.tree_joint else { continue };
+        for k in 0..b.freedom {
+            out[b.start + k] = -wrenches[i].power(at.k.motion_subspace[i][k]);
+        }
     }
 }
 

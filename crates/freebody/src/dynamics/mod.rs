@@ -13,6 +13,7 @@ mod contact_decision;
 mod contact_forces;
 mod contact_modes;
 mod derivatives;
+mod elimination;
 mod energy;
 mod evaluator;
 mod gaps;
@@ -34,11 +35,11 @@ mod rank;
 mod reactions;
 mod rows;
 mod scales;
+mod smooth_motion;
 mod solved_view;
 mod sparse_tree;
 mod term_scales;
 mod tree_matrices;
-mod tree_motion;
 mod unloaded;
 
 pub use contact_decision::ContactDecision;
@@ -59,9 +60,9 @@ pub use reactions::JointLoad;
 pub use rows::{
     closing_rows, drive_row, gap_row, joint_friction_row, joint_rows, slide_row, BodyWrenches, Row, Source,
 };
+pub use smooth_motion::SmoothMotion;
 pub use solved_view::SolvedView;
 pub use term_scales::TermScales;
-pub use tree_motion::TreeMotion;
 
 use crate::bound_values::BoundValues;
 pub use crate::error::DynamicsError;
@@ -244,6 +245,12 @@ impl<'m> Workspace<'m> {
         self.forget_factors();
         self.length = self.m.characteristic_length(&self.n).unwrap_or(self.length);
         self.reaches = gaps::reaches(self.m, &self.n);
+    }
+
+    /// Takes other parameters, and forgets where it has been.
+    pub fn restart(&mut self, p: &[f64]) {
+        self.length = 0.0;
+        self.rebind(p);
     }
 
     /// Goes to a state in a mode.

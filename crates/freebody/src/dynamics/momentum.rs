@@ -67,7 +67,7 @@ pub fn add_multipliers<S: Scalar>(rows: &[Row<S>], multipliers: &[S], loads: &mu
 }
 
 /// Mass, first and second moment of a body, or of several that move as one, about its joint origin.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Inertia<S = f64> {
     pub mass: S,
     pub moment: Vec2<S>,
@@ -75,6 +75,11 @@ pub(super) struct Inertia<S = f64> {
 }
 
 impl<S: Scalar> Inertia<S> {
+    /// That of nothing.
+    pub fn none() -> Self {
+        Inertia { mass: S::zero(), moment: Vec2::zero(), turn: S::zero() }
+    }
+
     /// That of a body whose mass centre is at `arm` from its joint origin; a particle does not resist turning.
     #[inline(always)]
     pub fn of(at: StateView<'_, S>, body: usize, arm: Vec2<S>) -> Self {

@@ -89,7 +89,7 @@ impl Workspace<'_> {
     /// Accelerations of the coordinates at the present state in the present mode; 0 where there are none, but for round-off.
     fn accelerations_unheld(&mut self) -> Vec<f64> {
         let mut accelerations = vec![0.0; self.placed.u.len()];
-        if self.solve().is_err() {
+        if self.solve_reactions().is_err() {
             return accelerations;
         }
         self.accelerations(&mut accelerations);

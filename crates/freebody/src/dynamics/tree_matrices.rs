@@ -5,6 +5,7 @@ use super::{size_of_power, visit_ancestors, BodyWrenches, Row, CANCELLED};
 use crate::kinematics::StateView;
 use crate::mechanism::Mechanism;
 use crate::plane::{Vec2, Wrench};
+use crate::scalar::Scalar;
 use crate::solve::Matrix;
 
 /// Unit of each coordinate.
@@ -128,15 +129,15 @@ pub(super) fn mass_matrix(at: StateView<'_>, arms: &[Vec2], carried: &mut Vec<In
 /// Calls f(row, column, inertia) for every pair of coordinates of the tree that may share inertia, from that of each body with all that
 /// hangs on it (composite rigid bodies; Featherstone ch. 6).
 #[inline]
-pub(super) fn visit_mass(
-    at: StateView<'_>,
-    arms: &[Vec2],
-    carried: &mut Vec<Inertia>,
-    mut f: impl FnMut(usize, usize, f64),
+pub(super) fn visit_mass<S: Scalar>(
+    at: StateView<'_, S>,
+    arms: &[Vec2<S>],
+    carried: &mut Vec<Inertia<S>>,
+    mut f: impl FnMut(usize, usize, S),
 ) {
     let bodies = at.m.bodies.len();
     carried.clear();
-    carried.resize(bodies, Inertia::default());
+    carried.resize(bodies, Inertia::none());
     for i in (1..bodies).rev() {
         let (body, own) = (Inertia::of(at, i, arms[i]), &mut carried[i]);
         own.mass += body.mass;
@@ -148,7 +149,7 @@ pub(super) fn visit_mass(
         for k in 0..tree_joint.freedom {
             let mut load = own.momentum(at.k.motion_subspace[i][k]);
             if particle {
-                load.m = 0.0;
+                load.m = S::zero();
             }
             couple(at, i, tree_joint.start + k, load, &mut f);
         }
@@ -161,14 +162,14 @@ pub(super) fn visit_mass(
             up.turn += own.mass * r.dot(r);
         } else {
             up.moment += own.moment + r * own.mass;
-            up.turn += own.turn + 2.0 * r.dot(own.moment) + own.mass * r.dot(r);
+            up.turn += own.turn + r.dot(own.moment).scale(2.0) + own.mass * r.dot(r);
         }
     }
 }
 
 /// Says what the load of coordinate `j` does on every coordinate from body `i` down to ground.
 #[inline]
-fn couple(at: StateView<'_>, i: usize, j: usize, load: Wrench, f: &mut impl FnMut(usize, usize, f64)) {
+fn couple<S: Scalar>(at: StateView<'_, S>, i: usize, j: usize, load: Wrench<S>, f: &mut impl FnMut(usize, usize, S)) {
     visit_ancestors(at, [(i, load)], |row, load, column| f(row, j, load.power(column)));
 }
 

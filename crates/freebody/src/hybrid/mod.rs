@@ -27,8 +27,9 @@ mod works;
 pub use canonical::mass_matrix;
 pub use impacts::Rule;
 pub use mode_changes::{ContactImpulse, Impulses, ModeChange};
-pub use recorded::Recorded;
+pub use recorded::{Recorded, FIRM};
 pub use reference::reference;
+pub use scales::Sizes;
 pub use system::HybridSystem;
 pub use trajectory::{Ledger, MotionState, Trajectory};
 
@@ -141,7 +142,7 @@ pub fn simulate(
     system.set_scales(start.t, until, &y);
     crate::motion::System::project(&mut system, start.t, &mut y)?;
     system.begin(start, until, &mut y)?;
-    if settings.marches() {
+    if settings.marches() || !m.is_tree() && settings.route.is_none() {
         system.record_equations(start.t, &y);
     }
     let opening = system.energy(start.t, &y);

@@ -1,18 +1,23 @@
-//! The equations of motion of a tree as a program, for one motion or for many side by side.
+//! What is read of a motion as a program, for one motion or for many side by side.
 
-use super::works::Works;
 use super::HybridSystem;
 use crate::bound_values::BoundValues;
-use crate::dynamics::{DynamicsError, TreeMotion, Workspace};
+use crate::dynamics::{closing_rows, SmoothMotion, Workspace};
+use crate::mechanism::Reading;
 use crate::scalar::{Block, Scalar};
 use crate::series::{recorded, Program, Traced};
 use std::sync::Arc;
 
 /// By how much the state recorded is aside: there no length vanishes without which a spring has no direction.
 const ASIDE: f64 = 0.618_033_988_749_894_9;
+/// Independence of the closing rows below which every stage of a step is brought onto the loops.
+pub(super) const NEAR_SINGULAR: f64 = 0.1;
+/// Most coordinates and closing rows together: more are not eliminated in the order given.
+const MOST: usize = 16;
+/// Part of what was left of an inertia or a row at the start, where it is eliminated, below which digits may be lost.
+pub const FIRM: f64 = 1e-2;
 
-/// The rates of [q, u, states], then the powers of forces that have no potential, as functions of time, of [q, u, states], and of
-/// what follows from parameters.
+/// A [`Reading`] as a function of time, of [q, u, states], and of what follows from parameters and from where the loops are closed.
 #[derive(Clone, Debug)]
 pub struct Recorded {
     /// The operations.
@@ -20,52 +25,61 @@ pub struct Recorded {
     massless: Vec<bool>,
     /// The numbers of the model that follow from parameters.
     bound: Vec<usize>,
-    first_state: usize,
+    /// How many pivots follow the rates.
+    pub pivots: usize,
 }
 
 impl Recorded {
-    /// Those of a mechanism that is placed, recorded once for all its motions; None where its motion may be other operations elsewhere.
-    pub fn new(workspace: &Workspace) -> Option<Self> {
+    /// That of a mechanism that is placed, recorded once for all its motions; None where its motion may be other operations elsewhere.
+    pub fn new(workspace: &Workspace, what: Reading) -> Option<Self> {
         let (m, massless) = (workspace.m, massless(workspace.at().n));
-        if !TreeMotion::<Traced>::fits(m) {
+        let pivots = if m.is_tree() { 0 } else { m.freedom() + closing_rows(workspace.at(), None).len() };
+        if !SmoothMotion::<Traced>::fits(m) || pivots > MOST {
             return None;
         }
         let bound: Vec<_> = (0..m.values.len()).filter(|&i| m.values[i].variables().next().is_some()).collect();
-        let program = m.recorded.program(&massless, || program(workspace, &bound))?;
-        Some(Recorded { program, massless, bound, first_state: m.first_state() })
+        let program = m.recorded.program((what, massless.clone()), || program(workspace, &bound, what))?;
+        Some(Recorded { program, massless, bound, pivots })
     }
 
-    /// Whether they hold at other numbers: the mass centre is another formula where there is no mass.
-    pub fn fits(&self, n: &BoundValues) -> bool {
-        massless(n) == self.massless
+    /// Whether it holds at the state where another workspace is placed, which has solved it where loops are closed, and about it: a tree has a
+    /// motion, loops are eliminated in the order given with no doubt. The mass centre is another formula where there is no mass.
+    pub fn holds_at(&self, workspace: &mut Workspace) -> bool {
+        let is_solved = match workspace.is_closed() {
+            true => workspace.is_clear() && workspace.independence() > NEAR_SINGULAR,
+            false => workspace.solve_motion().is_ok(),
+        };
+        is_solved && massless(workspace.at().n) == self.massless
     }
 
     /// The inputs that do not move.
-    pub fn numbers<'a>(&'a self, n: &'a BoundValues) -> impl Iterator<Item = f64> + 'a {
-        numbers(n, self.first_state, &self.bound)
+    pub fn numbers(&self, workspace: &Workspace) -> Vec<f64> {
+        numbers(workspace, &self.bound)
     }
 }
 
-fn numbers<'a>(n: &'a BoundValues, first_state: usize, bound: &'a [usize]) -> impl Iterator<Item = f64> + 'a {
-    n.p[..first_state].iter().copied().chain(bound.iter().map(|&i| n.values[i]))
+fn numbers(workspace: &Workspace, bound: &[usize]) -> Vec<f64> {
+    let (m, n) = (workspace.m, workspace.at().n);
+    let zeros = closing_rows(workspace.at(), None).into_iter().map(|row| {
+        let gap = workspace.gap(&row);
+        row.value.zip(gap).map_or(0.0, |(value, gap)| value - gap)
+    });
+    n.p[..m.first_state()].iter().copied().chain(bound.iter().map(|&i| n.values[i])).chain(zeros).collect()
 }
 
-fn program(workspace: &Workspace, bound: &[usize]) -> Option<Program> {
+fn program(workspace: &Workspace, bound: &[usize], what: Reading) -> Option<Program> {
     let (m, at) = (workspace.m, workspace.at());
-    let (first_state, forces) = (m.first_state(), Works::of(m).forces);
+    let first_state = m.first_state();
     let moving = [&[at.t], at.q, at.u, &at.n.p[first_state..]].concat();
     let aside = moving.iter().enumerate().map(|(i, x)| x + ((i + 1) as f64 * ASIDE).fract());
-    let tape = recorded(aside.chain(numbers(at.n, first_state, bound)), |x| {
+    let tape = recorded(aside.chain(numbers(workspace, bound)), |x| {
         let (y, fixed) = x[1..].split_at(moving.len() - 1);
         let (p, numbers) = fixed.split_at(first_state);
+        let (numbers, zeros) = numbers.split_at(bound.len());
         let mut values: Vec<Traced> = at.n.values.iter().map(|&x| Traced::of(x)).collect();
         bound.iter().zip(numbers).for_each(|(&i, &x)| values[i] = x);
         let p = [p, &y[2 * m.freedom()..]].concat();
-        let mut tree = TreeMotion::new(m, m.with_values(&p, values));
-        let mut rates = vec![Traced::zero(); y.len()];
-        tree.rate(x[0], y, &mut rates)?;
-        rates.extend(forces.iter().map(|&force| tree.unaccounted_power(x[0], y, force)));
-        Ok::<_, DynamicsError>(rates)
+        SmoothMotion::new(m, m.with_values(&p, values)).read(what, x[0], y, zeros)
     });
     Some(Program::new(tape.ok()?.rounded(), moving.len()))
 }
@@ -79,43 +93,58 @@ pub(super) struct Motion {
     program: Arc<Program>,
     memory: Vec<Block<1>>,
     y: Vec<Block<1>>,
-    rates: Vec<Block<1>>,
+    read: Vec<Block<1>>,
     /// How many of y are coordinates and rates.
     own: usize,
+    /// The pivots at the start.
+    pivots: Vec<f64>,
 }
 
 impl Motion {
-    /// That of a mechanism that is placed.
-    pub fn new(workspace: &Workspace, forces: usize) -> Option<Self> {
-        let (recorded, at) = (Recorded::new(workspace)?, workspace.at());
-        let numbers: Vec<_> = recorded.numbers(at.n).map(Block::of).collect();
-        let (program, own) = (recorded.program, 2 * at.q.len());
+    /// That of a mechanism that is placed, and solved, at its start, with so many works.
+    pub fn new(workspace: &mut Workspace, works: usize) -> Option<Self> {
+        let (recorded, m) = (Recorded::new(workspace, Reading::Rates)?, workspace.m);
+        if !recorded.holds_at(workspace) {
+            return None;
+        }
+        let numbers: Vec<_> = recorded.numbers(workspace).into_iter().map(Block::of).collect();
+        let (program, own) = (recorded.program, 2 * m.freedom());
         let mut memory = program.memory();
         program.fix(&mut memory, &numbers);
-        let y = vec![Block::of(0.0); own + at.n.p.len() - recorded.first_state];
-        let rates = vec![Block::of(0.0); y.len() + forces];
-        Some(Motion { program, memory, y, rates, own })
+        let y = vec![Block::of(0.0); own + m.state_rates.len()];
+        let read = vec![Block::of(0.0); y.len() + recorded.pivots + works];
+        let mut motion = Motion { program, memory, y, read, own, pivots: vec![] };
+        let at = workspace.at();
+        motion.run(at.t, at.q.iter().chain(at.u).chain(&at.n.p[m.first_state()..]));
+        motion.pivots = motion.read[motion.y.len()..][..recorded.pivots].iter().map(|pivot| pivot.0[0]).collect();
+        Some(motion)
     }
 
-    /// Writes the rates of [q, u, works, states]; false where one is not finite.
+    fn run<'y>(&mut self, t: f64, y: impl Iterator<Item = &'y f64>) {
+        self.y.iter_mut().zip(y).for_each(|(to, &y)| *to = Block::of(y));
+        self.program.run(&mut self.memory, Block::of(t), &self.y, &mut self.read);
+    }
+
+    /// Writes the rates of [q, u, works, states]; false where one is not finite, or digits may be lost.
     pub fn write_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
         let states = self.y.len() - self.own;
-        let moving = y[..self.own].iter().chain(&y[y.len() - states..]);
-        self.y.iter_mut().zip(moving).for_each(|(to, &y)| *to = Block::of(y));
-        self.program.run(&mut self.memory, t, &self.y, &mut self.rates);
-        let (own, rest) = self.rates.split_at(self.own);
-        let (states, powers) = rest.split_at(states);
+        self.run(t, y[..self.own].iter().chain(&y[y.len() - states..]));
+        let (rates, rest) = self.read.split_at(self.y.len());
+        let ((own, states), (pivots, powers)) = (rates.split_at(self.own), rest.split_at(self.pivots.len()));
         let rates = own.iter().chain(powers).chain(states);
         dy.iter_mut().zip(rates).for_each(|(dy, rate)| *dy = rate.0[0]);
-        dy.iter().all(|rate| rate.is_finite())
+        let is_firm = pivots.iter().zip(&self.pivots).all(|(pivot, start)| pivot.0[0].abs() >= FIRM * start.abs());
+        is_firm && dy.iter().all(|rate| rate.is_finite())
     }
 }
 
 impl HybridSystem<'_> {
     /// Lets a program carry the motion from a state on that can be solved: as it does many side by side, to the same bits.
     pub(super) fn record_equations(&mut self, t: f64, y: &[f64]) {
-        self.place(t, y);
-        let is_solved = self.workspace.solve_motion().is_ok();
-        self.recorded = is_solved.then(|| Motion::new(&self.workspace, self.works.forces.len())).flatten();
+        if SmoothMotion::<Traced>::fits(self.workspace.m) {
+            self.place(t, y);
+            let is_solved = self.workspace.solve_motion().is_ok();
+            self.recorded = is_solved.then(|| Motion::new(&mut self.workspace, self.works.count())).flatten();
+        }
     }
 }

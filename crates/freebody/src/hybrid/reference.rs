@@ -2,7 +2,7 @@
 
 use super::series::equations;
 use super::{HybridSystem, Start};
-use crate::dynamics::{DynamicsError, TreeMotion, Workspace};
+use crate::dynamics::{DynamicsError, SmoothMotion, Workspace};
 use crate::mechanism::Mechanism;
 use crate::motion::System;
 use crate::scalar::{real, DoubleDouble, Scalar};
@@ -28,7 +28,7 @@ pub fn reference(
     go_on: &mut dyn FnMut() -> bool,
 ) -> Result<Option<Vec<Vec<DoubleDouble>>>, DynamicsError> {
     m.check_state(start.p, start.t, start.q, start.u)?;
-    let obstacle = TreeMotion::<Traced>::obstacle(m).or((!m.events.is_empty()).then_some("events may happen"));
+    let obstacle = SmoothMotion::<Traced>::obstacle(m).or((!m.events.is_empty()).then_some("events may happen"));
     if let Some(why) = obstacle {
         return Err(DynamicsError::NoSeries(why));
     }

@@ -2,7 +2,7 @@
 
 use super::works::Works;
 use super::HybridSystem;
-use crate::dynamics::{DynamicsError, TreeMotion};
+use crate::dynamics::{DynamicsError, SmoothMotion};
 use crate::mechanism::Mechanism;
 use crate::motion::Analytic;
 use crate::scalar::{DoubleDouble, Scalar};
@@ -20,7 +20,7 @@ pub(super) fn equations(
     recorded([&[t], y].concat(), |x| {
         let (t, y) = (x[0], &x[1..]);
         let given: Vec<(usize, Traced)> = m.overruled(p).into_iter().map(|(i, x)| (i, Traced::of(x))).collect();
-        let mut tree = TreeMotion::new(m, m.bind(&m.parameters_with(&given)));
+        let mut tree = SmoothMotion::new(m, m.bind(&m.parameters_with(&given)));
         let moving = [&y[..2 * n], &y[states..]].concat();
         let mut rates = vec![Traced::zero(); moving.len()];
         tree.rate(t, &moving, &mut rates)?;

@@ -3,10 +3,10 @@
 use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
-use super::recorded::Motion;
+use super::recorded::{Motion, NEAR_SINGULAR};
 use super::scales::ROUNDOFF;
 use super::works::Works;
-use crate::dynamics::{DynamicsError, TreeMotion, Workspace};
+use crate::dynamics::{DynamicsError, SmoothMotion, Workspace};
 use crate::gauges::ModelExpr;
 use crate::kinematics::Travel;
 use crate::mode::Mode;
@@ -14,9 +14,7 @@ use crate::motion::{After, Analytic, Canonical, EventRecord, EventSpec, Segment,
 use crate::plane::Vec2;
 use crate::series::{Solution, Traced};
 
-/// Independence of the closing rows below which every stage of a step is brought onto the loops.
-const NEAR_SINGULAR: f64 = 0.1;
-/// That below which the steps look out for a singular configuration: far enough to come to it by a step across.
+/// Independence of the closing rows below which the steps look out for a singular configuration: far enough to come to it by a step across.
 const WATCHED: f64 = 0.5;
 
 /// Part of the way to there over which the fall of the independence is a difference.
@@ -277,7 +275,7 @@ impl System for HybridSystem<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         let (n, states) = (self.workspace.m.freedom(), self.first_state());
-        if self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy)) {
+        if !self.near_singular && self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy)) {
             return Ok(());
         }
         if self.mode.resting {
@@ -460,7 +458,7 @@ impl System for HybridSystem<'_> {
     }
 
     fn analytic(&mut self) -> Result<&mut dyn Analytic, &'static str> {
-        TreeMotion::<Traced>::obstacle(self.workspace.m).map_or(Ok(self), Err)
+        SmoothMotion::<Traced>::obstacle(self.workspace.m).map_or(Ok(self), Err)
     }
 
     fn canonical(&mut self) -> Option<&mut dyn Canonical> {

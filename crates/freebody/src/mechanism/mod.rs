@@ -8,6 +8,7 @@ mod drives;
 mod events;
 mod forces;
 mod joints;
+mod reading;
 mod surfaces;
 mod unilateral;
 
@@ -16,6 +17,7 @@ pub use drives::{Drive, DriveGauges, DriveKind, Level};
 pub use events::{Discontinuity, Event, EventAction};
 pub use forces::{Force, GaugeForce, PlateFriction, PlateOutline, PointForce};
 pub use joints::{Coordinate, CurveFollower, FrictionSource, Joint, JointFriction};
+pub use reading::Reading;
 pub use surfaces::{Arc, Chain, ContactPair, Disk, Profile, Stretch, Track};
 pub use unilateral::{Friction, Gap, Group, UnilateralConstraint, FRICTION};
 
@@ -93,8 +95,8 @@ pub struct Mechanism {
     pub switches: usize,
     /// What was assumed while compiling, in sentences.
     pub notes: Vec<String>,
-    /// Its equations of motion, recorded when they were needed first, by which bodies have no mass.
-    pub recorded: Memo,
+    /// What was recorded of its motion when it was needed first, by which bodies have no mass.
+    pub recorded: Memo<(Reading, Vec<bool>)>,
 }
 
 /// A parameter.

@@ -18,7 +18,7 @@ pub(super) const METHOD: Method = Method {
 };
 
 #[rustfmt::skip]
-static TABLE: Table = Table {
+pub(super) static TABLE: Table = Table {
     c: &[
         0.052_600_151_958_767_73, 0.078_900_227_938_151_6, 0.118_350_341_907_227_4,
         0.281_649_658_092_772_6, 0.333_333_333_333_333_3, 0.25, 0.307_692_307_692_307_7,

@@ -80,11 +80,16 @@ impl Explicit {
         match self.table.errors {
             [] => 0.0,
             [main] => norm(main),
-            [main, tempering, ..] => match norm(main) {
-                main if main > 0.0 => main * main / real::hypot(main, TEMPERING * norm(tempering)),
-                main => main,
-            },
+            [main, tempering, ..] => tempered(norm(main), || norm(tempering)),
         }
+    }
+}
+
+/// An error estimate, tempered by another.
+pub(super) fn tempered(main: f64, tempering: impl FnOnce() -> f64) -> f64 {
+    match main > 0.0 {
+        true => main * main / real::hypot(main, TEMPERING * tempering()),
+        false => main,
     }
 }
 

@@ -22,6 +22,7 @@ mod rk4;
 mod roots;
 mod run;
 mod step_control;
+mod strides;
 mod system;
 mod taylor;
 #[cfg(test)]
@@ -34,6 +35,7 @@ pub use march::{march, Span};
 pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options, TIGHTEST};
+pub use strides::{strides, Beside, Stretch};
 pub use system::{After, Analytic, Canonical, DynamicsError, EventSpec, Role, Spent, System};
 
 /// All methods; the first one is the default.

@@ -41,9 +41,12 @@ impl Norm {
 
     /// Tolerated error of a component of a size that is known at the start of the step, and of another within it.
     pub fn tolerated(&self, i: usize, known: f64, reached: f64) -> f64 {
-        let floor = (FLOOR * self.rtol).max(ROUND_OFF).max(self.noise.min(self.rtol));
-        let size = known.max(reached.min(GROWTH * known.max(self.scale[i])));
-        self.rtol * size + floor * self.scale[i]
+        self.tolerance().of(self.scale[i], known, reached)
+    }
+
+    /// That of all components.
+    pub fn tolerance(&self) -> Tolerance {
+        Tolerance { rtol: self.rtol, floor: (FLOOR * self.rtol).max(ROUND_OFF).max(self.noise.min(self.rtol)) }
     }
 
     /// Tolerated error of each component at the physical size of the system.
@@ -52,16 +55,40 @@ impl Norm {
     }
 }
 
+/// What is tolerated of a component, relative to its own size and to its physical one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tolerance {
+    rtol: f64,
+    floor: f64,
+}
+
+impl Tolerance {
+    /// As [`Norm::tolerated`], of a component of a physical size.
+    #[inline(always)]
+    pub fn of(self, scale: f64, known: f64, reached: f64) -> f64 {
+        let size = known.max(reached.min(GROWTH * known.max(scale)));
+        self.rtol * size + self.floor * scale
+    }
+}
+
 /// The norm of `values` in units of `weights`.
 pub(super) fn measure(values: &[f64], weights: &[f64]) -> f64 {
-    let (mut sum, mut top) = (0.0, 0.0_f64);
-    for (value, weight) in values.iter().zip(weights) {
-        let ratio = value / weight;
-        let square = ratio * ratio;
-        sum += square;
-        top = top.max(square);
-    }
-    (0.5 * (sum / values.len().max(1) as f64 + top)).sqrt()
+    norm(
+        values.iter().zip(weights).fold([0.0; 2], |squares, (value, weight)| noted(squares, value / weight)),
+        values.len(),
+    )
+}
+
+/// The sum of squares and the largest, with another.
+#[inline(always)]
+pub(super) fn noted([sum, top]: [f64; 2], ratio: f64) -> [f64; 2] {
+    let square = ratio * ratio;
+    [sum + square, top.max(square)]
+}
+
+/// The norm of so many values, by the sum of their squares and the largest.
+pub(super) fn norm([sum, top]: [f64; 2], count: usize) -> f64 {
+    (0.5 * (sum / count.max(1) as f64 + top)).sqrt()
 }
 
 /// Part of the tolerance, of the physical size, that is tolerated of a component that is zero but for round-off,

@@ -19,7 +19,7 @@ const LAST: f64 = 1.0 + 1e-6;
 /// tried again.
 const SHORT_OF_GAP: f64 = 1.05;
 /// Change of a step that could not be made, where nothing tells by how much it was too long,
-const FAILED: f64 = 0.25;
+pub(super) const FAILED: f64 = 0.25;
 /// and where Newton's method did not converge: its error grows with the step.
 const NOT_CONVERGED: f64 = 0.5;
 /// Projections at the end of a step that leave out what is stiff; where the last one is not down to round-off it is kept whole,

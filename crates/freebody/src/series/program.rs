@@ -51,10 +51,10 @@ impl Program {
         self.fixed.run::<B, 1>(self.fixed.steps.len(), memory);
     }
 
-    /// Writes the first results at time `t` and state `y`, which are the inputs that move; the others were taken before.
+    /// Writes the first results at times `t` and states `y`, which are the inputs that move; the others were taken before.
     #[inline(always)]
-    pub fn run<const B: usize>(&self, memory: &mut [Block<B>], t: f64, y: &[Block<B>], results: &mut [Block<B>]) {
-        memory[0] = Block::of(t);
+    pub fn run<const B: usize>(&self, memory: &mut [Block<B>], t: Block<B>, y: &[Block<B>], results: &mut [Block<B>]) {
+        memory[0] = t;
         memory[1..self.inputs].copy_from_slice(y);
         let asked = &self.results[..results.len()];
         let steps = asked.iter().map(|(_, steps)| *steps).max().unwrap_or(0);

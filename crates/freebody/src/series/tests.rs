@@ -108,10 +108,10 @@ fn a_program_gives_the_formula_to_the_same_bits_alone_and_side_by_side() {
     let [y, p] = [0.3, 0.7].map(|from| Block(std::array::from_fn(|i| from + 0.11 * i as f64)));
     program.fix(&mut beside, &[p]);
     for t in [0.4, 1.7] {
-        program.run(&mut beside, t, &[y], &mut all);
+        program.run(&mut beside, Block::of(t), &[y], &mut all);
         for i in 0..64 {
             program.fix(&mut alone, &[Block([p.0[i]])]);
-            program.run(&mut alone, t, &[Block([y.0[i]])], &mut one);
+            program.run(&mut alone, Block::of(t), &[Block([y.0[i]])], &mut one);
             for ((all, one), exact) in all.iter().zip(&one).zip(every_operation(&[t, y.0[i], p.0[i]])) {
                 assert_eq!(all.0[i].to_bits(), one.0[0].to_bits());
                 assert!((one.0[0] - exact).abs() <= 1e-14 * exact.abs().max(1.0), "{} {exact}", one.0[0]);
@@ -130,7 +130,7 @@ fn a_value_that_is_done_with_leaves_its_place_and_no_more_is_done_than_is_asked_
     assert!(memory.len() <= 5, "time, the state, a result kept, and what is at work: {}", memory.len());
     for count in 1..=2 {
         let mut results = vec![Block::of(0.0); count];
-        program.run(&mut memory, 0.0, &[Block::of(0.3)], &mut results);
+        program.run(&mut memory, Block::of(0.0), &[Block::of(0.3)], &mut results);
         // From x to √(x² + 1), 50 times for each result.
         let exact = |k: usize| (0.09 + 50.0 * (k + 1) as f64).sqrt();
         results.iter().enumerate().for_each(|(k, x)| assert!((x.0[0] - exact(k)).abs() < 1e-12, "{k} {x:?}"));

@@ -25,6 +25,7 @@ mod random;
 mod random_cables;
 mod random_mechanisms;
 mod random_motions;
+mod recorded;
 mod redundancy;
 mod rng;
 mod scenes;

@@ -7,6 +7,7 @@ mod endings;
 mod events;
 mod orders;
 mod stiff;
+mod strides;
 mod symplectic;
 mod taylor;
 
