@@ -194,7 +194,7 @@ for words in commands:
 """
 
 
-@pytest.mark.parametrize("hidden", ["pandas xarray", "scipy", "numpy"])
+@pytest.mark.parametrize("hidden", ["pandas xarray", "scipy", "flint", "numpy"])
 def test_a_library_that_is_missing_is_brought_by_one_line(hidden, falling, tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", WITHOUT, falling, str(tmp_path), *hidden.split()], capture_output=True, text=True, cwd=tmp_path

@@ -50,6 +50,10 @@ class Guarded(TyperGroup):
             raise typer.Exit(MISTAKEN) from None
 
 
+_PACKAGES = {"flint": "python-flint", "ruamel": "ruamel.yaml"}
+"""Those of modules that have other names."""
+
+
 def problems(error: Exception) -> list[Problem] | None:
     """What is wrong, where, and what to try; None for an error that is ours, and for a reader that went away."""
     from freebody.model.errors import Problem, Where
@@ -58,7 +62,7 @@ def problems(error: Exception) -> list[Problem] | None:
         return None if error.errno == errno.EPIPE else [Problem(Where(str(error.filename or "")), error.strerror or str(error))]
     if isinstance(error, ModuleNotFoundError) and error.name and not error.name.startswith("freebody"):
         what = f"this needs {error.name}, which is not installed"
-        return [Problem(Where(), what, f"pip install {error.name.partition('.')[0]}")]
+        return [Problem(Where(), what, f"pip install {_PACKAGES.get(module := error.name.partition('.')[0], module)}")]
     if hasattr(error, "format_message"):  # of typer, about the words of the command
         return [Problem(Where(), error.format_message())]
 
