@@ -455,7 +455,9 @@ class _Search:
         held = self.family.held and unreached(
             equation, self.values, reach=reach
         )  # what is held at 0, or stays it, may hide what is wrong
-        if holds and self.family.small and not equation.symbols.isdisjoint(self.vocabulary.energies):  # which all are 0 to first order
+        if (
+            holds and self.family.small and not equation.symbols.isdisjoint(self.vocabulary.energies)
+        ):  # which all are 0 to first order
             with suppress(NoMotion):
                 holds = first_order(self.case, equation, self.family)
         return holds and not held and not (self.family.since and not all(map(self._moves, terms(equation))))

@@ -32,7 +32,7 @@ _PUT: tuple[tuple[str, str], ...] = (
     (r"\A\s*after\s+(?:a|an|one|half|two|three|\d+)\b[^:()=]*\(([^():]*=[^():]*)\)\s*:(?!=)", r"when \1:"),
     # let go at β = 0: what is let go is at rest
     (
-        r"\A([^:=]*\b(?:released|let\s+go|dropped|set\s+free))\s+(?:at|from|with|where|in)\s+(?=[^\s:=]+\s*=[^:=]*:(?!=))",
+        r"\A([^:=]*\b(?:released|let\s+go|dropped|set\s+free))\s+(?:at|from|where|in)\s+(?=[^\s:=]+\s*=[^:=]*:(?!=))",
         r"\1 from rest at ",
     ),
     (r"\A\s*after\s+(?:a\s+|the\s+)?(?:time\s+)?t\s+from\s+rest\s*:(?!=)", "from rest:"),

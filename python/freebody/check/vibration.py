@@ -226,7 +226,8 @@ class Vibration:
 
     @cached_property
     def _amplitude(self) -> dict[str, float]:
-        """The parameter that is 0 where nothing drives the model to and fro, if there is one: it swings about where it rests then."""
+        """The parameter that is 0 where nothing drives the model to and fro, if there is one: it swings about where it rests then. Of several
+        that which has the least to do with how it swings: no force comes through a spring without stiffness, either."""
         sampler, core, first = self.sampler, self.sampler.core, self.sampler.first
         falls = [f"accel({quote(name)})" for name in sampler.names]
 
@@ -239,12 +240,19 @@ class Vibration:
                 return False
             return bool(np.ptp(found, axis=0).max(initial=0.0) <= _NOTHING * np.abs(found).max(initial=0.0))
 
+        def stiffness(zero: Mapping[str, float]) -> Array:
+            return _space(core, sampler.moved(first, first.q, {}, p=self._bound(zero))).a
+
+        def apart(zero: Mapping[str, float]) -> float:
+            one, other = stiffness(zero), stiffness({})
+            return float(np.abs(one - other).max(initial=0.0)) if one.shape == other.shape else np.inf
+
         if self._is_turned or self._later or is_steady({}):
             return {}
         amplitudes = (
             name for name, its in sampler.start.parameters.items() if name in self.parameters and (its is None or its.time != -1)
         )
-        return next((zero for name in amplitudes if is_steady(zero := {name: 0.0})), {})
+        return min((zero for name in amplitudes if is_steady(zero := {name: 0.0})), key=apart, default={})
 
     def quantities(self, row: Array) -> Mapping[str, float]:
         """What it has with other parameters; NaN where it is none."""
