@@ -48,7 +48,6 @@ if TYPE_CHECKING:
 
 _ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
-_BEGINNING = re.compile(r"(?:the\s+)?(?:start|beginning|release)")
 _ROOT = re.compile(r"√|sqrt")
 _BLOW = re.compile(BLOW)
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
@@ -369,8 +368,6 @@ class Checker:
     def event_called(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
         there: ``the lowest point``, ``the clutch grips``."""
-        if _BEGINNING.fullmatch(words):
-            return None
         said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
         named = called([e["name"] for e in self.sampler.spec["events"]], said)
         found = [e for e in self.sampler.spec["events"] if e["name"] in named]

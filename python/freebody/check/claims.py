@@ -107,7 +107,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         return replace(verdict, assumption=condition)
     if given.above and verdict.kind is Kind.UNDECIDABLE and (found := on_later_stretch(checker, declared, condition, statement)):
         return found
-    places = _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
+    places = () if given.at_start else _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
     if event := next((event for words in places if (event := checker.event_called(words))), None):
         there = timed_claims.at(checker, declared, event, statement)
         if there.ok:
