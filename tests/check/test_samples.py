@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
+from books import Book
 
 from freebody.catalogue import model_file
 from freebody.check import Checker, Kind
+from freebody.check.assumptions import SMALL, family
 from freebody.mechanism import Mechanism
 
 T, W, IF = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF
@@ -254,3 +257,16 @@ def test_what_touches_or_is_taut_is_as_at_the_start(name: str) -> None:
     checker = Checker(Mechanism.load(model_file(f"{system}/model")), letters)
     assert checker.check(right, correcting=False).kind is T
     assert checker.check(wrong, correcting=False).kind is W
+
+
+@pytest.mark.parametrize(
+    ("name", "angles"), [("rola_bola", "θ φ"), ("hinged_deck", "θ φ"), ("wheelset_hunting", "y ψ"), ("slewing_crane", "u w ψ")]
+)
+def test_what_is_small_is_so_with_its_rate_in_every_motion(name, angles):
+    """In loops one rate may be arranged at the cost of another."""
+    checker = Book(name).checker
+    case = checker.case(f"{angles.split()[0]} = 0", None, family(", ".join(f"{n} -> 0" for n in angles.split()), checker, {}))
+    values, sampler = case.values(), checker.sampler
+    for angle in angles.split():
+        size = 20 * SMALL * sampler.size_of(angle, sampler.first)
+        assert np.abs(values[angle]).max() < size and np.abs(values[f"{angle}dot"]).max() < size * sampler.rate

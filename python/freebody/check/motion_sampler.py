@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -38,6 +39,7 @@ _NEARER = 0.9  # to the start after a try that failed: loops may have few places
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
 _LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
+_STILL_SMALL = 10.0  # times as large as it was to be: round-off of what else was arranged
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
@@ -205,7 +207,19 @@ class MotionSampler(FollowedModel):
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(near, place, rates, t=t, p=self.core.bind(values))
         free = self._adjustable(family)
-        return self._judging(arranged(self, self._conditions(rng, family), state, rates, family, values, free))
+        made = arranged(self, self._conditions(rng, family), state, rates, family, values, free)
+        return self._judging(made) if self._is_small(family, made) else None
+
+    def _is_small(self, family: Family, state: State) -> bool:
+        """Whether what is small is so with its rate: what was arranged later may have moved it."""
+        texts, sizes = (
+            [text for text, _ in family.small],
+            np.array([size * self.size_of(text, self.first) for text, size in family.small]),
+        )
+        if not texts:
+            return True
+        found = np.abs(self.core.evaluate([*texts, *(f"rate({text})" for text in texts)], state)).reshape(2, -1)
+        return bool((found <= _STILL_SMALL * sizes * np.array([[1.0], [self.rate]])).all())
 
     def _adjustable(self, family: Family) -> list[str]:
         """The parameters of which one may have another value so that something vanishes: none with which loops close."""
@@ -284,7 +298,8 @@ class MotionSampler(FollowedModel):
         """Random rates, or none, of as many coordinates as may be given at will."""
         n = len(self.names)
         drawn = self.rate * self.sizes * rng.uniform(0.3, 1.5, n) * rng.choice([-1.0, 1.0], n)
-        order = rng.permutation(n)
+        small = {word for text, _ in family.small for word in re.findall(r"\w+", text)}
+        order = np.array(sorted(rng.permutation(n), key=lambda i: self.names[i] not in small))  # so that each is small by itself
         chosen = sorted(order[independent(self.free_rates[order])].tolist())
         return {self.names[i]: 0.0 if family.at_rest else float(drawn[i]) for i in chosen}
 
