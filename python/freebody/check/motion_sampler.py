@@ -211,12 +211,12 @@ class MotionSampler(FollowedModel):
         return self._judging(made) if self._is_small(family, made) else None
 
     def _is_small(self, family: Family, state: State) -> bool:
-        """Whether what is small is so with its rate: what was arranged later may have moved it."""
+        """Whether what is small is so with its rate: what was arranged later may have moved it. What vanishes besides goes before."""
         texts, sizes = (
             [text for text, _ in family.small],
             np.array([size * self.size_of(text, self.first) for text, size in family.small]),
         )
-        if not texts:
+        if not texts or family.vanishing:
             return True
         found = np.abs(self.core.evaluate([*texts, *(f"rate({text})" for text in texts)], state)).reshape(2, -1)
         return bool((found <= _STILL_SMALL * sizes * np.array([[1.0], [self.rate]])).all())
