@@ -86,6 +86,9 @@ def _what(term: Node, equation: Equation, vocabulary: Vocabulary) -> str:
         return "a mass times its arm"
     if its is not None and its.time == 0 and its.length in (0, 2):
         return "a part of the inertia, of what turns as well or m d² of a parallel axis,"
+    turns = any(vocabulary.dimension(n) == INERTIA for n in found)
+    if turns and (any(order(n) == 2 for n in found) or (rates and its is not None and not its.mass)):
+        return "the inertia of what turns as well"
     if any(order(n) == 2 for n in found):
         if its == ENERGY:
             return "r × m a of a point that accelerates, or of what moves as well,"
