@@ -249,7 +249,7 @@ SLIPS = {
         "lanchester_damper",
         "hub + ring, oil internal: J θ'' = T_0 sin Ωt − k θ",
         "hub + ring: J θ'' + J_d φ'' = T_0 sin Ωt − k θ",
-        "moves as well",
+        "turns as well",
     ),
     "a stretch up to an impact": (
         "hexagon_tumbles",
