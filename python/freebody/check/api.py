@@ -53,10 +53,8 @@ _BLOW = re.compile(BLOW)
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
-_REMARK = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
-_LIKELY = (
-    2.0  # size of a correction up to which it says that a statement is wrong, though of some words it is not known what they ask
-)
+_WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
+_LIKELY = 2.0  # size of a correction by which a statement is wrong, whatever some words ask
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
 _SMALL_ONE = re.compile(r"small\s+([^\s:,=]+)\s*:(?=.*(?:ω|omega|τ|tau|\b[Tf]\b|\b[Tf]_))", re.S)
@@ -139,7 +137,7 @@ class Checker:
             return replace(found, text=verdict.text) if found else verdict
         except StatementError as error:
             is_of_omega = re.search("`(?:ω|omega)(?:_[A-Za-z])?`", error.what) is not None
-            others = (self._of_frequencies,) * is_of_omega + (self._without_laws, partial(self._without_remark, error))
+            others = (self._of_frequencies,) * is_of_omega + (self._without_laws, partial(self._without_words, error))
             if found := next(filter(None, (other(*how) for other in others)), None):
                 return found
             raise
@@ -191,10 +189,10 @@ class Checker:
                     return replace(found, text=text.strip(), notes=(*found.notes, *passed))
         return None
 
-    def _without_remark(self, error: StatementError, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
+    def _without_words(self, error: StatementError, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where words among conditions are not understood: about the motions of which the others are. What is true of these is
         so; that something is wrong is said only where a likely correction is true of all of them, too."""
-        words = _REMARK.fullmatch(error.what)
+        words = _WORDS.fullmatch(error.what)
         other = re.sub(rf"{re.escape(words[1])}\s*,|,\s*{re.escape(words[1])}(?=\s*[:,])", "", text) if words else text
         if other == text:
             return None

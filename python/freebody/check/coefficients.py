@@ -32,18 +32,26 @@ def recognised(value: float) -> Node | None:
             continue
         if power not in (0, 1) and not {*part.as_integer_ratio()} <= _BESIDE_PI:
             continue
-        above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
-        top, bottom = (_with_pi(figure, n) for figure, n in ((above, power), (below, -power)))
-        found = top if bottom == Num(1.0) else Quotient(top, bottom)
-        return Negative(found) if value < 0 else found
+        above, below = _figures(part)
+        return _quotient(value, _with_pi(above, power), _with_pi(below, -power))
     for n in (2, 3):
         part = Fraction(abs(value) / math.sqrt(n)).limit_denominator(_BESIDE_ROOTS)
         if part and part.numerator <= _BESIDE_ROOTS and abs(float(part) * math.sqrt(n) / abs(value) - 1) < _SAME:
-            above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
-            top = product([*([above] if part.numerator > 1 else []), Fn("sqrt", (Num(float(n), str(n)),))])
-            found = Quotient(top, below) if part.denominator > 1 else top
-            return Negative(found) if value < 0 else found
+            above, below = _figures(part)
+            root = Fn("sqrt", (Num(float(n), str(n)),))
+            return _quotient(value, root if above == _ONE else Mul((above, root)), below)
     return None
+
+
+def _figures(part: Fraction) -> tuple[Num, Num]:
+    above, below = (Num(float(figure), str(figure)) for figure in part.as_integer_ratio())
+    return above, below
+
+
+def _quotient(value: float, top: Node, bottom: Node) -> Node:
+    """A quotient with the sign of a value."""
+    found = top if bottom == _ONE else Quotient(top, bottom)
+    return Negative(found) if value < 0 else found
 
 
 def _with_pi(figure: Num, power: int) -> Node:

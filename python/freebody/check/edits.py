@@ -247,11 +247,10 @@ def _is_rate(node: Node, vocabulary: Vocabulary) -> bool:
 def _rates(base: Node, n: float, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
     """A rate squared that should be a product of two, or an acceleration."""
     if n == 2 and isinstance(base, Sym) and base.dots == 1:
-        same = vocabulary.dimension(base)
-        speeds = [n for n in vocabulary.others if same is not None and vocabulary.dimension(n) == same]
-        yield from (("rates", Mul((base, other), span=base.span)) for other in (*vocabulary.alike(base), *speeds))
+        speeds = [n for n in vocabulary.motions_like(base) if n.dots < 2]
+        yield from (("rates", Mul((base, other), span=base.span)) for other in speeds)
         two = Num(2.0, "2")
-        for other in (*vocabulary.alike(base), *speeds):
+        for other in speeds:
             yield from (("symbol", Pow(Add((base, o)), two, span=base.span)) for o in (other, Negative(other)))
         yield "derivative", Sym(base.name, 2, span=base.span)
 

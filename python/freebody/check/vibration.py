@@ -228,31 +228,34 @@ class Vibration:
     def _amplitude(self) -> dict[str, float]:
         """The parameter that is 0 where nothing drives the model to and fro, if there is one: it swings about where it rests then. Of several
         that which has the least to do with how it swings: no force comes through a spring without stiffness, either."""
-        sampler, core, first = self.sampler, self.sampler.core, self.sampler.first
-        falls = [f"accel({quote(name)})" for name in sampler.names]
-
-        def is_steady(zero: Mapping[str, float]) -> bool:
-            try:
-                p = self._bound(zero)
-                states = (sampler.moved(first, first.q, {}, t=first.t + late / sampler.rate, p=p) for late in _LATE)
-                found = np.array([core.evaluate(falls, state) for state in states])
-            except (MotionError, ModelError):  # nothing has such a mass, or stiffness
-                return False
-            return bool(np.ptp(found, axis=0).max(initial=0.0) <= _NOTHING * np.abs(found).max(initial=0.0))
-
-        def stiffness(zero: Mapping[str, float]) -> Array:
-            return _space(core, sampler.moved(first, first.q, {}, p=self._bound(zero))).a
+        if self._is_turned or self._later or self._is_steady({}):
+            return {}
+        own = self._linear_at_start({})
 
         def apart(zero: Mapping[str, float]) -> float:
-            one, other = stiffness(zero), stiffness({})
-            return float(np.abs(one - other).max(initial=0.0)) if one.shape == other.shape else np.inf
+            found = self._linear_at_start(zero)
+            return float(np.abs(found - own).max(initial=0.0)) if found.shape == own.shape else np.inf
 
-        if self._is_turned or self._later or is_steady({}):
-            return {}
-        amplitudes = (
-            name for name, its in sampler.start.parameters.items() if name in self.parameters and (its is None or its.time != -1)
-        )
-        return min((zero for name in amplitudes if is_steady(zero := {name: 0.0})), key=apart, default={})
+        known = self.sampler.start.parameters
+        zeros = ({name: 0.0} for name in self.parameters if (its := known.get(name)) is None or its.time != -1)
+        return min(filter(self._is_steady, zeros), key=apart, default={})
+
+    def _is_steady(self, values: Mapping[str, float]) -> bool:
+        """Whether accelerations at the start's place, at rest, are at all times the same with some values of parameters."""
+        sampler, first = self.sampler, self.sampler.first
+        falls = [f"accel({quote(name)})" for name in sampler.names]
+        try:
+            p = self._bound(values)
+            states = (sampler.moved(first, first.q, {}, t=first.t + late / sampler.rate, p=p) for late in _LATE)
+            found = np.array([sampler.core.evaluate(falls, state) for state in states])
+        except (MotionError, ModelError):  # nothing has such a mass, or stiffness
+            return False
+        return bool(np.ptp(found, axis=0).max(initial=0.0) <= _NOTHING * np.abs(found).max(initial=0.0))
+
+    def _linear_at_start(self, values: Mapping[str, float]) -> Array:
+        """The matrix of the linear equations at the start's place, at rest, with some values of parameters."""
+        first = self.sampler.first
+        return _space(self.sampler.core, self.sampler.moved(first, first.q, {}, p=self._bound(values))).a
 
     def quantities(self, row: Array) -> Mapping[str, float]:
         """What it has with other parameters; NaN where it is none."""

@@ -1,7 +1,7 @@
 //! Many motions of one mechanism: side by side where its equations are the same operations for all, each for itself where not;
 //! over threads. A motion has the same bits whatever stands beside it; but where it finds its steps side by side, those of [`simulate`].
 
-mod paces;
+mod adaptive;
 mod side_by_side;
 mod starts;
 mod threads;
@@ -13,7 +13,7 @@ use crate::hybrid::{simulate, Settings, Start, Trajectory};
 use crate::mechanism::Mechanism;
 use crate::motion::{self, Outcome, TIGHTEST};
 use crate::series::Traced;
-use paces::Paces;
+use adaptive::Adaptive;
 use side_by_side::{SideBySide, SIDE_BY_SIDE};
 use threads::share_out;
 
@@ -70,16 +70,16 @@ impl Batch<'_> {
         let width = self.times.len() * self.width();
         let mut endings = vec![Ending::default(); self.members];
         let recorded = self.is_march().then(|| self.record()).flatten();
-        let readings = self.has_own_steps().then(|| self.readings()).flatten();
-        let block = if recorded.is_some() || readings.is_some() { SIDE_BY_SIDE } else { 1 };
+        let recordings = self.has_own_steps().then(|| self.recordings()).flatten();
+        let block = if recorded.is_some() || recordings.is_some() { SIDE_BY_SIDE } else { 1 };
         let todo = rows.chunks_mut((block * width).max(1)).zip(endings.chunks_mut(block)).enumerate();
         let begin = || {
             let mut beside = recorded.as_ref().map(|recorded| SideBySide::new(self, recorded));
-            let mut paces = readings.as_ref().map(|readings| Paces::new(self, readings));
+            let mut adaptive = recordings.as_ref().map(|recordings| Adaptive::new(self, recordings));
             move |(i, (rows, endings)): (usize, (&mut [f64], &mut [Ending]))| {
-                match (&mut beside, &mut paces) {
+                match (&mut beside, &mut adaptive) {
                     (Some(beside), _) => beside.make(i * block, rows, endings),
-                    (_, Some(paces)) => paces.make(i * block, rows, endings),
+                    (_, Some(adaptive)) => adaptive.make(i * block, rows, endings),
                     _ => endings[0] = self.alone(i, rows),
                 }
                 true

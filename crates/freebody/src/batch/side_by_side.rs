@@ -3,7 +3,7 @@
 use super::{Batch, Ending};
 use crate::dynamics::{reaction_names, Workspace};
 use crate::hybrid::Recorded;
-use crate::mechanism::Reading;
+use crate::mechanism::Recording;
 use crate::motion::{march, Outcome, Span};
 use crate::scalar::Block;
 use multiversion::multiversion;
@@ -29,7 +29,7 @@ impl Batch<'_> {
     pub fn record(&self) -> Option<Recorded> {
         let mut workspace = Workspace::new(self.m, self.parameters(0));
         self.place(0, &mut workspace);
-        Recorded::new(&workspace, Reading::Rates)
+        Recorded::new(&workspace, Recording::Rates)
     }
 }
 

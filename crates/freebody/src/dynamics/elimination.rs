@@ -2,7 +2,7 @@
 
 use crate::scalar::Scalar;
 
-/// [M Gᵀ; G 0] = L D Lᵀ, to be read where [`Quasidefinite`](crate::solve::Quasidefinite) decides that it holds.
+/// [M Gᵀ; G 0] = L D Lᵀ without pivoting (Golub & Van Loan, *Matrix Computations*, §4.1), to be read where [`Quasidefinite`](crate::solve::Quasidefinite) decides that it holds.
 #[derive(Clone, Debug)]
 pub struct Elimination<S> {
     /// The rows of D Lᵀ right of the diagonal.

@@ -11,7 +11,7 @@ use crate::bound_values::BoundValues;
 use crate::gauges::ModelExpr;
 use crate::joints::Joint as _;
 use crate::kinematics::{Kinematics, State, StateView};
-use crate::mechanism::{Drive, DriveGauges, Force, Joint, Level, Mechanism, Reading};
+use crate::mechanism::{Drive, DriveGauges, Force, Joint, Level, Mechanism, Recording};
 use crate::mode::Mode;
 use crate::plane::{Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
@@ -104,9 +104,9 @@ impl<'m, S: Scalar> SmoothMotion<'m, S> {
     ///
     /// # Errors
     /// `singular_mass`.
-    pub fn read(&mut self, what: Reading, t: S, y: &[S], zeros: &[S]) -> Result<Vec<S>, DynamicsError> {
+    pub fn read(&mut self, what: Recording, t: S, y: &[S], zeros: &[S]) -> Result<Vec<S>, DynamicsError> {
         match what {
-            Reading::Rates => {
+            Recording::Rates => {
                 let mut read = vec![S::zero(); y.len()];
                 self.rate(t, y, &mut read)?;
                 read.extend_from_slice(&self.pivots);
@@ -117,9 +117,9 @@ impl<'m, S: Scalar> SmoothMotion<'m, S> {
                 read.extend(motions.map(|drive| solved.drive_power(drive)));
                 Ok(read)
             }
-            Reading::Corrections if self.m.is_tree() => Ok(vec![]),
-            Reading::Corrections => Ok(self.corrections(t, y, zeros)),
-            Reading::Solution => self.solution(t, y),
+            Recording::Corrections if self.m.is_tree() => Ok(vec![]),
+            Recording::Corrections => Ok(self.corrections(t, y, zeros)),
+            Recording::Solution => self.solution(t, y),
         }
     }
 

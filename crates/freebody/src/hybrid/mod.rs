@@ -27,7 +27,7 @@ mod works;
 pub use canonical::mass_matrix;
 pub use impacts::Rule;
 pub use mode_changes::{ContactImpulse, Impulses, ModeChange};
-pub use recorded::{Recorded, FIRM};
+pub use recorded::{is_firm, Recorded};
 pub use reference::reference;
 pub use scales::Sizes;
 pub use system::HybridSystem;

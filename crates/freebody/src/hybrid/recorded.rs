@@ -3,21 +3,26 @@
 use super::HybridSystem;
 use crate::bound_values::BoundValues;
 use crate::dynamics::{closing_rows, SmoothMotion, Workspace};
-use crate::mechanism::Reading;
+use crate::mechanism::Recording;
 use crate::scalar::{Block, Scalar};
 use crate::series::{recorded, Program, Traced};
+use crate::solve::Quasidefinite;
 use std::sync::Arc;
 
 /// By how much the state recorded is aside: there no length vanishes without which a spring has no direction.
 const ASIDE: f64 = 0.618_033_988_749_894_9;
 /// Independence of the closing rows below which every stage of a step is brought onto the loops.
 pub(super) const NEAR_SINGULAR: f64 = 0.1;
-/// Most coordinates and closing rows together: more are not eliminated in the order given.
-const MOST: usize = 16;
 /// Part of what was left of an inertia or a row at the start, where it is eliminated, below which digits may be lost.
-pub const FIRM: f64 = 1e-2;
+const FIRM: f64 = 1e-2;
 
-/// A [`Reading`] as a function of time, of [q, u, states], and of what follows from parameters and from where the loops are closed.
+/// Whether a pivot says that digits are kept, beside what it was at the start.
+#[inline(always)]
+pub fn is_firm(pivot: f64, at_start: f64) -> bool {
+    pivot.abs() >= FIRM * at_start.abs()
+}
+
+/// A [`Recording`] as a function of time, of [q, u, states], and of what follows from parameters and from where the loops are closed.
 #[derive(Clone, Debug)]
 pub struct Recorded {
     /// The operations.
@@ -31,10 +36,10 @@ pub struct Recorded {
 
 impl Recorded {
     /// That of a mechanism that is placed, recorded once for all its motions; None where its motion may be other operations elsewhere.
-    pub fn new(workspace: &Workspace, what: Reading) -> Option<Self> {
+    pub fn new(workspace: &Workspace, what: Recording) -> Option<Self> {
         let (m, massless) = (workspace.m, massless(workspace.at().n));
         let pivots = if m.is_tree() { 0 } else { m.freedom() + closing_rows(workspace.at(), None).len() };
-        if !SmoothMotion::<Traced>::fits(m) || pivots > MOST {
+        if !SmoothMotion::<Traced>::fits(m) || pivots > Quasidefinite::MOST {
             return None;
         }
         let bound: Vec<_> = (0..m.values.len()).filter(|&i| m.values[i].variables().next().is_some()).collect();
@@ -67,7 +72,7 @@ fn numbers(workspace: &Workspace, bound: &[usize]) -> Vec<f64> {
     n.p[..m.first_state()].iter().copied().chain(bound.iter().map(|&i| n.values[i])).chain(zeros).collect()
 }
 
-fn program(workspace: &Workspace, bound: &[usize], what: Reading) -> Option<Program> {
+fn program(workspace: &Workspace, bound: &[usize], what: Recording) -> Option<Program> {
     let (m, at) = (workspace.m, workspace.at());
     let first_state = m.first_state();
     let moving = [&[at.t], at.q, at.u, &at.n.p[first_state..]].concat();
@@ -103,7 +108,7 @@ pub(super) struct Motion {
 impl Motion {
     /// That of a mechanism that is placed, and solved, at its start, with so many works.
     pub fn new(workspace: &mut Workspace, works: usize) -> Option<Self> {
-        let (recorded, m) = (Recorded::new(workspace, Reading::Rates)?, workspace.m);
+        let (recorded, m) = (Recorded::new(workspace, Recording::Rates)?, workspace.m);
         if !recorded.holds_at(workspace) {
             return None;
         }
@@ -133,8 +138,8 @@ impl Motion {
         let ((own, states), (pivots, powers)) = (rates.split_at(self.own), rest.split_at(self.pivots.len()));
         let rates = own.iter().chain(powers).chain(states);
         dy.iter_mut().zip(rates).for_each(|(dy, rate)| *dy = rate.0[0]);
-        let is_firm = pivots.iter().zip(&self.pivots).all(|(pivot, start)| pivot.0[0].abs() >= FIRM * start.abs());
-        is_firm && dy.iter().all(|rate| rate.is_finite())
+        let is_kept = pivots.iter().zip(&self.pivots).all(|(pivot, &start)| is_firm(pivot.0[0], start));
+        is_kept && dy.iter().all(|rate| rate.is_finite())
     }
 }
 

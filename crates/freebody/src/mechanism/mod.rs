@@ -8,7 +8,7 @@ mod drives;
 mod events;
 mod forces;
 mod joints;
-mod reading;
+mod recording;
 mod surfaces;
 mod unilateral;
 
@@ -17,7 +17,7 @@ pub use drives::{Drive, DriveGauges, DriveKind, Level};
 pub use events::{Discontinuity, Event, EventAction};
 pub use forces::{Force, GaugeForce, PlateFriction, PlateOutline, PointForce};
 pub use joints::{Coordinate, CurveFollower, FrictionSource, Joint, JointFriction};
-pub use reading::Reading;
+pub use recording::Recording;
 pub use surfaces::{Arc, Chain, ContactPair, Disk, Profile, Stretch, Track};
 pub use unilateral::{Friction, Gap, Group, UnilateralConstraint, FRICTION};
 
@@ -96,7 +96,7 @@ pub struct Mechanism {
     /// What was assumed while compiling, in sentences.
     pub notes: Vec<String>,
     /// What was recorded of its motion when it was needed first, by which bodies have no mass.
-    pub recorded: Memo<(Reading, Vec<bool>)>,
+    pub recorded: Memo<(Recording, Vec<bool>)>,
 }
 
 /// A parameter.

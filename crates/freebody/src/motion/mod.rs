@@ -3,6 +3,7 @@
 //! Knows no mechanics: it moves an abstract [`System`]. A method is a table and a citation, one
 //! entry of [`METHODS`] and one file. [`run()`] is the only way in.
 
+mod adaptive_lanes;
 mod chatter;
 mod collocation;
 mod dense;
@@ -22,20 +23,19 @@ mod rk4;
 mod roots;
 mod run;
 mod step_control;
-mod strides;
 mod system;
 mod taylor;
 #[cfg(test)]
 mod tests;
 mod tsit5;
 
+pub use adaptive_lanes::{integrate_lanes, Interval, LaneSystem};
 pub use dense::{Segment, Trajectory};
 pub use events::{Doubt, Kind, Unresolved};
 pub use march::{march, Span};
 pub use method::Method;
 pub use outcome::{EventRecord, Outcome, Run};
 pub use run::{run, Options, TIGHTEST};
-pub use strides::{strides, Beside, Stretch};
 pub use system::{After, Analytic, Canonical, DynamicsError, EventSpec, Role, Spent, System};
 
 /// All methods; the first one is the default.

@@ -2,8 +2,6 @@
 
 use super::{largest, Matrix, Solution};
 
-/// Most unknowns and rows together.
-const MOST: usize = 16;
 /// Pivot, over the largest inertia or over what the row was before the others were eliminated, below which digits may be lost.
 const CLEAR: f64 = 1e-2;
 
@@ -30,13 +28,16 @@ macro_rules! of_size {
 }
 
 impl Quasidefinite {
+    /// Most unknowns and rows together.
+    pub const MOST: usize = 16;
+
     /// Factors other equations, false where it declines; `scale`: what makes the unknowns of order one.
     pub fn refactor(&mut self, mass: &Matrix, g: &Matrix, scale: &[f64]) -> bool {
         self.size = mass.rows() + g.rows();
-        if self.size == 0 || self.size > MOST {
+        if self.size == 0 || self.size > Self::MOST {
             return false;
         }
-        self.factors.resize(MOST * MOST, 0.0);
+        self.factors.resize(Self::MOST * Self::MOST, 0.0);
         let inertia = largest(scale.iter().enumerate().map(|(j, scale)| mass[(j, j)] * scale * scale));
         of_size!(self.size, self.factor(mass, g, scale, CLEAR * inertia))
     }

@@ -7,7 +7,7 @@ use crate::random_mechanisms::{loads, AGREE};
 use crate::rng::Rng;
 use freebody::dynamics::{reaction_names, Route, Workspace};
 use freebody::hybrid::Recorded;
-use freebody::mechanism::Reading;
+use freebody::mechanism::Recording;
 use freebody::mode::Mode;
 use freebody::scalar::Block;
 
@@ -27,7 +27,7 @@ fn read(recorded: &Recorded, workspace: &Workspace, count: usize) -> Vec<f64> {
 }
 
 /// Visits states on the loops of frames of one to three windows with what is recorded of each frame.
-fn every_state(what: Reading, mut visit: impl FnMut(&Recorded, &mut Workspace, &str, &mut Rng)) {
+fn every_state(what: Recording, mut visit: impl FnMut(&Recorded, &mut Workspace, &str, &mut Rng)) {
     let mut visited = 0;
     for seed in 0..120 {
         let (mut rng, driven) = (Rng::new(seed), seed % 3 == 2);
@@ -49,7 +49,7 @@ fn every_state(what: Reading, mut visit: impl FnMut(&Recorded, &mut Workspace, &
 
 #[test]
 fn loops_accelerate_and_carry_as_by_newton_and_euler() {
-    every_state(Reading::Solution, |recorded, workspace, label, _| {
+    every_state(Recording::Solution, |recorded, workspace, label, _| {
         let (m, now) = (workspace.m, workspace.instant(Route::NewtonEuler).unwrap_or_else(|e| panic!("{label}: {e}")));
         let found = read(recorded, workspace, m.freedom() + reaction_names(m).len());
         let off = apart(&found[..m.freedom()], &now.accelerations, 1.0);
@@ -61,7 +61,7 @@ fn loops_accelerate_and_carry_as_by_newton_and_euler() {
 
 #[test]
 fn rates_are_the_accelerations_and_the_power_of_each_motion() {
-    every_state(Reading::Rates, |recorded, workspace, label, _| {
+    every_state(Recording::Rates, |recorded, workspace, label, _| {
         let (n, motions) = (workspace.m.freedom(), workspace.m.drives.len());
         workspace.solve_by(Route::Constraints).unwrap_or_else(|e| panic!("{label}: {e}"));
         let mut expected = [workspace.at().u, &vec![0.0; n]].concat();
@@ -77,7 +77,7 @@ fn rates_are_the_accelerations_and_the_power_of_each_motion() {
 /// Least in the metric of the masses, as corrections by the equations of the instant are.
 #[test]
 fn a_correction_closes_places_in_first_order_and_rates_at_once() {
-    every_state(Reading::Corrections, |recorded, workspace, label, rng| {
+    every_state(Recording::Corrections, |recorded, workspace, label, rng| {
         let (m, mode) = (workspace.m, Mode::free(workspace.m));
         let (n, t, q) = (m.freedom(), workspace.at().t, workspace.at().q.to_vec());
         let u = rng.vector(n, 1.0);

@@ -3,11 +3,11 @@
 use super::*;
 
 mod accuracy;
+mod adaptive_lanes;
 mod endings;
 mod events;
 mod orders;
 mod stiff;
-mod strides;
 mod symplectic;
 mod taylor;
 

@@ -1,4 +1,5 @@
-//! Many motions at once by the method `dop853`, each by steps of its own: nothing is looked for on the way.
+//! Many motions at once by the method `dop853` (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, §II.10), each by steps
+//! of its own, and without events.
 
 use super::dense::{between, cubic};
 use super::dop853::TABLE;
@@ -15,7 +16,7 @@ const ORDER: u32 = 8;
 const BENDS: usize = 6;
 
 /// Systems side by side; what fails gives no numbers.
-pub trait Beside<const B: usize> {
+pub trait LaneSystem<const B: usize> {
     /// Writes their rates, each at its time and state.
     fn rate(&mut self, t: &Block<B>, y: &[Block<B>], dy: &mut [Block<B>]);
     /// Brings the states of some of them back onto what their motions keep.
@@ -26,7 +27,7 @@ pub trait Beside<const B: usize> {
 
 /// When motions begin, end, and are shown, s, and how their steps are chosen.
 #[derive(Clone, Copy, Debug)]
-pub struct Stretch<'a> {
+pub struct Interval<'a> {
     /// Start.
     pub from: f64,
     /// End.
@@ -46,8 +47,8 @@ struct Lane {
 }
 
 /// All of them.
-struct Strides<'a, const B: usize> {
-    stretch: Stretch<'a>,
+struct AdaptiveLanes<'a, const B: usize> {
+    interval: Interval<'a>,
     lanes: Vec<Lane>,
     live: [bool; B],
     scale: Vec<Block<B>>,
@@ -63,16 +64,16 @@ struct Strides<'a, const B: usize> {
     bends: [Vec<Block<B>>; BENDS],
 }
 
-/// Carries the `live` ones of systems, of physical sizes of their states and their rates, along a stretch. Answers which came to its end.
+/// Carries the `live` ones of systems, of physical sizes of their states and their rates, along an interval. Answers which came to its end.
 #[inline(always)]
-pub fn strides<const B: usize>(
-    system: &mut impl Beside<B>,
-    stretch: Stretch,
+pub fn integrate_lanes<const B: usize>(
+    system: &mut impl LaneSystem<B>,
+    interval: Interval,
     start: &[Block<B>],
     sizes: Vec<(Vec<f64>, f64)>,
     live: [bool; B],
 ) -> [bool; B] {
-    let mut all = Strides::new(stretch, start, sizes, live);
+    let mut all = AdaptiveLanes::new(interval, start, sizes, live);
     all.begin(system);
     while all.choose() {
         let accepted = all.step(system);
@@ -81,10 +82,10 @@ pub fn strides<const B: usize>(
     std::array::from_fn(|i| all.live[i] && all.y.iter().chain(&all.k[0]).all(|x| x.0[i].is_finite()))
 }
 
-impl<'a, const B: usize> Strides<'a, B> {
+impl<'a, const B: usize> AdaptiveLanes<'a, B> {
     #[inline(always)]
-    fn new(stretch: Stretch<'a>, start: &[Block<B>], sizes: Vec<(Vec<f64>, f64)>, live: [bool; B]) -> Self {
-        let Options { rtol, max_step, .. } = *stretch.options;
+    fn new(interval: Interval<'a>, start: &[Block<B>], sizes: Vec<(Vec<f64>, f64)>, live: [bool; B]) -> Self {
+        let Options { rtol, max_step, .. } = *interval.options;
         let scale = (0..start.len()).map(|i| Block(std::array::from_fn(|lane| sizes[lane].0[i]))).collect();
         let lane = |(scale, rate): (Vec<f64>, f64)| Lane {
             norm: Norm { rtol, scale, time: 1.0 / rate, noise: 0.0 },
@@ -93,15 +94,15 @@ impl<'a, const B: usize> Strides<'a, B> {
             shown: 0,
         };
         let lanes: Vec<Lane> = sizes.into_iter().map(lane).collect();
-        Strides {
-            stretch,
+        AdaptiveLanes {
+            interval,
             tolerance: lanes[0].norm.tolerance(),
             lanes,
             live,
             scale,
-            t: Block::of(stretch.from),
+            t: Block::of(interval.from),
             h: Block::of(0.0),
-            end: Block::of(stretch.from),
+            end: Block::of(interval.from),
             y: start.to_vec(),
             next: start.to_vec(),
             stage: start.to_vec(),
@@ -112,18 +113,18 @@ impl<'a, const B: usize> Strides<'a, B> {
 
     /// Closes the start, shows it where it is asked for, and finds the first steps.
     #[inline(always)]
-    fn begin(&mut self, system: &mut impl Beside<B>) {
+    fn begin(&mut self, system: &mut impl LaneSystem<B>) {
         system.project(&self.t, &mut self.y, &self.live);
         system.rate(&self.t, &self.y, &mut self.k[0]);
-        while self.lanes[0].shown < self.stretch.times.len()
-            && self.stretch.times[self.lanes[0].shown] == self.stretch.from
+        while self.lanes[0].shown < self.interval.times.len()
+            && self.interval.times[self.lanes[0].shown] == self.interval.from
         {
             self.stage.clone_from(&self.y);
             system.show(&self.t, &mut self.stage, &[true; B]);
             self.lanes.iter_mut().for_each(|lane| lane.shown += 1);
         }
-        let left = self.stretch.to - self.stretch.from;
-        if let Some(h) = self.stretch.options.first_step {
+        let left = self.interval.to - self.interval.from;
+        if let Some(h) = self.interval.options.first_step {
             self.lanes.iter_mut().for_each(|lane| lane.steps.restart(h.abs() * left.signum()));
             return;
         }
@@ -158,7 +159,7 @@ impl<'a, const B: usize> Strides<'a, B> {
     fn choose(&mut self) -> bool {
         let mut is_going = false;
         for (i, lane) in self.lanes.iter_mut().enumerate() {
-            let (t, to) = (self.t.0[i], self.stretch.to);
+            let (t, to) = (self.t.0[i], self.interval.to);
             self.h.0[i] = 0.0;
             if !self.live[i] || t == to {
                 continue;
@@ -166,7 +167,7 @@ impl<'a, const B: usize> Strides<'a, B> {
             let end = end_of_step(t, to, lane.steps.h);
             (self.end.0[i], self.h.0[i]) = (end, end - t);
             let is_short = self.h.0[i].abs() < 4.0 * f64::EPSILON * t.abs() && end != to || self.h.0[i] == 0.0;
-            self.live[i] = !is_short && lane.tried < self.stretch.options.max_steps;
+            self.live[i] = !is_short && lane.tried < self.interval.options.max_steps;
             lane.tried += 1;
             is_going |= self.live[i];
         }
@@ -175,7 +176,7 @@ impl<'a, const B: usize> Strides<'a, B> {
 
     /// Tries a step of each; answers which are accurate enough.
     #[inline(always)]
-    fn step(&mut self, system: &mut impl Beside<B>) -> [bool; B] {
+    fn step(&mut self, system: &mut impl LaneSystem<B>) -> [bool; B] {
         for (j, (&c, a)) in TABLE.c.iter().zip(TABLE.a).enumerate() {
             self.stage(system, j + 1, c, a);
         }
@@ -210,7 +211,7 @@ impl<'a, const B: usize> Strides<'a, B> {
 
     /// The rates at a stage.
     #[inline(always)]
-    fn stage(&mut self, system: &mut impl Beside<B>, index: usize, c: f64, a: &[f64]) {
+    fn stage(&mut self, system: &mut impl LaneSystem<B>, index: usize, c: f64, a: &[f64]) {
         let (known, rest) = self.k.split_at_mut(index);
         combine(a, known, &self.h, Some(&self.y), &mut self.stage);
         let t = Block(block::each([&self.t.0, &self.h.0], |[t, h]| t + c * h));
@@ -239,7 +240,7 @@ impl<'a, const B: usize> Strides<'a, B> {
 
     /// Closes the ends of the steps that are accepted, shows what is asked for within them, and goes there.
     #[inline(always)]
-    fn finish(&mut self, system: &mut impl Beside<B>, accepted: &[bool; B]) {
+    fn finish(&mut self, system: &mut impl LaneSystem<B>, accepted: &[bool; B]) {
         let stages = TABLE.b.len();
         system.project(&self.end, &mut self.next, accepted);
         system.rate(&self.end, &self.next, &mut self.k[stages]);
@@ -266,14 +267,14 @@ impl<'a, const B: usize> Strides<'a, B> {
         let mut asked = *accepted;
         for (i, (asked, lane)) in asked.iter_mut().zip(&self.lanes).enumerate() {
             let is_within = |&next: &f64| (next - self.end.0[i]) * self.h.0[i] <= 0.0;
-            *asked &= self.stretch.times.get(lane.shown).is_some_and(is_within);
+            *asked &= self.interval.times.get(lane.shown).is_some_and(is_within);
         }
         asked
     }
 
     /// Finds how the motions bend within the steps.
     #[inline(always)]
-    fn bend(&mut self, system: &mut impl Beside<B>) {
+    fn bend(&mut self, system: &mut impl LaneSystem<B>) {
         for (j, (&c, a)) in TABLE.more_c.iter().zip(TABLE.more_a).enumerate() {
             self.stage(system, TABLE.b.len() + 1 + j, c, a);
         }
@@ -296,7 +297,7 @@ impl<'a, const B: usize> Strides<'a, B> {
     fn between(&mut self, asked: &[bool; B]) -> Block<B> {
         let mut t = self.end;
         for (i, lane) in self.lanes.iter().enumerate().filter(|(i, _)| asked[*i]) {
-            t.0[i] = self.stretch.times[lane.shown];
+            t.0[i] = self.interval.times[lane.shown];
         }
         let theta = block::each([&t.0, &self.t.0, &self.h.0], |[t, from, h]| (t - from) / h);
         for (i, stage) in self.stage.iter_mut().enumerate() {

@@ -3,9 +3,9 @@
 use super::side_by_side::{put, Lanes, SIDE_BY_SIDE};
 use super::{Batch, Ending};
 use crate::dynamics::{Workspace, CLOSED, OPEN};
-use crate::hybrid::{Recorded, Sizes, FIRM};
-use crate::mechanism::Reading;
-use crate::motion::{strides, Beside, Outcome, Stretch};
+use crate::hybrid::{is_firm, Recorded, Sizes};
+use crate::mechanism::Recording;
+use crate::motion::{integrate_lanes, Interval, LaneSystem, Outcome};
 use crate::scalar::Block;
 use crate::series::Program;
 use multiversion::multiversion;
@@ -15,13 +15,13 @@ use std::slice::ChunksExactMut;
 const CORRECTIONS: usize = 12;
 
 /// What is recorded of the members of a batch.
-pub struct Readings {
+pub struct Recordings {
     rates: Recorded,
     corrections: Recorded,
     solution: Recorded,
 }
 
-impl Readings {
+impl Recordings {
     fn programs(&self) -> [&Program; 3] {
         [&self.rates, &self.corrections, &self.solution].map(|recorded| &*recorded.program)
     }
@@ -29,19 +29,19 @@ impl Readings {
 
 impl Batch<'_> {
     /// What is read of its members, as it is for the first.
-    pub fn readings(&self) -> Option<Readings> {
+    pub fn recordings(&self) -> Option<Recordings> {
         let mut workspace = Workspace::new(self.m, self.parameters(0));
         self.place(0, &mut workspace);
-        let reading = |what| Recorded::new(&workspace, what);
-        let (rates, corrections) = (reading(Reading::Rates)?, reading(Reading::Corrections)?);
-        Some(Readings { rates, corrections, solution: reading(Reading::Solution)? })
+        let recording = |what| Recorded::new(&workspace, what);
+        let (rates, corrections) = (recording(Recording::Rates)?, recording(Recording::Corrections)?);
+        Some(Recordings { rates, corrections, solution: recording(Recording::Solution)? })
     }
 }
 
 /// What makes them, one block of members after the other.
-pub struct Paces<'a> {
+pub struct Adaptive<'a> {
     batch: &'a Batch<'a>,
-    readings: &'a Readings,
+    recordings: &'a Recordings,
     workspace: Workspace<'a>,
     memories: [Vec<Lanes>; 3],
 }
@@ -49,7 +49,7 @@ pub struct Paces<'a> {
 /// A block of members on their way.
 struct Members<'a> {
     batch: &'a Batch<'a>,
-    readings: &'a Readings,
+    recordings: &'a Recordings,
     memories: &'a mut [Vec<Lanes>; 3],
     /// The rows of each that are not written yet.
     rows: Vec<ChunksExactMut<'a, f64>>,
@@ -62,10 +62,10 @@ struct Members<'a> {
     finite: [bool; SIDE_BY_SIDE],
 }
 
-impl<'a> Paces<'a> {
-    pub fn new(batch: &'a Batch<'a>, readings: &'a Readings) -> Self {
+impl<'a> Adaptive<'a> {
+    pub fn new(batch: &'a Batch<'a>, recordings: &'a Recordings) -> Self {
         let workspace = Workspace::new(batch.m, batch.parameters(0));
-        Paces { batch, readings, workspace, memories: readings.programs().map(Program::memory) }
+        Adaptive { batch, recordings, workspace, memories: recordings.programs().map(Program::memory) }
     }
 
     /// Makes the members from one on; those that fail, each for itself.
@@ -79,17 +79,17 @@ impl<'a> Paces<'a> {
             let workspace = &mut self.workspace;
             batch.place(member, workspace);
             put(&mut start, lane, [q, u, &p[batch.m.first_state()..]].concat());
-            put(&mut numbers, lane, self.readings.rates.numbers(workspace));
+            put(&mut numbers, lane, self.recordings.rates.numbers(workspace));
             let is_state = first + lane < batch.members && batch.m.check_state(p, batch.t, q, u).is_ok();
             sizes.push(Sizes::new(workspace, 0, (batch.until - batch.t).abs()));
-            *live = is_state && self.readings.rates.holds_at(workspace);
+            *live = is_state && self.recordings.rates.holds_at(workspace);
         }
-        for (program, memory) in self.readings.programs().into_iter().zip(&mut self.memories) {
+        for (program, memory) in self.recordings.programs().into_iter().zip(&mut self.memories) {
             program.fix(memory, &numbers);
         }
         let mut members = Members {
             batch,
-            readings: self.readings,
+            recordings: self.recordings,
             memories: &mut self.memories,
             rows: rows.chunks_mut(all).map(|rows| rows.chunks_exact_mut(width)).collect(),
             width,
@@ -99,9 +99,9 @@ impl<'a> Paces<'a> {
             finite: [true; SIDE_BY_SIDE],
         };
         let Batch { t, until, times, settings, .. } = *batch;
-        let stretch = Stretch { from: t, to: until, times, options: &settings.options };
+        let interval = Interval { from: t, to: until, times, options: &settings.options };
         let sizes = sizes.into_iter().map(|sizes| (sizes.of, sizes.rate)).collect();
-        let ends = carry(&mut members, stretch, &start, sizes, live);
+        let ends = carry(&mut members, interval, &start, sizes, live);
         let finite = members.finite;
         for (lane, (rows, ending)) in rows.chunks_mut(all).zip(endings).enumerate() {
             *ending = match ends[lane] && finite[lane] {
@@ -113,17 +113,17 @@ impl<'a> Paces<'a> {
 }
 
 /// What cannot be trusted is no number.
-impl Beside<SIDE_BY_SIDE> for Members<'_> {
+impl LaneSystem<SIDE_BY_SIDE> for Members<'_> {
     fn rate(&mut self, t: &Lanes, y: &[Lanes], dy: &mut [Lanes]) {
-        self.read.resize(y.len() + self.readings.rates.pivots, Block::of(0.0));
-        run(&self.readings.rates.program, &mut self.memories[0], t, y, &mut self.read);
+        self.read.resize(y.len() + self.recordings.rates.pivots, Block::of(0.0));
+        run(&self.recordings.rates.program, &mut self.memories[0], t, y, &mut self.read);
         let (rates, pivots) = self.read.split_at(y.len());
         dy.copy_from_slice(rates);
         if self.pivots.is_empty() {
             self.pivots = pivots.to_vec();
         }
-        let is_firm = firm(pivots, &self.pivots);
-        for lane in (0..SIDE_BY_SIDE).filter(|&lane| !is_firm[lane]) {
+        let are_firm = firm(pivots, &self.pivots);
+        for lane in (0..SIDE_BY_SIDE).filter(|&lane| !are_firm[lane]) {
             dy.iter_mut().for_each(|dy| dy.0[lane] = f64::NAN);
         }
     }
@@ -136,7 +136,7 @@ impl Beside<SIDE_BY_SIDE> for Members<'_> {
         let (mut open, mut last) = (*of, [f64::INFINITY; SIDE_BY_SIDE]);
         self.read.resize(2 * n, Block::of(0.0));
         for _ in 0..CORRECTIONS {
-            run(&self.readings.corrections.program, &mut self.memories[1], t, y, &mut self.read);
+            run(&self.recordings.corrections.program, &mut self.memories[1], t, y, &mut self.read);
             if !correct(y, &self.read, &self.units, &mut open, &mut last) {
                 return;
             }
@@ -150,7 +150,7 @@ impl Beside<SIDE_BY_SIDE> for Members<'_> {
         self.project(t, y, of);
         let (own, width) = (2 * self.batch.m.freedom(), self.width);
         self.read.resize(width - own, Block::of(0.0));
-        run(&self.readings.solution.program, &mut self.memories[2], t, y, &mut self.read);
+        run(&self.recordings.solution.program, &mut self.memories[2], t, y, &mut self.read);
         let is_finite = finite(&y[..own], &self.read);
         for (lane, rows) in self.rows.iter_mut().enumerate().filter(|(lane, _)| of[*lane]) {
             let (states, solution) = rows.next().expect("a row for each time").split_at_mut(own);
@@ -174,13 +174,11 @@ fn finite(y: &[Lanes], read: &[Lanes]) -> [bool; SIDE_BY_SIDE] {
 /// Of which members something is left of each inertia and row.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd+avx2", "x86_64+avx2"))]
 fn firm(pivots: &[Lanes], at_start: &[Lanes]) -> [bool; SIDE_BY_SIDE] {
-    let mut is_firm = [true; SIDE_BY_SIDE];
+    let mut are_firm = [true; SIDE_BY_SIDE];
     for (pivot, start) in pivots.iter().zip(at_start) {
-        for (is_firm, (pivot, start)) in is_firm.iter_mut().zip(pivot.0.iter().zip(&start.0)) {
-            *is_firm &= pivot.abs() >= FIRM * start.abs();
-        }
+        (0..SIDE_BY_SIDE).for_each(|lane| are_firm[lane] &= is_firm(pivot.0[lane], start.0[lane]));
     }
-    is_firm
+    are_firm
 }
 
 /// Corrects the positions of those that are open, and the rates of those that were all but closed; answers whether any is open still.
@@ -214,14 +212,14 @@ fn run(program: &Program, memory: &mut [Lanes], t: &Lanes, y: &[Lanes], results:
     program.run(memory, *t, y, results);
 }
 
-/// Carries members along a stretch in the widest registers that the machine has.
+/// Carries members along a interval in the widest registers that the machine has.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd+avx2", "x86_64+avx2"))]
 fn carry(
     members: &mut Members<'_>,
-    stretch: Stretch<'_>,
+    interval: Interval<'_>,
     start: &[Lanes],
     sizes: Vec<(Vec<f64>, f64)>,
     live: [bool; SIDE_BY_SIDE],
 ) -> [bool; SIDE_BY_SIDE] {
-    strides(members, stretch, start, sizes, live)
+    integrate_lanes(members, interval, start, sizes, live)
 }

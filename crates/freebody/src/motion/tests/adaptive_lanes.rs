@@ -19,7 +19,7 @@ struct Pendulums {
     shown: [Vec<[f64; 2]>; LANES],
 }
 
-impl Beside<LANES> for Pendulums {
+impl LaneSystem<LANES> for Pendulums {
     fn rate(&mut self, t: &Block<LANES>, y: &[Block<LANES>], dy: &mut [Block<LANES>]) {
         for i in 0..LANES {
             let mut own = [0.0; 2];
@@ -45,9 +45,9 @@ fn each_has_the_bits_that_it_has_alone_however_long_the_steps_of_others_are() {
         let times: Vec<f64> = [0.0, 0.01, 0.3, 0.31, 2.0, 7.999, 8.0].iter().map(|t| t * to / 8.0).collect();
         let start = [Block([0.5; LANES]), Block([0.1; LANES])];
         let mut system = Pendulums { w, shown: Default::default() };
-        let stretch = Stretch { from: 0.0, to, times: &times, options: &options };
+        let interval = Interval { from: 0.0, to, times: &times, options: &options };
         let live = std::array::from_fn(|i| i != 4);
-        let ends = strides(&mut system, stretch, &start, vec![(vec![1.0; 2], 1.0); LANES], live);
+        let ends = integrate_lanes(&mut system, interval, &start, vec![(vec![1.0; 2], 1.0); LANES], live);
         for i in (0..LANES).filter(|&i| live[i]) {
             let mut alone = Plain::new(&[1.0, 1.0], |t, y, dy| rate(w[i], t, y, dy));
             let run = alone.run("dop853", (0.0, &[0.5, 0.1]), to, &options);
