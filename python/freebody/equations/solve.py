@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -41,11 +42,12 @@ def solve(
     nomenclature: Nomenclature | None = None,
     *,
     patience: float = PATIENCE,
+    most: float = math.inf,
 ) -> list[Tree]:
     """The solution x of A x = b symbolically, each entry in the shortest form found.
 
-    ``patience`` is in seconds for each entry. More than 6 unknowns are ``TooLarge``, unless coefficients are measured numbers; a matrix that is singular for all
-    values of the symbols is ``Singular``. The solution is held against the system at random values."""
+    ``patience`` is in seconds for each entry. ``TooLarge`` are more than 6 unknowns, unless coefficients are measured numbers, and then determinants of more than
+    ``most`` operations; a matrix that is singular for all values of the symbols is ``Singular``. The solution is held against the system at random values."""
     if any(len(row) != len(right) for row in (matrix, *matrix)):
         raise ValueError("A x = b needs as many equations as unknowns")
 
@@ -55,7 +57,11 @@ def solve(
     if len(right) > MOST_UNKNOWNS and not numeric:
         many = f"{len(right)} unknowns are too many for a symbolic answer (at most {MOST_UNKNOWNS})"
         raise TooLarge(f"{many}; ask for numbers, or for a smaller set of equations")
-    found = _solved_measured(a, b) if numeric else [presented(entry, nomenclature, patience=patience) for entry in _solved(a, b)]
+    found = (
+        _solved_measured(a, b, most)
+        if numeric
+        else [presented(entry, nomenclature, patience=patience) for entry in _solved(a, b)]
+    )
     if not all(equal(add(*map(mul, row, found)), entry) for row, entry in zip(matrix, right, strict=True)):
         raise Unconfirmed("the symbolic answer does not satisfy the equations at random values; take the numbers instead")
     return found
@@ -125,17 +131,20 @@ def _solved(a: Any, b: Any) -> list[Any]:
     except sympy.polys.matrices.exceptions.DMNonInvertibleMatrixError:
         raise Singular(_UNDETERMINED) from None
     back = {new: old for old, new in shared.items()}
-    return [entry.subs(back) for entry in solution.to_Matrix()]
+    return [entry.xreplace(back) for entry in solution.to_Matrix()]
 
 
-def _solved_measured(a: Any, b: Any) -> list[Tree]:
+def _solved_measured(a: Any, b: Any, most: float) -> list[Tree]:
     """The same with measured numbers: determinants, whose common factors are not looked for, as round-off hides them."""
     shared, (a, b) = rational_in_symbols(a.applyfunc(rational), b.applyfunc(rational))
     joined = sympy.polys.matrices.DomainMatrix.from_Matrix(a.row_join(b)).to_dense()
     n, back = a.rows, {new: old for old, new in shared.items()}
 
     def determinant(columns: list[int]) -> Any:
-        return joined.domain.to_sympy(joined.extract(list(range(n)), columns).charpoly()[-1] * (-1) ** n).subs(back)
+        found = joined.domain.to_sympy(joined.extract(list(range(n)), columns).charpoly()[-1] * (-1) ** n)
+        if found.count_ops() > most:
+            raise TooLarge("the symbolic answer would be too long to read")
+        return found.xreplace(back)
 
     below = determinant(list(range(n)))
     if below == 0:

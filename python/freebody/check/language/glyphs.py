@@ -6,6 +6,7 @@ import re
 import unicodedata
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import lru_cache
 from itertools import pairwise
 
 from freebody.symbolic.alphabet import LATEX_WORDS, READ
@@ -112,11 +113,12 @@ _LAID_OUT = re.compile(r"(\\resizebox\{[^{}]*\}\{!\}\{\$|\{\\allowdisplaybreaks\
 """What fits a formula to the width, or lets it go on overleaf, and the formula."""
 
 
-def glyphs(text: str) -> list[Glyph]:
+@lru_cache(maxsize=64)  # with other names the same text is read again
+def glyphs(text: str) -> tuple[Glyph, ...]:
     """All glyphs of a statement. Comments, labels in front of a colon, numbers of equations at the end and how it is laid out
     read as blanks. Raises ``StatementError``."""
     bare = _LAID_OUT.sub(lambda found: f"{' ' * len(found[1])}{found[2]}{' ' * len(found[3])}", _COMMENT.sub(_blank, text))
-    return _carried_on(_pointing(_Reader(_LABEL.sub(_blank, bare)).all()))
+    return tuple(_carried_on(_pointing(_Reader(_LABEL.sub(_blank, bare)).all())))
 
 
 def _pointing(row: list[Glyph]) -> list[Glyph]:

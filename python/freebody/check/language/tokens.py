@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import accumulate, pairwise, takewhile
@@ -120,7 +120,7 @@ class _Piece:
 
 
 class _Reader:
-    def __init__(self, row: list[Glyph], names: Names) -> None:
+    def __init__(self, row: Sequence[Glyph], names: Names) -> None:
         self.row, self.names, self.at = [*row, Glyph(Kind.LINE, "\n", (0, 0))], names, 0
         self.out: list[Token] = []
         self.blank, self.integrals = True, 0

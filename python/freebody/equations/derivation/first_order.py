@@ -10,6 +10,8 @@ from freebody.symbolic.tree import Sym, Tree, operations, read
 
 _SHORT = 60
 """Operations of an acceleration up to which it stands explicitly."""
+_MOST = 4 * _SHORT
+"""The same of two equations, or of a determinant multiplied out, from which so short a one may still come."""
 _PATIENCE = 0.5
 
 
@@ -37,10 +39,10 @@ def first_order(system: System, subject: SymbolicState, below: bool = False) -> 
 def _explicit(system: System, subject: SymbolicState) -> list[Tree]:
     """The accelerations by the state; none where they take pages, or other unknowns."""
     size = sum(operations(entry) for row in (*system.matrix, system.right) for entry in row)
-    if not system.gives_accelerations or size > (4 if len(system.unknowns) < 3 else 1) * _SHORT:
+    if not system.gives_accelerations or size > (_MOST if len(system.unknowns) < 3 else _SHORT):
         return []
     try:
-        found = solve(system.matrix, system.right, subject.nomenclature, patience=_PATIENCE)
+        found = solve(system.matrix, system.right, subject.nomenclature, patience=_PATIENCE, most=_MOST)
     except (Singular, TooLarge, Unconfirmed):
         return []
     return found if all(operations(tree) <= _SHORT for tree in found) else []
