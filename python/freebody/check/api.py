@@ -162,6 +162,9 @@ class Checker:
         condition, _, said = with_condition_first(plainly(text)[0]).rpartition(":")
         if "frequencies:" in text or not OMEGA.search(said):
             return None
+        if self.vibration.is_of_several and re.search(r"→|->|\\(?:right)?to\b|\\rightarrow", condition):
+            asked = [self.check(OMEGA.sub(f"ω_{1 + i}", text), letters, *how) for i in range(self.vibration.count)]
+            return next((one for one in asked if one.ok), asked[0])
         claim = as_claim(f"{'for ' * bool(_SMALL.match(condition))}{condition}: frequencies: {said}")
         if not re.match(rf"(?:{CONDITION}|frequencies)\b", claim):
             if re.search(r"[=<>→]|\bmode\b", condition):  # which of them is meant is not understood
@@ -214,7 +217,8 @@ class Checker:
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
         checker.budget = Budget(self.seconds, begins=thread_time())
-        plain, passed = plainly(text, {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())})
+        names = {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())}
+        plain, passed = plainly(text, names, {*self.mechanism.parameters})
         if any(name.startswith("Δ") for name in (*self.declared, *(letters or ()))):  # a letter, and no change
             plain = re.sub(r"\\Delta\s*(?=\w)", "Δ", plain)
         try:

@@ -51,17 +51,17 @@ class FollowedModel(AskedModel):
 
     def put(self, start: State, family: Family, values: Mapping[str, float]) -> State:
         """A start, put where it has to be for what is asked of its place alone."""
-        of_start = [text for text in family.vanishing if OF_START.search(text) and not _ELSE.search(text)]
-        moving = slice(1, 1 + 2 * len(self.names))
-        alone = (
-            text
-            for text in of_start
-            if not OF_TIME.search(text) and not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any()
-        )
-        places = [OF_START.sub(r"(\1)", text) for text in alone]
+        places = [OF_START.sub(r"(\1)", text) for text in self.of_start(family, start)]
         if family.since == BEFORE or all(self.vanishes(text, start) for text in places):
             return start
         return arranged(self, places, start, self._named(start.u), replace(family, at_rest=True, vanishing=()), values, ())
+
+    def of_start(self, family: Family, start: State) -> list[str]:
+        """What of that which vanishes is asked of the place alone where a motion starts."""
+        asked = [text for text in family.vanishing if OF_START.search(text) and not _ELSE.search(text)]
+        moving = slice(1, 1 + 2 * len(self.names))
+        alone = (text for text in asked if not OF_TIME.search(text))
+        return [text for text in alone if not self.core.derivatives([OF_START.sub("1", text)], start)[0, moving].any()]
 
     def followed(self, start: State, longs: Sequence[float]) -> Iterator[tuple[Trajectory, bool]]:
         """The motion from a start in stages that are so many times the time typical of the model long, the later ones as long as that

@@ -123,9 +123,9 @@ class Likelihood:
                 odd += _ROOTED * (bool(old.symbols) and new is not None and any(map(_is_root_of_number, walk(new))))
                 return odd + _FORGOTTEN * (odd > 0 and self._has_load and self._is_force(old))
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
-                return self._of_symbol(old, new) + _ODD * any(
-                    isinstance(side, Add) and cancels_within(side, self.values) for side in (edit.after.left, edit.after.right)
-                )
+                sums = [side for side in (edit.after.left, edit.after.right) if isinstance(side, Add)]
+                twice = any(len({*each.terms}) < len(each.terms) for each in sums)  # 2 T is not written T + T
+                return self._of_symbol(old, new) + _ODD * (twice or any(cancels_within(each, self.values) for each in sums))
             case "symbol", _, new:
                 if not (new.symbols & self._answers).issubset(() if edit.old is None else edit.old.symbols):
                     return math.inf  # what it is solved for, for something else

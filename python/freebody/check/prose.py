@@ -22,8 +22,11 @@ _FROM_REST = re.compile(
     r"|(?:\b(?:after|for|with|on)\s+)?\ba\s+start\s+from\s+rest\b",
     re.IGNORECASE,
 )
-_REST_AT = re.compile(r"\(?(if the start is at rest)\s+(?:at|with|where)\s+([^\s=,():]+)\s*=\s*([^\s=,;():]+)\)?")
-"""``(starts from rest at x = 0)``."""
+_PLACE = r"([^\s=,():]+)\s*=\s*([^\s=,;():]+)"
+_REST_AT = re.compile(
+    rf"\(?(if the start is at rest)\s+(?:at|with|where)\s+({_PLACE}(?:(?:,|\s+and)\s+{_PLACE}(?=\)|\s*[,:]))*)\)?"
+)
+"""``(starts from rest at x = 0)``, ``released from rest at θ = 90°, s = b:``."""
 _REST_THERE = re.compile(r"(if the start is at rest)\s+(?:at|in|from)\s+\$?\\?[^\W\d]+_?\{?\d?[0₀]\}?\$?(?=\s*[:,])")
 """``released from rest at θ_0:``, where it starts."""
 _THESE_NUMBERS = re.compile(
@@ -148,9 +151,9 @@ _COMMENT = re.compile(
 """Words behind an equation, after a comma or in brackets."""
 
 
-def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...]]:
+def plainly(text: str, known: Collection[str] = (), fixed: Collection[str] = ()) -> tuple[str, tuple[str, ...]]:
     """A statement without words that say nothing of it, and with the conditions among them in the words of claims; names that are
-    ``known`` are no words. And what is to be said of what was passed over."""
+    ``known`` are no words, and those that are ``fixed`` have no place at the start. And what is to be said of what was passed over."""
     passed: list[str] = []
     if (read := usual(text)) != text:
         passed.append(f"It is read as: {read.strip()}")
@@ -158,6 +161,10 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     def told(found: re.Match[str], what: str) -> str:
         passed.append(f"`{found[0].strip(' ,')}` is read as {what}.")
         return " "
+
+    def at_start(found: re.Match[str]) -> str:
+        said = [(name if name in fixed else f"{name}_0", value) for name, value in re.findall(_PLACE, found[2])]
+        return ", ".join([found[1], *(f"{name} = {value}" for name, value in said if folded(name) != folded(value))])
 
     def comment(found: re.Match[str]) -> str:
         measured = said[: found.start()].strip()[-1].isdigit()  # 5 [m/s] is a measure
@@ -175,7 +182,7 @@ def plainly(text: str, known: Collection[str] = ()) -> tuple[str, tuple[str, ...
     said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _AND_THERE.sub(lambda found: f"\n{told(found, 'a remark, and not judged')}", said)
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
-    said = _REST_AT.sub(r"\1, \2_0 = \3", _REST_THERE.sub(r"\1", _FROM_REST.sub("if the start is at rest", said)))
+    said = _REST_AT.sub(at_start, _REST_THERE.sub(r"\1", _FROM_REST.sub("if the start is at rest", said)))
     said = _THESE_NUMBERS.sub("if with these numbers", said)
     said = _WHICH_POINT.sub(r"\1", _REMARK.sub("", said))
     for sense, sign in _SENSE.items():

@@ -37,7 +37,7 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
             return beside_event(checker, declared, beside[1], beside[2], beside[3], under)
         if IN_WORDS.fullmatch(part) and (found := phase(checker, part)):
             return _of_phase(checker, declared, found, part, under, problem)
-    known = {*checker.mechanism.parameters, *declared}
+    known = _letters(checker, declared)
     words = [part for part in parts if (IN_WORDS.fullmatch(part) or part in known) and part not in WORDS]
     if not words or len(words) == len(parts):
         return labelled(checker, declared, condition, statement, problem)
@@ -72,7 +72,7 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
     }
-    names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in {*checker.mechanism.parameters, *declared}
+    names = bool((parts | meshing) & {*re.findall(r"\w+", words)}) or words in _letters(checker, declared)
     placed = _PLACED.match(words) is not None
     stretch = (lasts or placed) and said and not names and _ONE_PART.search(words) is None
     asked = checker.at_first() if lasts or placed else checker
@@ -83,11 +83,17 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         raise problem
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
-    if (stretch or (placed and others)) and not verdict.ok and not _FIRST_OF_ALL.search(words):
+    elsewhere = not verdict.ok or (others and _says_nothing(verdict))
+    if (stretch or (placed and others)) and elsewhere and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
+
+
+def _letters(checker: Checker, declared: Declared) -> set[str]:
+    """What a label may be of, as in ``Lagrange, for θ:``."""
+    return {*checker.mechanism.parameters, *checker.sampler.names, *declared}
 
 
 def _described(checker: Checker, declared: Declared, given: Family, words: str, statement: str) -> Verdict | None:
@@ -123,7 +129,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     for name in [] if found.ok else dict.fromkeys(event.name for event in run.events):
         with suppress(ModelProblem, StatementError):
             before = beside_event(checker, declared, "", "before", name, statement)
-            if before.ok and not (before.untested and _is_idle(before)):
+            if before.ok and not _says_nothing(before):
                 return replace(before, notes=(*before.notes, f"`{words}` is read as before {name}."))
     if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
         raise problem
@@ -165,7 +171,7 @@ def in_phase(
             continue
         if one.ok:
             one = replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
-            if not (one.untested and _is_idle(one)):
+            if not _says_nothing(one):
                 return one
         found.append(one)
     if not found:
@@ -175,6 +181,11 @@ def in_phase(
     nearest = next((one for one in found if one.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None) or _least_wrong(found)
     how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
     return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
+
+
+def _says_nothing(one: Verdict) -> bool:
+    """Whether something that a statement is of is 0 where it holds, and may act on another stretch."""
+    return bool(one.untested) and _is_idle(one)
 
 
 def _is_idle(one: Verdict) -> bool:
