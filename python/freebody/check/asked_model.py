@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections.abc import Callable, Mapping
@@ -225,9 +226,24 @@ class AskedModel:
     @cached_property
     def derived_start(self) -> set[str]:
         """Parameters with a formula that say where or how fast the model starts."""
-        start = self.mechanism.model.initial
-        read = set(re.findall(r"[^\W\d]\w*", start.model_dump_json())) if start else set()
-        return {each["name"] for each in self.spec["parameters"] if isinstance(each["value"], str)} & read
+        return {each["name"] for each in self.spec["parameters"] if isinstance(each["value"], str)} & self._words_of(self._start)
+
+    @cached_property
+    def of_the_way(self) -> set[str]:
+        """Parameters in what says where and how fast the model starts and what happens on its way, and in formulas there."""
+        said = self._start + json.dumps(self.spec["events"], ensure_ascii=False)
+        for parameter in reversed(self.spec["parameters"]):
+            if isinstance(parameter["value"], str) and parameter["name"] in self._words_of(said):
+                said += f" {parameter['value']}"
+        return self._words_of(said)
+
+    @property
+    def _start(self) -> str:
+        return self.mechanism.model.initial.model_dump_json() if self.mechanism.model.initial else ""
+
+    @staticmethod
+    def _words_of(text: str) -> set[str]:
+        return {*re.findall(r"[^\W\d]\w*", text)}
 
     @cached_property
     def frictions(self) -> list[str]:

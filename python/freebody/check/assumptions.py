@@ -71,6 +71,7 @@ _PART = 0.85  # of the budget, so that there is time for the balance that comes 
 _AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
 _TINY = 1e-7  # rad, or so much of a typical length, at which what is left of a true linear equation is little beside its terms, and round-off, too
 _TINY_OF_ENERGY = 1e-4  # the same of an energy, whose square of it is no round-off
+_SMALLER = 2  # times that what is small is taken ten times as small
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _NOTHING = 1e-9  # of its parts, below which a term is 0
 _HELD = 1e-9  # of the rates that can be given at will, below which a coordinate has none
@@ -193,12 +194,17 @@ def first_order(case: Case, equation: Equation, family: Family, larger: Family |
         return float(np.max(shares, initial=0.0)) if there.sum() >= OFTEN else np.nan
 
     far, near = (beside_terms(case.values(each, count=_STATES)) for each in (larger, family))
+    for _ in range(_SMALLER if family.small else 0):
+        if not _NEGLIGIBLE <= near < far / 3:
+            break
+        family = wider(family, 0.1)  # what is neglected may have large numbers before it
+        far, near = near, beside_terms(case.values(family, count=_STATES))
     return bool(near < HOLDS or (near < _NEGLIGIBLE and near < far / 3))
 
 
-def wider(family: Family) -> Family:
-    """The same with what is small ten times as large."""
-    return replace(family, small=tuple((text, 10 * size) for text, size in family.small))
+def wider(family: Family, times: float = 10.0) -> Family:
+    """The same with what is small so many times as large."""
+    return replace(family, small=tuple((text, times * size) for text, size in family.small))
 
 
 def says_zero(equation: Equation) -> bool:

@@ -143,8 +143,8 @@ class StatementSymbols:
     @cached_property
     def of_start_alone(self) -> list[str]:
         """Free parameters that say where and how fast the model starts, and nothing else."""
-        free, gravities = self.sampler.free_parameters, self.sampler.gravities
-        return [name for name in free if name not in gravities and not _named(name, self.mechanics)]
+        free, gravities, said = self.sampler.free_parameters, self.sampler.gravities, self.sampler.of_the_way
+        return [name for name in free if name in said and name not in gravities and not _named(name, self.mechanics)]
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """What each symbol with a value stands for, by ``Sym.key``: symbols that only name one quantity twice agree in it."""

@@ -164,6 +164,7 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
                 yield "inverses", Add(tuple(_over(top, term) for term in bottom.terms), **at)
         case Add(terms=terms):
             yield from _of_sums(terms, node.span)
+            yield from (("angle", new) for new in _along_another(node, vocabulary))
         case Num(value=math.pi):
             yield "power", Pow(node, Num(2.0, "2"), **at)
         case Cross(left=left, right=right):
@@ -219,6 +220,16 @@ def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[s
         tops, bottoms = zip(*((term.top, term.bottom) for term in terms if isinstance(term, Quotient)), strict=True)
         if all(top == tops[0] for top in tops):
             yield "inverses", Quotient(tops[0], Add(bottoms), span=span)
+
+
+def _along_another(whole: Add, vocabulary: Vocabulary) -> Iterator[Node]:
+    """A sum of what lies along a direction, resolved along another: every sine and cosine of one angle, of that."""
+    calls = dict.fromkeys(n for n in walk(whole) if isinstance(n, Fn) and n.name in _OTHER)
+    for args in dict.fromkeys(n.args for n in calls):
+        own = [n for n in calls if n.args == args]
+        if len(own) > 1:
+            for angle in (angle for angle in vocabulary.angles if (angle,) != args):
+                yield _exchanged(whole, {n: Fn(n.name, (angle,)) for n in own})
 
 
 def _are_components(one: Node, other: Node) -> bool:

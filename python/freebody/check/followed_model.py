@@ -9,12 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from freebody.core import State, Trajectory
+from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
 
 from .arrangement import NOTHING, arranged
 from .asked_model import AskedModel
 from .families import BEFORE, Family, Samples
 from .moments import Moments
+from .sides import turns_over
 from .stretches import zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START, OF_TIME
 
@@ -45,9 +47,16 @@ class FollowedModel(AskedModel):
 
     def released(self, values: Mapping[str, float], family: Family) -> State:
         """The start, where it has to be, and with no rates where it is to be at rest."""
-        start = self.started(values)
+        start = self.put_together(values, family)
         still = {self.names[i]: 0.0 for i in independent(self.free_rates)}
         return self.put(self.moved(start, start.q, still) if family.at_rest else start, family, values)
+
+    def put_together(self, values: Mapping[str, float], family: Family) -> State:
+        """The start with other parameters, with its springs to the same side. Raises ``ModelProblem``."""
+        start = self.started(values)
+        if not family.scaled and turns_over(self.core, self.spec, self.first, start):
+            raise ModelProblem("a spring is turned over at the start", "take other numbers")
+        return start
 
     def put(self, start: State, family: Family, values: Mapping[str, float]) -> State:
         """A start, put where it has to be for what is asked of its place alone."""

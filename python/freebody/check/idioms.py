@@ -19,7 +19,9 @@ _ABROAD = {
 """Words of other languages with which a condition begins."""
 _NAME = r"(\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?)"
 _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
+_RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _PUT: tuple[tuple[str, str], ...] = (
+    (rf"\A\s*(\$?(?:{_RATE}\s*=\s*)+0\$?)\s*:(?!=)", r"when \1:"),  # φ' = φ'' = 0: …
     (r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)", ""),  # ω = const = v/r
     *((rf"(?i)\A\s*(?:{words})\s+(?=[^:\n]*:(?!=))", f"{word} ") for word, words in _ABROAD.items()),
     (r"\A\s*\\(?:text|textrm|mbox|mathrm)\s*\{([^{}:=]+):\s*\}\s*", r"\1: "),  # \text{plank + spool: } …
@@ -90,6 +92,15 @@ _SLOPE = re.compile(
     rf"|(?<![\w\\])d(?:²|\^2)\s*{_NAME}\s*/\s*d\s*{_NAME}(?:²|\^2)"
 )
 """``d²u/dθ²``, of which t is read elsewhere."""
+_OF_SQUARE = rf"({_NAME[1:-1]}\s*(?:²|\^\s*\{{?2\}}?))"
+_IN_BRACKETS = r"(?:\\left)?[(\[]((?:[^()\[\]]|\([^()]*\))*?)(?:\\right)?[)\]]"
+_BY_PLACE = (
+    rf"\\[dt]?frac\s*\{{\s*d\s*(?:{_IN_BRACKETS}|{_OF_SQUARE})\s*\}}\s*\{{\s*d\s*{_NAME}\s*\}}()",
+    rf"(?<![\w\\])d\s*(?:{_IN_BRACKETS}|{_OF_SQUARE})\s*/\s*d\s*{_NAME}(?![\w(\[])()",
+    rf"()()\\[dt]?frac\s*\{{\s*d\s*\}}\s*\{{\s*d\s*{_NAME}\s*\}}\s*{_IN_BRACKETS}",
+    rf"()()(?<![\w\\])d\s*/\s*d\s*{_NAME}\s*{_IN_BRACKETS}",
+)
+"""``d(v²)/dθ``, ``d/dx(½ m v²)``, of which t is read elsewhere: what is differentiated, and by which place."""
 _LESS = r"(?:<=|>=|[<>≤≥]|\\(?:leq?|geq?|lt|gt)(?![a-z]))"
 _IN_LABEL = (
     re.compile(rf"\(([^()=:]*{_LESS}[^()=:]*)\)"),
@@ -105,6 +116,8 @@ def usual(text: str) -> str:
     text = _ranged(text)
     for written, read in _PUT:
         text = re.sub(written, read, text)
+    for written in _BY_PLACE:
+        text = re.sub(written, _by_place, text)
     return _SLOPE.sub(_slope, text)
 
 
@@ -122,6 +135,12 @@ def _ranged(text: str) -> str:
         return text
     parts = (f"{one} {sign} {other}" for one, sign, other in zip(sides[:-1], signs, sides[1:], strict=True))
     return f"if {', '.join(parts)}:{said}"
+
+
+def _by_place(found: re.Match[str]) -> str:
+    """A derivative by what moves, as rates have it."""
+    inner, square, by, behind = found.groups()
+    return found[0] if by == "t" else f"((d/dt({inner or square or behind}))/{by}')"
 
 
 def _slope(found: re.Match[str]) -> str:

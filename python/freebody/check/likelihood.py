@@ -132,6 +132,7 @@ class Likelihood:
                 undoes = isinstance(new, Add) and self.taken.by(edit.after)
                 return (
                     self._of_symbols(new)
+                    + _SOLVED * any(side is edit.old for side in self._sides)
                     + _ODD * undoes
                     + _ODD * all(isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right))
                 )

@@ -333,7 +333,7 @@ class MotionSampler(FollowedModel):
         """A state on a run from the model's own start with random numbers, with the rates there or at rest, from the moment on, where
         what vanishes first does so; before anything switches, or ``through`` that. And that start."""
         start = self._at_moment(
-            self.started(values), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
+            self.put_together(values, family), self._rates(rng, replace(family, at_rest=True)) if family.since == "rest" else None
         )
         start = self.put(start, family, values)
         began = self.started(values) if family.since == BEFORE else start

@@ -22,7 +22,7 @@ _FROM_REST = re.compile(
     r"|(?:\b(?:after|for|with|on)\s+)?\ba\s+start\s+from\s+rest\b",
     re.IGNORECASE,
 )
-_PLACE = r"([^\s=,():]+)\s*=\s*([^\s=,;():]+)"
+_PLACE = r"[^\s=,():]+(?:\s*=\s*[^\s=,;():]+)+"
 _REST_AT = re.compile(
     rf"\(?(if the start is at rest)\s+(?:at|with|where)\s+({_PLACE}(?:(?:,|\s+and)\s+{_PLACE}(?=\)|\s*[,:]))*)\)?"
 )
@@ -163,7 +163,8 @@ def plainly(text: str, known: Collection[str] = (), fixed: Collection[str] = ())
         return " "
 
     def at_start(found: re.Match[str]) -> str:
-        said = [(name if name in fixed else f"{name}_0", value) for name, value in re.findall(_PLACE, found[2])]
+        chains = [re.split(r"\s*=\s*", place) for place in re.findall(_PLACE, found[2])]
+        said = [(name if name in fixed else f"{name}_0", value) for *names, value in chains for name in names]
         return ", ".join([found[1], *(f"{name} = {value}" for name, value in said if folded(name) != folded(value))])
 
     def comment(found: re.Match[str]) -> str:

@@ -27,11 +27,22 @@ def changes_side(core: CompiledModel, squares: Sequence[str], start: Array, stat
         return bool(np.any((last < 0) | between & (first - b**2 / (4 * a) < _TOUCHING * size)))
 
 
+def turns_over(core: CompiledModel, spec: Mapping[str, Any], one: State, other: State) -> bool:
+    """Whether a spring or damper points the other way in another state: what is drawn together farther than it is long."""
+    pairs = [(quote(a), quote(b)) for a, b in _between(spec)]
+    texts = [f"{axis}({b}) - {axis}({a})" for a, b in pairs for axis in "xy"]
+    spans = [core.evaluate(texts, state).reshape(-1, 2) for state in (one, other)]
+    return bool(np.any(np.sum(spans[0] * spans[1], axis=1) < 0))
+
+
+def _between(spec: Mapping[str, Any]) -> list[tuple[str, str]]:
+    return [force["with"]["between"] for force in spec["forces"] if "between" in force["with"]]
+
+
 def squares(spec: Mapping[str, Any]) -> Iterator[str]:
     """The squares of the distances that springs, dampers, polar coordinates and expressions of a model read, and of the free lengths
     of its strings."""
-    pairs = [force["with"]["between"] for force in spec["forces"] if "between" in force["with"]]
-    pairs += [joint["with"]["of"] for joint in spec["joints"] if joint["type"] == "polar"]
+    pairs = _between(spec) + [joint["with"]["of"] for joint in spec["joints"] if joint["type"] == "polar"]
     yield from (f"distance({quote(a)}, {quote(b)})^2" for a, b in pairs)
     yield from (f"{read}^2" for read in re.findall(r"distance\([^()]*\)", json.dumps(spec, ensure_ascii=False)))
     chains = [(string["ends"][0], *string["over"], string["ends"][1]) for string in spec["strings"]]

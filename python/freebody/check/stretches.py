@@ -13,6 +13,8 @@ _BEHIND = 1e-6  # of what is left of a stretch, by which the next zero is looked
 _NOTHING = 1e-9  # of the largest value
 _LOOKS, _FINER, _SHORTEST = 65, 12, 1e-15
 """Times at which it is looked for between two, how often again, and how near they may come."""
+_ROUND = 2
+"""How often again round an extreme: a parabola through values nearer each other is one through round-off."""
 
 
 def stretches(motion: Trajectory, until: str = "") -> list[tuple[float, float]]:
@@ -41,9 +43,26 @@ def first_zero(of: Callable[[Array], Array], begins: float, ends: float) -> floa
         if at_once and (not len(crossings) or abs(values[0]) > _NOTHING * np.abs(values).max()):
             crossings = np.zeros(1, int)
         if not len(crossings):
-            return None
+            return _touch(of, times, values)
         a, b = times[crossings[0]], times[crossings[0] + 1]
         if b - a <= _SHORTEST * (abs(b) + ends - begins):
             return float(b - (b - a) * values[crossings[0] + 1] / (values[crossings[0] + 1] - values[crossings[0]]))
         times = np.linspace(a, b, _LOOKS)
     return float(times[-1])
+
+
+def _touch(of: Callable[[Array], Array], times: Array, values: Array) -> float | None:
+    """Where it is 0 at an extreme, as the place at a dead centre; None where it is not."""
+    most, sizes = np.abs(values).max(), np.abs(values)
+    for i in np.flatnonzero((sizes[1:-1] < sizes[:-2]) & (sizes[1:-1] <= sizes[2:])) + 1:
+        a, b = times[i - 1], times[i + 1]
+        for _ in range(_ROUND):
+            there = np.linspace(a, b, _LOOKS)
+            k = int(np.clip(np.abs(of(there)).argmin(), 1, _LOOKS - 2))
+            a, b = there[k - 1], there[k + 1]
+        before, at, after = of(there[k - 1 : k + 2])
+        bend = before - 2 * at + after
+        t = float(there[k] + (there[k] - a) * (before - after) / (2 * bend)) if bend else float(there[k])
+        if np.abs(of(np.array([t])))[0] <= _NOTHING * most:
+            return t
+    return None

@@ -44,9 +44,10 @@ class Meanings:
     """Whether a motion is prescribed, in any part."""
 
     def called(self, kind: str) -> set[str]:
-        """The full names of all points, lines, curves, bodies or strings."""
+        """The full names of all points, lines, curves, bodies, or strings and the joints that have a tension as they do."""
         if kind == "string":
-            return {name for name, owner in self.owners.items() if owner == kind}
+            joints = {name for name, owner in self.owners.items() if owner == "joint" and "tension" in self.readings[name]}
+            return joints | {name for name, owner in self.owners.items() if owner == kind}
         return {"point": self.points, "line": self.lines, "curve": self.curves, "body": self.bodies}[kind]
 
     def dimension(self, name: str, scope: Scope) -> Dimension | None:
