@@ -16,8 +16,9 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, is_zero, unsigned, walk
 
 from .coefficients import more, multiplied, product, tidied
+from .conventions import conventions
 from .correction import EQUAL, MOST
-from .edits import Edit, conventions, depth, edits, forgotten_factors
+from .edits import Edit, depth, edits, forgotten_factors
 from .energy_terms import lacking_energies
 from .fitted_edits import FittedEdits
 from .language.dimensions import dimension

@@ -21,8 +21,9 @@ from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, 
 from .assumptions import first_order
 from .coefficients import tidied
 from .component_edits import component_edits, exchanges
+from .conventions import conventions
 from .derivative_edits import DerivativeEdits
-from .edits import Edit, conventions, depth, edits, forgotten_factors, other_figures, with_unit_vectors
+from .edits import Edit, depth, edits, forgotten_factors, other_figures, with_unit_vectors
 from .energy_terms import energy_edits
 from .families import NoMotion
 from .fitted_edits import FittedEdits

@@ -17,7 +17,8 @@ from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym, addends, exchange, is_zero, walk
 
 from .coefficients import more, multiplied, tidied
-from .edits import Edit, conventions, depth, edits, forgotten_factors
+from .conventions import conventions
+from .edits import Edit, depth, edits, forgotten_factors
 from .fitted_edits import FittedEdits
 from .language.spelling import spell
 from .language.statements import Equation, without_ones
