@@ -57,6 +57,7 @@ FILES, UNSEEN = _files("books"), _files("books_unseen")
 NOT_FOUND = {
     ("trolley_hits_stop", "moments about the pin"): "says behind the equation that its rates are those after the impact",
     ("wheel_up_a_kerb", "least speed"): "is of the motion that just gets up, of which the start would have to be found",
+    ("porter_governor", "small oscillations"): "is of small motions about a steady state that it gives itself",
     ("roller_off_a_drum", "slips off"): "says where something else is so",
     ("ball_in_lift", "bounce"): "is of two ropes that the blow jerks, too",
     ("ball_in_lift", "relative acceleration"): "calls by B and C what are bodies there, and points of the model",

@@ -111,10 +111,11 @@ class AskedModel:
 
     @cached_property
     def starts_to_move(self) -> bool:
-        """Whether it is at rest at its moment, and every coordinate of it moves soon after."""
+        """Whether it is at rest at its moment, and every coordinate of it that loops leave free moves soon after."""
         soon = self.run(self.own, 0.1 / self.rate).end
         before, after = (np.abs(state.u) / (self.rate * self.sizes) for state in (self.own, soon))
-        return bool(np.all(before <= _AT_REST) and np.all(after > _AT_REST))
+        free = np.linalg.norm(self.free_rates, axis=1) > _DEPENDENT
+        return bool(np.all(before <= _AT_REST) and np.all(after[free] > _AT_REST) and free.any())
 
     @cached_property
     def restricted(self) -> bool:

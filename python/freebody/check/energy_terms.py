@@ -1,14 +1,16 @@
-"""What is said to be constant, or an energy, beside that of the model, term by term."""
+"""What is said to be constant, an energy or a momentum, beside that of the model, term by term."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from freebody.equations import read
+from freebody.symbolic.dimensions import Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import ZERO, Add, Negative, Node, Sym, addends, exchange
@@ -17,6 +19,7 @@ from .beside import Letters, Term, difference, ratio, signed
 from .coefficients import more, multiplied
 from .edits import Edit
 from .families import Samples
+from .language.dimensions import dimension
 from .language.statements import Equation, rows, symbols_in
 
 if TYPE_CHECKING:
@@ -28,19 +31,27 @@ _MOST = 5  # terms that are told to be lacking
 
 _KINDS = {"kinetic()": ("kinetic",), "potential()": ("potential",), "energy()": ("kinetic", "potential")}
 """Of which kinds an energy of the model is."""
+_MOMENTUM = re.compile(r"momentum_([xy])\(\)|angular_momentum\((.+)\)")
+_SPIN = "angular_momentum(ground.O)"
+_ANGULAR_MOMENTUM = Dimension(2, 1, -1)
 _EACH = 0.3  # by which a correction is larger for each term of the energy that it brings
 _SAME = 1e-7  # below it a share is 0
 
 
 def energy_edits(case: Case, equation: Equation, family: Family) -> Iterator[Edit]:
-    """All terms that an equation lacks of the energy that a letter stands for, or of the change of the energy since the start of the motions of
-    a family."""
+    """All terms that an equation lacks of the energy or momentum that a letter stands for, of the angular momentum about the origin, or of
+    the change of the energy since the start of the motions of a family."""
     sides = (equation.left, equation.right)
     if len(rows(equation)) > 1:
         return
     for one, other in (sides, sides[::-1]):
         if isinstance(one, Sym):
             yield from _with(equation, other, lacking_of(case, one, other))
+    if case.admissible and dimension(sides[0], case.meaning.vocabulary.dimensions) == _ANGULAR_MOMENTUM:
+        whole = Add((sides[0], Negative(sides[1])))
+        values = lambda term: np.asarray(sampled(term, case.admissible))
+        with suppress(KeyError, StatementError):
+            yield from _with(equation, sides[0], _lacking(case, whole, _SPIN, values))
     if (samples := case.samples(family)).starts and any(n.dots == 1 for n in symbols_in(equation)):
         began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
         changes = lambda term: sampled(term, case.values(family)) - sampled(term, began)
@@ -56,18 +67,21 @@ def _with(equation: Equation, side: Node, lost: tuple[Node, ...]) -> Iterator[Ed
 def lacking_energies(case: Case, node: Node, value: Callable[[Node], Array]) -> tuple[Node, ...]:
     """The terms of the energy that an expression lacks; none where it has others, or nothing in common with it. ``value`` is how a term
     changes along the motions."""
-    true, said = _beside(case, node, "energy()", value)
+    return _lacking(case, node, "energy()", value)
+
+
+def _lacking(case: Case, node: Node, kind: str, value: Callable[[Node], Array]) -> tuple[Node, ...]:
+    true, said = _beside(case, node, kind, value)
     found = difference(said, true)
     return found.missing if found.common and not found.strange and len(found.missing) <= _MOST else ()
 
 
 def lacking_of(case: Case, letter: Sym, node: Node) -> tuple[Node, ...]:
-    """What an expression lacks of the energy that a letter stands for, in its own letters where it has a part of a term; none where it has
+    """What an expression lacks of the energy or momentum that a letter stands for, in its own letters where it has a part of a term; none where it has
     others, or too much of one."""
     kind = "".join(case.meaning.texts(letter))
-    true, said = (
-        _beside(case, node, kind, lambda term: np.asarray(sampled(term, case.admissible))) if kind in _KINDS else ([], [])
-    )
+    known = kind in _KINDS or _MOMENTUM.fullmatch(kind)
+    true, said = _beside(case, node, kind, lambda term: np.asarray(sampled(term, case.admissible))) if known else ([], [])
     shares: dict[int, tuple[float, Node]] = {}
     for own, value in said:
         found = ((i, ratio(value, its)) for i, (_, its) in enumerate(true))
@@ -85,14 +99,23 @@ def lacking_of(case: Case, letter: Sym, node: Node) -> tuple[Node, ...]:
     return tuple(lost) if shares and None not in lost and len(lost) <= _MOST else ()  # type: ignore[arg-type]
 
 
+def _question(case: Case, kind: str) -> dict[str, Any]:
+    """What to ask the core for an energy, or a momentum of all bodies."""
+    if not (found := _MOMENTUM.fullmatch(kind)):
+        return {"ask": "energy"}
+    axis, point = found.groups()
+    bodies = [body["name"] for body in case.sampler.metadata["bodies"]]
+    return {"ask": "equation", "bodies": bodies, **({"along": axis} if axis else {"about": {"point": point}})}
+
+
 def _beside(case: Case, node: Node, kind: str, value: Callable[[Node], Array]) -> tuple[list[Term], list[Term]]:
-    """The terms of an energy of the model that change, and those of an expression; none where an energy has other symbols."""
+    """The terms of an energy or a momentum of the model that change, and those of an expression; none where it has other symbols."""
     if not case.admissible:
         return [], []
-    answer = case.sampler.core.symbolic_answers(case.samples().states[0], [{"ask": "energy"}])
+    answer = case.sampler.core.symbolic_answers(case.samples().states[0], [_question(case, kind)])
     letters = Letters(case, Equation(node, ZERO), answer.symbols)
-    energy = Add(tuple(read(answer.answers[0][part]) for part in _KINDS[kind]))
-    terms = [term for term, _ in letters.terms(energy, ZERO)]
+    whole = Add(tuple(read(answer.answers[0][part]) for part in _KINDS.get(kind, ("momentum",))))
+    terms = [term for term, _ in letters.terms(whole, ZERO)]
     if not {n.key for term in terms for n in symbols_in(term)} <= case.values().keys():
         return [], []
     true = [(term, change) for term in terms if np.any(change := value(term))]
