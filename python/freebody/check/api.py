@@ -32,7 +32,7 @@ from .language.statements import symbols_in, terms
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
-from .phases import NOT_FIRST, called, kind_of, phase
+from .phases import NOT_FIRST, called, kind_of, phase, with_names
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .residual import magnitude
@@ -322,6 +322,7 @@ class Checker:
             return said
         run = self.own_motion
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
+        said = with_names(said, parts)
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
         if found := NOT_FIRST.search(said):

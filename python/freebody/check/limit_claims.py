@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
     from .api import Checker, Declared
 
+_SOON = (0.05, 0.005)  # of the time typical of the model
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
 
 
@@ -106,6 +107,8 @@ def _settles(case: Case, equation: Equation) -> bool:
 
 def _small(case: Case, statement: str, limits: str) -> Verdict:
     """For small motions, to first order."""
+    if [text for text, _ in case.hypothesis.small] == ["(t) - 0"]:
+        return _soon(case, statement, limits)
     for equation in case.equations:
         if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
             continue
@@ -118,6 +121,19 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
             with suppress(NoMotion):
                 mends = tuple(corrections(near, equation, SECOND)) if case.correcting else ()
             values = (case if from_start is None else small_from_start(case, SMALL)).values()
+            seen = evidence(residual(equation, values), values)
+            return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
+    return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
+
+
+def _soon(case: Case, statement: str, limits: str) -> Verdict:
+    """For small times: soon after the start, to the order of what is said."""
+    soon, sooner = (replace(case.hypothesis, small=(), since="start", late=late) for late in _SOON)
+    values = case.values(sooner)
+    for equation in case.equations:
+        if not first_order(case, equation, sooner, soon):
+            near = replace(case, hypothesis=sooner, known={})
+            mends = tuple(corrections(near, equation, SECOND)) if case.correcting else ()
             seen = evidence(residual(equation, values), values)
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)

@@ -30,6 +30,7 @@ _KINDS = {
     "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
     r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
+    r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
@@ -54,6 +55,8 @@ _TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|togethe
 _ALL = re.compile(r"\b(?:both|all|they)\b")
 NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
+_ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4}
+_NUMBERED = re.compile(rf"\b({'|'.join(_ORDINALS)})\s+([A-Za-z]\w*)")
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -67,6 +70,18 @@ class Phase:
     is_moment: bool
 
 
+def with_names(words: str, names: Iterable[str]) -> str:
+    """Words in which parts that are numbered have their names: the second coupling is ``coupling_2``."""
+
+    def named(found: re.Match[str]) -> str:
+        number, noun = _ORDINALS[found[1]], re.escape(found[2])
+        own = [name for name in names if re.fullmatch(rf"{noun}[ _]?{number}", name, re.IGNORECASE)]
+        return own[0] if len(own) == 1 else found[0]
+
+    names = [*names]
+    return _NUMBERED.sub(named, words)
+
+
 def kind_of(words: str) -> str | None:
     """What goes on in words, of the kinds above."""
     said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
@@ -75,6 +90,7 @@ def kind_of(words: str) -> str | None:
 
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
+    words = with_names(words, checker.sampler.core.instant(checker.sampler.own).limits)
     kind = kind_of(words)
     place = _ON.match(words)
     lasts, on_body = LASTS.match(words) is not None or place is not None, place and place[1] in checker.symbols().bodies

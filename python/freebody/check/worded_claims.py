@@ -17,6 +17,7 @@ from . import timed_claims
 from .assumptions import WORDS
 from .described import described, way_of
 from .families import BEFORE, SINCE_START
+from .language.statements import symbols_in
 from .phases import NOT_FIRST, Phase, kind_of, phase
 from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
@@ -53,8 +54,11 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
         return _of_phase(checker, declared, found, words, statement, problem)
-    if not lasts and kind_of(words) == "reversal" and not NOT_FIRST.search(words) and len(checker.sampler.names) == 1:
-        return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
+    if not lasts and kind_of(words) == "reversal" and not NOT_FIRST.search(words):
+        if len(checker.sampler.names) == 1:
+            return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
+        if len(turning := _moves_in(checker, declared, statement)) == 1:
+            return checker.check(f"at the greatest {turning[0]}: {statement}", declared)
     if not lasts and _OVER.search(words):
         with suppress(ModelProblem):
             return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
@@ -84,11 +88,19 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
     elsewhere = not verdict.ok or (others and _says_nothing(verdict))
-    if (stretch or (placed and others)) and elsewhere and not _FIRST_OF_ALL.search(words):
+    if (stretch or ((placed or lasts) and others)) and elsewhere and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
+
+
+def _moves_in(checker: Checker, declared: Declared, statement: str) -> list[str]:
+    """The coordinates of which a statement speaks."""
+    with suppress(StatementError):
+        said = {n.name for n in symbols_in(checker.case(statement, declared).program)}
+        return [name for name in checker.sampler.names if name in said]
+    return []
 
 
 def _letters(checker: Checker, declared: Declared) -> set[str]:
