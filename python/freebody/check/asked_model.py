@@ -114,8 +114,9 @@ class AskedModel:
         """Whether it is at rest at its moment, and every coordinate of it that loops leave free moves soon after."""
         soon = self.run(self.own, 0.1 / self.rate).end
         before, after = (np.abs(state.u) / (self.rate * self.sizes) for state in (self.own, soon))
-        free = np.linalg.norm(self.free_rates, axis=1) > _DEPENDENT
-        return bool(np.all(before <= _AT_REST) and np.all(after[free] > _AT_REST) and free.any())
+        held = np.linalg.norm(self.free_rates, axis=1) <= _DEPENDENT  # by loops; what else holds may do so anywhere
+        moving = (after > _AT_REST) | (held & bool(self.loops and not self.restricted))
+        return bool(np.all(before <= _AT_REST) and np.all(moving) and np.any(after > _AT_REST))
 
     @cached_property
     def restricted(self) -> bool:
