@@ -33,7 +33,7 @@ from .language.statements import Equation, symbols_in, terms
 from .limit_claims import limit
 from .phases import phase
 from .residual import jacobian, magnitude, residual
-from .two_moments import BETWEEN, across_impact, between, changes
+from .two_moments import BETWEEN, PLACES, across_impact, between, between_places, changes
 from .verdict import Evidence, Kind, Verdict, evidence
 from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled, on_later_stretch
 from .wording import BLOW, as_claim, named, with_condition_first
@@ -323,6 +323,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"frequencies(?: (\d))?:(.+)", re.S), frequencies),
     (re.compile(r"constant:(.+)", re.S), constant),
     (re.compile(rf"{BETWEEN}:(.+)", re.S), between),
+    (re.compile(rf"{PLACES}:(.+)", re.S), between_places),
     (re.compile(r"limit:(.+)\bas\b(.*)", re.S), limit),
     (re.compile(r"no (.+?) in:(.+)", re.S), _independent),
     (re.compile(r"no (.+?) in the factors of (.+?):(.+)", re.S), _coefficients),

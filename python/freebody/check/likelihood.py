@@ -48,6 +48,7 @@ _RATIOS = (2.0, 4.0)
 _OF_BODIES = (1 / 12, 1 / 4, 1 / 3, 2 / 5, 2 / 3)
 """Factors of moments of inertia, any of which is taken for another."""
 _OF_RODS = (1 / 12, 1 / 6, 1 / 3, 2 / 3)
+_FOURFOLD = 0.2  # for a number that is another four times, and not 1/12 for 1/3
 _ODD = 0.5
 _ROOTED = 0.6  # that a root of a number, as of a sine, is beside what moves and not in the place of another number
 _USUAL = 0.1  # for one usual number for another
@@ -491,6 +492,7 @@ def _of_number(old: Node, new: Node, values: Mapping[str, Array], usual: float) 
     of_body = is_number and np.isclose(before, _OF_BODIES).any() and np.isclose(after, _NATURAL).any()
     ratio = max(after / before, before / after) if before and after else 0.0
     if np.isclose(ratio, _RATIOS).any() or of_body:
-        return 0.0
+        of_rod = of_body or np.isclose(max(before, after), 12.0)
+        return _FOURFOLD * bool(np.isclose(ratio, _RATIOS[1]) and not of_rod)
     figures = [abs(powers_of(node)[0]) for node in (old, new)]
     return usual if all(np.isclose(figure, _NATURAL).any() for figure in figures) else _ODD

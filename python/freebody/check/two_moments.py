@@ -36,6 +36,19 @@ def changes(checker: Checker, declared: Declared, left: str, right: str) -> Verd
 def between(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict:
     """From a moment 1 to a moment 2, ``J (ω₂ − ω₁) = M (t₂ − t₁)``: the first is the start, the second any time; letters with these
     indices of the model or the person are what they are."""
+    since = replace(checker.hypothesis, since=checker.hypothesis.since or "start")
+    verdict = checker.check(_since_start(checker, declared, statement), declared, since)
+    return replace(verdict, notes=(*verdict.notes, f"`{label}` is read as from the start to any time."))
+
+
+def between_places(checker: Checker, declared: Declared, name: str, first: str, last: str, statement: str) -> Verdict:
+    """From one place to another, ``from θ = 0 to θ = 90°: ½ I (ω₂² − ω₁²) = m g d``: of a motion that begins at the first."""
+    said = _since_start(checker, declared, statement)
+    return checker.check(f"if {name}_0 = {first}, {name} = {last}, from the start: {said}", declared)
+
+
+def _since_start(checker: Checker, declared: Declared, statement: str) -> str:
+    """A statement in which what has the index of the first of two moments is asked of the start."""
     known = checker.symbols(declared)
 
     def at_moment(found: re.Match[str]) -> str:
@@ -44,9 +57,7 @@ def between(checker: Checker, declared: Declared, label: str, statement: str) ->
             return found[0]
         return f"{found[1] or ''}{letter}{found[3]}{found[6]}{'(0)' * (index == '1')}"
 
-    since = replace(checker.hypothesis, since=checker.hypothesis.since or "start")
-    verdict = checker.check(_INDEXED.sub(at_moment, statement), declared, since)
-    return replace(verdict, notes=(*verdict.notes, f"`{label}` is read as from the start to any time."))
+    return _INDEXED.sub(at_moment, statement)
 
 
 def across_impact(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict | None:
@@ -110,5 +121,7 @@ _DELTA = re.compile(
 _STATE = r"(?:(?:the\s+)?(?:time|instant|moment|state|position|place|point)s?\s+)?\$?(?:t\s*=\s*)?(?:t_?)?\{?"
 BETWEEN = rf"(?:[^:=]*[,\s])?((?:from|between)\s+{_STATE}[1₁]\}}?\$?\s+(?:to|and)\s+{_STATE}[2₂]\}}?\$?)\s*"
 """``rear wheel, from t₁ to t₂``, ``between the states 1 and 2``."""
+PLACES = r"(?:[^:=]*,\s*)?(?:from|between)\s+\$?([^\s:=]+)\s*=\s*([^:=]+?)\$?\s+(?:to|and)\s+\$?(?:\1\s*=\s*)?([^:=,]+?)\$?\s*"
+"""``from θ = 0 to θ = 90°``."""
 _INDEXED = re.compile(r"(\\d*dot\s*\{?\s*)?(\\[A-Za-z]+|[^\W\d_]\u0307*)('*\}?)_?\{?([A-Za-z]*)([12₁₂])(?![A-Za-z0-9{])\}?('*)")
 """A letter with its dots and the index of a moment, behind another that it may have: ``v_{y1}``."""
