@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 
-from books import FILES, NOT_FOUND, UNSEEN, Book
+from books import CALLED_WRONG, FILES, NOT_FOUND, UNSEEN, Book
 from manners import rewritten
 from store import every
 
@@ -20,7 +20,7 @@ def test_a_right_statement_is_right_in_every_manner(book: str) -> None:
     rng, checker = random.Random(book), Book(book).checker
     checker.correcting = False
     said = Book(book).data["statements"]
-    right = [each["says"] for each in said if each["verdict"] == "right" and (book, each["id"]) not in NOT_FOUND]
+    right = [each["says"] for each in said if each["verdict"] == "right" and (book, each["id"]) not in NOT_FOUND | CALLED_WRONG]
     if book in UNSEEN:  # what is not found to be right there as it stands is told by the score of benchmarks/books.py
         right = [says for says in right if judged_alone(checker, says).kind is Kind.TRUE]
     for says in right:
