@@ -35,7 +35,7 @@ from .phases import phase
 from .residual import jacobian, magnitude, residual
 from .two_moments import BETWEEN, PLACES, across_impact, between, between_places, changes
 from .verdict import Evidence, Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, beside_event, in_phase, in_words, labelled, on_later_stretch
+from .worded_claims import IN_WORDS, beside_words, in_phase, in_words, labelled, on_later_stretch
 from .wording import BLOW, as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
@@ -331,7 +331,7 @@ _FORMS: tuple[tuple[re.Pattern[str], Callable[..., Verdict]], ...] = (
     (re.compile(r"same at (.+?) for (\S+) = (.+?):(.+)", re.S), timed_claims.same),
     (re.compile(r"follows:(.+)\bfrom\b(.+)", re.S), _follows),
     (re.compile(r"at (.+?):(.+)", re.S), _at),
-    (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), beside_event),
+    (re.compile(r"(just )?(after|before) (.+?):(.+)", re.S), beside_words),
     (re.compile(r"([^:;\n]*(?:Δ|\\Delta)[^:;\n]*)=([^:;\n]*)"), changes),
     (re.compile(r"report:(.+)=(.+)", re.S), timed_claims.report),
 )

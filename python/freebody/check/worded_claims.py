@@ -35,7 +35,7 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
         others = ", ".join(other for other in parts if other is not part)
         under = f"if {others}: {statement}" if others else statement
         if beside := _BESIDE.fullmatch(part):
-            return beside_event(checker, declared, beside[1], beside[2], beside[3], under)
+            return beside_words(checker, declared, beside[1], beside[2], beside[3], under)
         if IN_WORDS.fullmatch(part) and (found := phase(checker, part)):
             return _of_phase(checker, declared, found, part, under, problem)
     known = _letters(checker, declared)
@@ -215,6 +215,22 @@ def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
         return False, _is_idle(one), any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
 
     return min(verdicts, key=order)
+
+
+def beside_words(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
+    """The same of something in words; where nothing that happens is called so, true where it holds after one thing that does, wrong where after none.
+    Raises the problem of the words for what should stay the same."""
+    try:
+        return beside_event(checker, declared, just, side, event, statement)
+    except ModelProblem:
+        happens = () if side == "before" or NOT_FIRST.search(event) or re.search("[=<>]", event) else checker.switches
+        if not happens:
+            raise
+        words = " ".join(filter(None, ((just or "").strip(), side, event)))
+        found = in_phase(checker, declared, Phase(False, happens, bool(just)), words, statement)
+        if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
+            raise
+        return found
 
 
 def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
