@@ -131,9 +131,10 @@ class Likelihood:
                 if not (new.symbols & self._answers).issubset(() if edit.old is None else edit.old.symbols):
                     return math.inf  # what it is solved for, for something else
                 undoes = isinstance(new, Add) and self.taken.by(edit.after)
+                solved = edit.old not in self.vocabulary.parameters and any(side is edit.old for side in self._sides)
                 return (
                     self._of_symbols(new)
-                    + _SOLVED * any(side is edit.old for side in self._sides)
+                    + _SOLVED * solved
                     + _ODD * undoes
                     + _ODD * all(isinstance(unsigned(s), Sym) for s in (edit.after.left, edit.after.right))
                 )
