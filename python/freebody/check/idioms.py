@@ -22,6 +22,11 @@ _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _PUT: tuple[tuple[str, str], ...] = (
     (rf"\A\s*(\$?(?:{_RATE}\s*=\s*)+0\$?)\s*:(?!=)", r"when \1:"),  # φ' = φ'' = 0: …
+    # heels on the verge of lifting, N = 0: …
+    (
+        rf"\A\s*(?!(?:{CONDITION})\b)[A-Za-z][^=:;,\n]*?\b[a-z]{{3}}[^=:;,\n]*,\s+(\$?\\?[^\W\d]\w*\s*=\s*(?:0|[\d.]+\s*°|[\d.]*\s*(?:π|\\pi)(?:/\d)?)\$?)\s*:(?!=)",
+        r"when \1:",
+    ),
     (r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)", ""),  # ω = const = v/r
     *((rf"(?i)\A\s*(?:{words})\s+(?=[^:\n]*:(?!=))", f"{word} ") for word, words in _ABROAD.items()),
     (r"\A\s*\\(?:text|textrm|mbox|mathrm)\s*\{([^{}:=]+):\s*\}\s*", r"\1: "),  # \text{plank + spool: } …

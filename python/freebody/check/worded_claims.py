@@ -88,7 +88,8 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
     elsewhere = not verdict.ok or (others and _says_nothing(verdict))
-    if (stretch or ((placed or lasts) and others)) and elsewhere and not _FIRST_OF_ALL.search(words):
+    idle = lasts and others and _is_idle(verdict)  # of a part by its name, which does nothing yet
+    if (stretch or (placed and others) or idle) and elsewhere and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
