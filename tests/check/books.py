@@ -80,6 +80,7 @@ NOT_FOUND = {
 }
 """What is right of the half for mending and not found to be, with the reason."""
 CALLED_WRONG = {
+    ("ball_hits_hung_ball", "how far it swings"): "is of one blow, where other numbers bring a second before the top",
     ("ball_in_lift", "relative acceleration"): "calls by B and C what are bodies there, and points of the model",
     ("chemists_balance", "small swings"): "is of an equilibrium at which unequal weights do not rest",
     ("drum_with_free_core", "thick oil"): "comes to its limit only some time after the start",
