@@ -142,8 +142,8 @@ pub fn simulate(
     system.set_scales(start.t, until, &y);
     crate::motion::System::project(&mut system, start.t, &mut y)?;
     system.begin(start, until, &mut y)?;
-    if settings.marches() || !m.is_tree() && settings.route.is_none() {
-        system.record_equations(start.t, &y);
+    if settings.route.is_none() {
+        system.record_equations(start.t, &y, settings.marches());
     }
     let opening = system.energy(start.t, &y);
     let run = run(&mut system, integrator, (start.t, &y), until, &settings.options, progress);

@@ -4,8 +4,8 @@ use super::HybridSystem;
 use crate::bound_values::BoundValues;
 use crate::dynamics::{closing_rows, SmoothMotion, Workspace};
 use crate::mechanism::Recording;
-use crate::scalar::{Block, Scalar};
-use crate::series::{recorded, Program, Traced};
+use crate::scalar::Scalar;
+use crate::series::{recorded, Alone, Program, Traced};
 use crate::solve::Quasidefinite;
 use std::sync::Arc;
 
@@ -15,6 +15,8 @@ const ASIDE: f64 = 0.618_033_988_749_894_9;
 pub(super) const NEAR_SINGULAR: f64 = 0.1;
 /// Part of what was left of an inertia or a row at the start, where it is eliminated, below which digits may be lost.
 const FIRM: f64 = 1e-2;
+/// Freedom of trees up to which a program is less work than a sweep.
+const FEW: usize = 3;
 
 /// Whether a pivot says that digits are kept, beside what it was at the start.
 #[inline(always)]
@@ -95,61 +97,52 @@ fn massless(n: &BoundValues) -> Vec<bool> {
 
 /// One motion by them.
 pub(super) struct Motion {
-    program: Arc<Program>,
-    memory: Vec<Block<1>>,
-    y: Vec<Block<1>>,
-    read: Vec<Block<1>>,
-    /// How many of y are coordinates and rates.
+    program: Alone,
+    /// How many of y are coordinates and rates, and how many states.
     own: usize,
+    states: usize,
     /// The pivots at the start.
     pivots: Vec<f64>,
 }
 
 impl Motion {
-    /// That of a mechanism that is placed, and solved, at its start, with so many works.
-    pub fn new(workspace: &mut Workspace, works: usize) -> Option<Self> {
+    /// That of a mechanism that is placed, and solved, at its start.
+    pub fn new(workspace: &mut Workspace) -> Option<Self> {
         let (recorded, m) = (Recorded::new(workspace, Recording::Rates)?, workspace.m);
         if !recorded.holds_at(workspace) {
             return None;
         }
-        let numbers: Vec<_> = recorded.numbers(workspace).into_iter().map(Block::of).collect();
-        let (program, own) = (recorded.program, 2 * m.freedom());
-        let mut memory = program.memory();
-        program.fix(&mut memory, &numbers);
-        let y = vec![Block::of(0.0); own + m.state_rates.len()];
-        let read = vec![Block::of(0.0); y.len() + recorded.pivots + works];
-        let mut motion = Motion { program, memory, y, read, own, pivots: vec![] };
-        let at = workspace.at();
-        motion.run(at.t, at.q.iter().chain(at.u).chain(&at.n.p[m.first_state()..]));
-        motion.pivots = motion.read[motion.y.len()..][..recorded.pivots].iter().map(|pivot| pivot.0[0]).collect();
+        let (program, at) = (Alone::new(&recorded.program, &recorded.numbers(workspace)), workspace.at());
+        let mut motion = Motion { program, own: 2 * m.freedom(), states: m.state_rates.len(), pivots: vec![] };
+        motion.program.run(at.t, [&[at.q, at.u].concat(), &at.n.p[m.first_state()..]]);
+        motion.pivots = motion.program.results(motion.own + motion.states).take(recorded.pivots).collect();
         Some(motion)
-    }
-
-    fn run<'y>(&mut self, t: f64, y: impl Iterator<Item = &'y f64>) {
-        self.y.iter_mut().zip(y).for_each(|(to, &y)| *to = Block::of(y));
-        self.program.run(&mut self.memory, Block::of(t), &self.y, &mut self.read);
     }
 
     /// Writes the rates of [q, u, works, states]; false where one is not finite, or digits may be lost.
     pub fn write_rates(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> bool {
-        let states = self.y.len() - self.own;
-        self.run(t, y[..self.own].iter().chain(&y[y.len() - states..]));
-        let (rates, rest) = self.read.split_at(self.y.len());
-        let ((own, states), (pivots, powers)) = (rates.split_at(self.own), rest.split_at(self.pivots.len()));
-        let rates = own.iter().chain(powers).chain(states);
-        dy.iter_mut().zip(rates).for_each(|(dy, rate)| *dy = rate.0[0]);
-        let is_kept = pivots.iter().zip(&self.pivots).all(|(pivot, &start)| is_firm(pivot.0[0], start));
+        let (rates, first_state) = (self.own + self.states, y.len() - self.states);
+        self.program.run(t, [&y[..self.own], &y[first_state..]]);
+        let (own, rest) = dy.split_at_mut(self.own);
+        let (works, states) = rest.split_at_mut(first_state - self.own);
+        for (to, from) in [(own, 0), (states, self.own), (works, rates + self.pivots.len())] {
+            to.iter_mut().zip(self.program.results(from)).for_each(|(to, from)| *to = from);
+        }
+        let mut pivots = self.pivots.iter().zip(self.program.results(rates));
+        let is_kept = pivots.all(|(&start, pivot)| is_firm(pivot, start));
         is_kept && dy.iter().all(|rate| rate.is_finite())
     }
 }
 
 impl HybridSystem<'_> {
-    /// Lets a program carry the motion from a state on that can be solved: as it does many side by side, to the same bits.
-    pub(super) fn record_equations(&mut self, t: f64, y: &[f64]) {
-        if SmoothMotion::<Traced>::fits(self.workspace.m) {
+    /// Lets a program carry the motion from a state on that can be solved: as it does many side by side, to the same bits. Trees of more
+    /// than a few bodies are swept sooner, and so are unless they march.
+    pub(super) fn record_equations(&mut self, t: f64, y: &[f64], marches: bool) {
+        let m = self.workspace.m;
+        if SmoothMotion::<Traced>::fits(m) && (marches || !m.is_tree() || m.freedom() <= FEW) {
             self.place(t, y);
             let is_solved = self.workspace.solve_motion().is_ok();
-            self.recorded = is_solved.then(|| Motion::new(&mut self.workspace, self.works.count())).flatten();
+            self.recorded = is_solved.then(|| Motion::new(&mut self.workspace)).flatten();
         }
     }
 }

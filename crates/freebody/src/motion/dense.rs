@@ -11,69 +11,71 @@ pub struct Segment {
     pub t0: f64,
     /// Time at which it ends; less than `t0` when the run goes backward.
     pub t1: f64,
-    y0: Vec<f64>,
-    y1: Vec<f64>,
-    /// F₁, F₂, … one after the other; F₀ = y1 − y0.
-    bends: Vec<f64>,
+    /// How many components there are.
+    n: usize,
+    /// y0, y1, F₁, F₂, … one after the other; F₀ = y1 − y0.
+    values: Vec<f64>,
 }
 
 impl Segment {
-    /// The cubic with the values `y0`, `y1` and the slopes `slope0`, `slope1` (dy/dt) at its ends.
-    pub(super) fn hermite((t0, y0, slope0): (f64, &[f64], &[f64]), (t1, y1, slope1): (f64, &[f64], &[f64])) -> Self {
+    /// The cubic with the values `y0`, `y1` and the slopes `slope0`, `slope1` (dy/dt) at its ends, with room for that many further F.
+    pub(super) fn hermite(
+        (t0, y0, slope0): (f64, &[f64], &[f64]),
+        (t1, y1, slope1): (f64, &[f64], &[f64]),
+        more: usize,
+    ) -> Self {
         let n = y0.len();
-        let mut bends = vec![0.0; 2 * n];
+        let mut values = Vec::with_capacity((4 + more) * n);
+        values.extend_from_slice(y0);
+        values.extend_from_slice(y1);
+        values.resize(4 * n, 0.0);
         for i in 0..n {
-            [bends[i], bends[n + i]] = cubic(t1 - t0, [y0[i], y1[i]], [slope0[i], slope1[i]]);
+            [values[2 * n + i], values[3 * n + i]] = cubic(t1 - t0, [y0[i], y1[i]], [slope0[i], slope1[i]]);
         }
-        Self { t0, t1, y0: y0.to_vec(), y1: y1.to_vec(), bends }
-    }
-
-    /// Makes room for that many further F.
-    pub(super) fn expect(&mut self, more: usize) {
-        self.bends.reserve_exact(more * self.y0.len());
+        Self { t0, t1, n, values }
     }
 
     /// Adds the next F, replacing those beyond `index` (F₃ has index 3).
     pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = f64>) {
-        self.bends.truncate((index - 1) * self.y0.len());
-        self.bends.extend(values);
+        self.values.truncate((index + 1) * self.n);
+        self.values.extend(values);
     }
 
     /// Writes the state at time `t`; exact at both ends.
     pub fn at(&self, t: f64, y: &mut [f64]) {
         if t == self.t1 {
-            y.copy_from_slice(&self.y1);
+            y.copy_from_slice(self.end());
             return;
         }
         let theta = (t - self.t0) / (self.t1 - self.t0);
-        let n = self.y0.len();
         for (i, value) in y.iter_mut().enumerate() {
-            let bends = self.bends.chunks_exact(n).map(|bends| bends[i]);
-            *value = between(theta, [self.y0[i], self.y1[i]], bends);
+            let [y0, y1] = [self.start()[i], self.end()[i]];
+            let bends = self.values[2 * self.n..].chunks_exact(self.n).map(|bends| bends[i]);
+            *value = between(theta, [y0, y1], bends);
         }
     }
 
     /// In how many parts [`Segment::part`] splits the motion about the middle of the step.
     pub fn parts(&self) -> usize {
-        1 + self.bends.len() / self.y0.len().max(1)
+        (self.values.len() / self.n.max(1)).max(2) - 1
     }
 
     /// Part `k` of how far component `i` goes from the middle of the step at most: it goes there by the sum of all parts, each
     /// times a factor from −1 to 1 that is the same for all components. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to
     /// below twice its value 2⁻ᵃ⁻ᵇ at the middle.
     pub fn part(&self, k: usize, i: usize) -> f64 {
-        let full = if k == 0 { self.y1[i] - self.y0[i] } else { self.bends[(k - 1) * self.y0.len() + i] };
+        let full = if k == 0 { self.end()[i] - self.start()[i] } else { self.values[(k + 1) * self.n + i] };
         full * (1.0 / f64::from(2_u32 << k))
     }
 
     /// State at the start of the step.
     pub fn start(&self) -> &[f64] {
-        &self.y0
+        &self.values[..self.n]
     }
 
     /// State at the end of the step.
     pub fn end(&self) -> &[f64] {
-        &self.y1
+        &self.values[self.n..2 * self.n]
     }
 
     fn spans(&self, t: f64) -> bool {

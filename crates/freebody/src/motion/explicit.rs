@@ -2,7 +2,7 @@
 
 use super::dense::Segment;
 use super::method::{Counted, Failure, Point, Stepper};
-use super::norm::{measure, Norm};
+use super::norm::{self, noted, Norm};
 use crate::scalar::real;
 
 /// Weight of the second error estimate (HNW I, II.10).
@@ -32,8 +32,14 @@ pub(super) struct Table {
 /// Runs a [`Table`].
 pub(super) struct Explicit {
     table: &'static Table,
-    /// Rates at the stages.
-    k: Vec<Vec<f64>>,
+    /// Weights that are not zero, each with where the rate of its stage begins.
+    a: Vec<Weights>,
+    b: Weights,
+    errors: Vec<Weights>,
+    more_a: Vec<Weights>,
+    dense: Vec<Weights>,
+    /// Rates at the stages, one after the other.
+    k: Vec<f64>,
     /// State at the stage being evaluated.
     y: Vec<f64>,
     /// State at the last stage of the step, for the test of stiffness.
@@ -44,12 +50,24 @@ pub(super) struct Explicit {
     stiffness: Stiffness,
 }
 
+type Weights = Vec<(usize, f64)>;
+
 impl Explicit {
     pub fn boxed(table: &'static Table, n: usize) -> Box<dyn Stepper> {
         let stages = table.b.len() + 1 + table.more_c.len();
+        let row = |weights: &&[f64]| -> Weights {
+            let placed = weights.iter().enumerate().map(|(stage, &weight)| (stage * n, weight));
+            placed.filter(|(_, weight)| *weight != 0.0).collect()
+        };
+        let rows = |rows: &[&[f64]]| rows.iter().map(row).collect();
         Box::new(Self {
             table,
-            k: vec![vec![0.0; n]; stages],
+            a: rows(table.a),
+            b: row(&table.b),
+            errors: rows(table.errors),
+            more_a: rows(table.more_a),
+            dense: rows(table.dense),
+            k: vec![0.0; n * stages],
             y: vec![0.0; n],
             last: vec![0.0; n],
             rates_end: table.errors.iter().any(|weights| weights.len() > table.b.len()),
@@ -58,26 +76,24 @@ impl Explicit {
         })
     }
 
-    fn stage(
-        &mut self,
-        system: &mut Counted,
-        from: &Point,
-        h: f64,
-        (index, c, a): (usize, f64, &[f64]),
-    ) -> Result<(), Failure> {
-        let (known, rest) = self.k.split_at_mut(index);
-        combine(a, known, &mut self.y);
-        self.y.iter_mut().zip(&from.y).for_each(|(y, from)| *y = from + h * *y);
-        system.rate(from.t + c * h, &self.y, &mut rest[0])
+    /// Where the rate of a stage stands.
+    fn at(&self, stage: usize) -> std::ops::Range<usize> {
+        stage * self.y.len()..(stage + 1) * self.y.len()
     }
 
-    fn error(&mut self, h: f64) -> f64 {
-        let mut norm = |e: &[f64]| {
-            combine(e, &self.k, &mut self.y);
-            self.y.iter_mut().for_each(|y| *y *= h);
-            measure(&self.y, &self.weights)
+    /// The rate at a stage, from the state that is there.
+    fn rate(&mut self, system: &mut Counted, stage: usize, t: f64) -> Result<(), Failure> {
+        let at = self.at(stage);
+        system.rate(t, &self.y, &mut self.k[at])
+    }
+
+    fn error(&self, h: f64) -> f64 {
+        let norm = |e: &Weights| {
+            let mut squares = [0.0; 2];
+            combine(e, &self.k, self.y.len(), |i, sum| squares = noted(squares, sum * h / self.weights[i]));
+            norm::norm(squares, self.y.len())
         };
-        match self.table.errors {
+        match &self.errors[..] {
             [] => 0.0,
             [main] => norm(main),
             [main, tempering, ..] => tempered(norm(main), || norm(tempering)),
@@ -93,62 +109,70 @@ pub(super) fn tempered(main: f64, tempering: impl FnOnce() -> f64) -> f64 {
     }
 }
 
-/// Writes Σ aⱼ kⱼ, stage after stage; those without weight are left out.
-fn combine(a: &[f64], k: &[Vec<f64>], sum: &mut [f64]) {
-    let (fours, rest) = sum.as_chunks_mut::<4>();
-    let (twos, last) = rest.as_chunks_mut::<2>();
+/// Takes Σ aⱼ kⱼ of each of n components, stage after stage.
+#[inline(always)]
+fn combine(a: &Weights, k: &[f64], n: usize, mut take: impl FnMut(usize, f64)) {
     let mut from = 0;
-    fours.iter_mut().for_each(|sum| *sum = combined(a, k, &mut from));
-    twos.iter_mut().for_each(|sum| *sum = combined(a, k, &mut from));
-    last.iter_mut().for_each(|sum| [*sum] = combined(a, k, &mut from));
+    for _ in 0..n / 4 {
+        combined::<4>(a, k, &mut from, &mut take);
+    }
+    if n % 4 > 1 {
+        combined::<2>(a, k, &mut from, &mut take);
+    }
+    if n % 2 == 1 {
+        combined::<1>(a, k, &mut from, &mut take);
+    }
 }
 
 /// The next few components, which stay in registers.
 #[inline(always)]
-fn combined<const N: usize>(a: &[f64], k: &[Vec<f64>], from: &mut usize) -> [f64; N] {
-    let mut sum = [0.0; N];
-    for (&a, k) in a.iter().zip(k).filter(|(&a, _)| a != 0.0) {
-        let part = &k[*from..*from + N];
+fn combined<const N: usize>(a: &Weights, k: &[f64], from: &mut usize, take: &mut impl FnMut(usize, f64)) {
+    let (mut sum, k) = ([0.0; N], &k[*from..]);
+    for &(stage, a) in a {
+        let part = &k[stage..stage + N];
         sum.iter_mut().zip(part).for_each(|(sum, k)| *sum += k * a);
     }
+    sum.iter().enumerate().for_each(|(i, &sum)| take(*from + i, sum));
     *from += N;
-    sum
 }
 
 impl Stepper for Explicit {
     fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure> {
         let (table, h) = (self.table, to.t - from.t);
-        self.k[0].copy_from_slice(&from.dy);
-        for (j, (&c, a)) in table.c.iter().zip(table.a).enumerate() {
-            self.stage(system, from, h, (j + 1, c, a))?;
+        let (n, stages) = (from.y.len(), table.b.len());
+        self.k[..n].copy_from_slice(&from.dy);
+        for (j, c) in table.c.iter().enumerate() {
+            combine(&self.a[j], &self.k, n, |i, sum| self.y[i] = from.y[i] + h * sum);
+            self.rate(system, j + 1, from.t + c * h)?;
         }
         self.last.copy_from_slice(&self.y);
-        combine(table.b, &self.k, &mut to.y);
-        to.y.iter_mut().zip(&from.y).for_each(|(y, from)| *y = from + h * *y);
-        let stages = table.b.len();
+        combine(&self.b, &self.k, n, |i, sum| to.y[i] = from.y[i] + h * sum);
         match self.rates_end {
             true => system.rate_of(to)?,
-            false => to.dy.copy_from_slice(&self.k[stages - 1]),
+            false => to.dy.copy_from_slice(&self.k[self.at(stages - 1)]),
         }
-        self.k[stages].copy_from_slice(&to.dy);
+        let end = self.at(stages);
+        self.k[end].copy_from_slice(&to.dy);
         norm.weights(from, to, &mut self.weights);
         Ok(self.error(h))
     }
 
     fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
-        let (table, h, stages) = (self.table, to.t - from.t, self.table.b.len());
-        self.k[stages].copy_from_slice(&to.dy);
+        let (table, h, n, stages) = (self.table, to.t - from.t, from.y.len(), self.table.b.len());
+        let end = self.at(stages);
+        self.k[end].copy_from_slice(&to.dy);
         if let Some(limit) = table.stability {
-            self.stiffness.note(limit, h, (&self.k[stages - 1], &self.last), to);
+            let last = &self.k[self.at(stages - 1)];
+            self.stiffness.note(limit, h, (last, &self.last), to);
         }
-        for (j, (&c, a)) in table.more_c.iter().zip(table.more_a).enumerate() {
-            self.stage(system, from, h, (stages + 1 + j, c, a))?;
+        for (j, c) in table.more_c.iter().enumerate() {
+            combine(&self.more_a[j], &self.k, n, |i, sum| self.y[i] = from.y[i] + h * sum);
+            self.rate(system, stages + 1 + j, from.t + c * h)?;
         }
-        let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
-        segment.expect(table.dense.len());
-        for (j, row) in table.dense.iter().enumerate() {
-            combine(row, &self.k, &mut self.y);
-            segment.bend(3 + j, self.y.iter().map(|y| h * y));
+        let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy), self.dense.len());
+        for (j, row) in self.dense.iter().enumerate() {
+            combine(row, &self.k, n, |i, sum| self.y[i] = h * sum);
+            segment.bend(3 + j, self.y.iter().copied());
         }
         Ok(segment)
     }

@@ -135,7 +135,7 @@ impl Stepper for Gauss6 {
     /// (bootstrapping, HNW I, II.6).
     fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (n, h) = (self.n, to.t - from.t);
-        let cubic = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
+        let cubic = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy), 2);
         let mut segment = cubic.clone();
         let (mut y, mut inner) = (vec![0.0; n], [vec![0.0; n], vec![0.0; n]]);
         for _ in 0..2 {

@@ -324,7 +324,7 @@ impl Stepper for Radau {
     fn dense(&mut self, _system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (n, h) = (self.n, to.t - from.t);
         let slopes: Vec<f64> = (0..n).map(|i| self.slope_at_start(i, h)).collect();
-        let mut segment = Segment::hermite((from.t, &from.y, &slopes), (to.t, &to.y, &to.dy));
+        let mut segment = Segment::hermite((from.t, &from.y, &slopes), (to.t, &to.y, &to.dy), TABLEAU.bends.len() - 3);
         for (k, bend) in TABLEAU.bends.iter().enumerate().skip(3) {
             segment.bend(k, (0..n).map(|i| dot(bend, |l| self.z[l * n + i])));
         }

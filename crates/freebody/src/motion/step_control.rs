@@ -70,7 +70,7 @@ impl StepController {
     }
 
     fn integrated(&self, error: f64, exponent: f64) -> f64 {
-        SAFETY * real::powf(error, -0.85 * exponent) * real::powf(self.last_error, 0.2 * exponent)
+        SAFETY * real::exp(exponent * (0.2 * real::ln(self.last_error) - 0.85 * real::ln(error)))
     }
 
     fn predicted(&self, error: f64, exponent: f64) -> f64 {

@@ -106,7 +106,7 @@ impl Stepper for Taylor {
     /// The series, in the form of a segment: divided by θ and 1 − θ in turn.
     fn dense(&mut self, _: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
         let (n, h) = (from.y.len(), to.t - from.t);
-        let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy));
+        let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy), ORDER - 3);
         let mut bends = vec![0.0; n * ORDER];
         let mut left = [0.0; ORDER];
         for i in 0..n {

@@ -1,12 +1,13 @@
 //! A tape made into a program: products within the sums that they belong to, values where others stood that are done with.
 
-use super::program::{List, Next, Product, Program};
+use super::program::{List, Product, Program, Sum};
 use super::tape::{Op, Row, Tape, Term};
 
-/// An operation, where its value goes, and the products that a sum has beside its terms.
+/// An operation, where its value goes, the value that a sum starts from, and the products that it has beside its terms.
 struct Step {
     to: Row,
     op: Op<f64>,
+    start: Option<Row>,
     products: Vec<Product>,
 }
 
@@ -14,7 +15,8 @@ impl Program {
     /// That of a tape of which so many of the first inputs move.
     pub fn new(tape: Tape<f64>, inputs: usize) -> Self {
         let (moves, given) = (moving(&tape, inputs), tape.ops.first().map_or(tape.rows, |(to, _)| to.0));
-        let mut places = Places { of: (0..tape.rows).map(Row).collect(), count: given, free: vec![] };
+        let mut places =
+            Places { of: (0..tape.rows).map(Row).collect(), count: given, free: vec![], constants: vec![] };
         let results = tape.results.clone();
         let (moving, fixed): (Vec<_>, Vec<_>) = fused(tape, &moves).into_iter().partition(|step| moves[step.to.at()]);
         let mut last: Vec<_> = moves.iter().map(|&moves| if moves { 0 } else { usize::MAX }).collect();
@@ -31,7 +33,7 @@ impl Program {
             step.values().for_each(|row| steps[row.at()] = i + 1);
         }
         program.results = results.iter().map(|row| (places.of[row.at()], steps[row.at()])).collect();
-        Program { rows: places.count as usize, ..program }
+        Program { rows: places.count as usize, constants: places.constants, ..program }
     }
 }
 
@@ -58,20 +60,22 @@ fn fused(tape: Tape<f64>, moves: &[bool]) -> Vec<Step> {
     let mut taken: Vec<Option<[Row; 2]>> = vec![None; tape.rows as usize];
     let mut steps = vec![];
     for (to, mut op) in tape.ops {
-        let mut products = vec![];
+        let (mut start, mut products) = (None, vec![]);
         match &mut op {
             &mut Op::Product(a, b) if uses[to.at()] == 1 && moves[to.at()] => {
                 taken[to.at()] = Some([a, b]);
                 continue;
             }
-            Op::Sum { terms, .. } => {
+            Op::Sum { constant, terms } => {
                 let product = |row: Row, factor| taken[row.at()].map(|of| Product { factor, of });
                 products.extend(terms.iter().filter_map(|term| product(term.row, term.factor)));
                 terms.retain(|term| taken[term.row.at()].is_none());
+                let lead = terms.iter().position(|term| term.factor == 1.0).filter(|_| *constant == 0.0);
+                start = lead.map(|lead| terms.remove(lead).row);
             }
             _ => {}
         }
-        steps.push(Step { to, op, products });
+        steps.push(Step { to, op, start, products });
     }
     steps
 }
@@ -79,6 +83,7 @@ fn fused(tape: Tape<f64>, moves: &[bool]) -> Vec<Step> {
 impl Step {
     fn operands(&self) -> Vec<Row> {
         let mut operands = self.op.operands();
+        operands.extend(self.start);
         operands.extend(self.products.iter().flat_map(|product| product.of));
         operands.sort_unstable();
         operands.dedup();
@@ -91,14 +96,18 @@ impl Step {
 
     /// Writes it to a list, its values at free places; the places of what is done with then are free.
     fn lower(&self, places: &mut Places, is_done: impl Fn(Row) -> bool, list: &mut List) {
+        let start = match (self.start, &self.op) {
+            (None, Op::Sum { constant, .. }) => places.constant(*constant),
+            (start, _) => start.map_or(self.to, |row| places.of[row.at()]),
+        };
         let place = |row: Row| places.of[row.at()];
         let products = self.products.iter().map(|product| Product { of: product.of.map(place), ..*product });
         let next = |terms: &[Term<f64>]| {
             list.terms.extend(terms.iter().map(|term| Term { row: place(term.row), ..*term }));
             list.products.extend(products);
-            Next { terms: terms.len() as u32, products: self.products.len() as u32 }
+            Sum { start, terms: terms.len() as u32, products: self.products.len() as u32 }
         };
-        let op = self.op.map(place, |x| x, next);
+        let op = self.op.map(place, |_| (), next);
         places.leave(self.operands(), &is_done);
         places.take(self.values());
         places.leave(self.values(), &is_done);
@@ -111,9 +120,20 @@ struct Places {
     of: Vec<Row>,
     count: u32,
     free: Vec<Row>,
+    constants: Vec<(Row, f64)>,
 }
 
 impl Places {
+    /// The place of a constant.
+    fn constant(&mut self, constant: f64) -> Row {
+        let known = self.constants.iter().find(|(_, known)| known.to_bits() == constant.to_bits());
+        known.map(|(row, _)| *row).unwrap_or_else(|| {
+            self.constants.push((Row(self.count), constant));
+            self.count += 1;
+            Row(self.count - 1)
+        })
+    }
+
     /// Gives a value a place, or two values places beside each other.
     fn take(&mut self, mut values: impl Iterator<Item = Row>) {
         let (first, second) = (values.next().expect("an operation has a value"), values.next());

@@ -3,8 +3,9 @@
 //!
 //! It knows no mechanics. A formula over [`Scalar`](crate::scalar::Scalar) is [`recorded`] by calling it with [`Traced`] numbers;
 //! what comes out is a [`Tape`], valid as long as the formula would be the same operations. [`Solution`] runs it as series, over doubles or
-//! [`DoubleDouble`](crate::scalar::DoubleDouble)s, [`Program`] for its values alone, of many states side by side.
+//! [`DoubleDouble`](crate::scalar::DoubleDouble)s, [`Program`] for its values, of many states side by side, [`Alone`] of one.
 
+mod alone;
 mod lowering;
 mod memo;
 mod program;
@@ -16,6 +17,7 @@ mod traced;
 #[cfg(test)]
 mod tests;
 
+pub use alone::Alone;
 pub use memo::Memo;
 pub use program::Program;
 pub use solution::{Coefficient, Solution};

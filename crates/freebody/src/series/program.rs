@@ -11,9 +11,10 @@ pub(super) struct Product {
     pub of: [Row; 2],
 }
 
-/// So many of the terms and products that follow those of the sums before.
+/// A sum: a value, and so many of the terms and products that follow those of the sums before.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Next {
+pub(super) struct Sum {
+    pub start: Row,
     pub terms: u32,
     pub products: u32,
 }
@@ -21,7 +22,7 @@ pub(super) struct Next {
 /// Operations, each with where its value goes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct List {
-    pub steps: Vec<(Row, Op<f64, Next>)>,
+    pub steps: Vec<(Row, Op<(), Sum>)>,
     pub terms: Vec<Term<f64>>,
     pub products: Vec<Product>,
 }
@@ -35,6 +36,7 @@ pub struct Program {
     /// How many inputs move; they stand first.
     pub(super) inputs: usize,
     pub(super) rows: usize,
+    pub(super) constants: Vec<(Row, f64)>,
     /// Where each result stands, and how many of the steps are made then.
     pub(super) results: Vec<(Row, usize)>,
 }
@@ -42,7 +44,9 @@ pub struct Program {
 impl Program {
     /// Memory for states side by side.
     pub fn memory<const B: usize>(&self) -> Vec<Block<B>> {
-        vec![Block::of(0.0); self.rows]
+        let mut memory = vec![Block::of(0.0); self.rows];
+        self.constants.iter().for_each(|(row, constant)| memory[row.at()] = Block::of(*constant));
+        memory
     }
 
     /// Takes the inputs that do not move.
@@ -51,17 +55,14 @@ impl Program {
         self.fixed.run::<B, 1>(self.fixed.steps.len(), memory);
     }
 
-    /// Writes the first results at times `t` and states `y`, which are the inputs that move; the others were taken before.
+    /// Writes the first results at times `t` and states `y`, which are the inputs that move; the others were taken before. Of whole parts.
     #[inline(always)]
     pub fn run<const B: usize>(&self, memory: &mut [Block<B>], t: Block<B>, y: &[Block<B>], results: &mut [Block<B>]) {
         memory[0] = t;
         memory[1..self.inputs].copy_from_slice(y);
         let asked = &self.results[..results.len()];
         let steps = asked.iter().map(|(_, steps)| *steps).max().unwrap_or(0);
-        match B % PART {
-            0 => self.moving.run::<B, PART>(steps, memory),
-            _ => self.moving.run::<B, 1>(steps, memory),
-        }
+        self.moving.run::<B, PART>(steps, memory);
         for (to, (row, _)) in results.iter_mut().zip(asked) {
             *to = memory[row.at()];
         }
@@ -88,13 +89,13 @@ impl List {
 fn step<const B: usize, const N: usize>(
     memory: &mut [Block<B>],
     to: Row,
-    op: &Op<f64, Next>,
+    op: &Op<(), Sum>,
     (terms, products): (&[Term<f64>], &[Product]),
 ) {
     match *op {
-        Op::Sum { constant, .. } => {
+        Op::Sum { terms: Sum { start, .. }, .. } => {
             for part in 0..B / N {
-                let mut sum = [constant; N];
+                let mut sum = *memory[start.at()].part::<N>(part);
                 for term in terms {
                     block::add(&mut sum, term.factor, memory[term.row.at()].part(part));
                 }

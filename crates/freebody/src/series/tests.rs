@@ -90,6 +90,7 @@ fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
     let (still, open) = ((p * p + S::of(2.0)).sqrt(), y * y + t);
     vec![
         (t * y).scale(3.0) - still * sin * (y + S::of(0.5)) + cos.scale(0.1) + S::of(0.7),
+        t + y.scale(1.1) + sin.scale(0.2) + cos.scale(1.3) + t * sin + t * cos + (y * sin).scale(0.3) + y * cos,
         still.exp() / open,
         S::one() / (open + p),
         (open * open + S::one()).ln(),
@@ -103,18 +104,17 @@ fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
 fn a_program_gives_the_formula_to_the_same_bits_alone_and_side_by_side() {
     let tape = recorded([0.4, 0.3, 0.9], |x| Ok::<_, ()>(every_operation(x))).unwrap();
     let program = Program::new(tape.rounded(), 2);
-    let (mut beside, mut alone) = (program.memory::<64>(), program.memory::<1>());
-    let (mut all, mut one) = (vec![Block::of(0.0); 7], vec![Block::of(0.0); 7]);
+    let (mut beside, mut all) = (program.memory::<64>(), vec![Block::of(0.0); 8]);
     let [y, p] = [0.3, 0.7].map(|from| Block(std::array::from_fn(|i| from + 0.11 * i as f64)));
     program.fix(&mut beside, &[p]);
     for t in [0.4, 1.7] {
         program.run(&mut beside, Block::of(t), &[y], &mut all);
         for i in 0..64 {
-            program.fix(&mut alone, &[Block([p.0[i]])]);
-            program.run(&mut alone, Block::of(t), &[Block([y.0[i]])], &mut one);
-            for ((all, one), exact) in all.iter().zip(&one).zip(every_operation(&[t, y.0[i], p.0[i]])) {
-                assert_eq!(all.0[i].to_bits(), one.0[0].to_bits());
-                assert!((one.0[0] - exact).abs() <= 1e-14 * exact.abs().max(1.0), "{} {exact}", one.0[0]);
+            let mut alone = Alone::new(&program, &[p.0[i]]);
+            alone.run(t, [&[y.0[i]], &[]]);
+            for ((all, one), exact) in all.iter().zip(alone.results(0)).zip(every_operation(&[t, y.0[i], p.0[i]])) {
+                assert_eq!(all.0[i].to_bits(), one.to_bits());
+                assert!((one - exact).abs() <= 1e-14 * exact.abs().max(1.0), "{one} {exact}");
             }
         }
     }
@@ -126,8 +126,8 @@ fn a_value_that_is_done_with_leaves_its_place_and_no_more_is_done_than_is_asked_
     let tape = recorded([0.0, 0.3], |x| Ok::<_, ()>(vec![far(x[1]), far(far(x[1]))])).unwrap();
     let program = Program::new(tape.rounded(), 2);
     assert_eq!(program.results[1].1, 2 * program.results[0].1);
-    let mut memory = program.memory::<1>();
-    assert!(memory.len() <= 5, "time, the state, a result kept, and what is at work: {}", memory.len());
+    let mut memory = program.memory::<32>();
+    assert!(memory.len() <= 6, "time, the state, a constant, a result kept, and what is at work: {}", memory.len());
     for count in 1..=2 {
         let mut results = vec![Block::of(0.0); count];
         program.run(&mut memory, Block::of(0.0), &[Block::of(0.3)], &mut results);

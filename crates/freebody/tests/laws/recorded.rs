@@ -9,7 +9,7 @@ use freebody::dynamics::{reaction_names, Route, Workspace};
 use freebody::hybrid::Recorded;
 use freebody::mechanism::Recording;
 use freebody::mode::Mode;
-use freebody::scalar::Block;
+use freebody::series::Alone;
 
 /// How far a state is off the loops, rad, and what is left then by one correction: its square, by levers of less than ten lengths.
 const OFF: f64 = 1e-6;
@@ -17,13 +17,9 @@ const LEFT: f64 = 1e-11;
 
 /// The first of what is read at a state.
 fn read(recorded: &Recorded, workspace: &Workspace, count: usize) -> Vec<f64> {
-    let (mut memory, at) = (recorded.program.memory::<1>(), workspace.at());
-    let numbers: Vec<_> = recorded.numbers(workspace).into_iter().map(Block::of).collect();
-    recorded.program.fix(&mut memory, &numbers);
-    let y: Vec<_> = at.q.iter().chain(at.u).map(|&x| Block::of(x)).collect();
-    let mut results = vec![Block::of(0.0); count];
-    recorded.program.run(&mut memory, Block::of(at.t), &y, &mut results);
-    results.iter().map(|x| x.0[0]).collect()
+    let (mut alone, at) = (Alone::new(&recorded.program, &recorded.numbers(workspace)), workspace.at());
+    alone.run(at.t, [at.q, at.u]);
+    alone.results(0).take(count).collect()
 }
 
 /// Visits states on the loops of frames of one to three windows with what is recorded of each frame.
