@@ -184,9 +184,28 @@ impl<S: Coefficient> Memory<'_, S> {
     /// The inner terms of order k of all products.
     #[inline(always)]
     fn write_inner(&self, factors: &[[usize; 2]], k: usize, inner: &mut [S]) {
-        let count = (k - 1).next_multiple_of(WIDTH);
+        match (k - 1).next_multiple_of(WIDTH) {
+            0 => inner.fill(S::zero()),
+            4 => self.write_dots::<4>(factors, k, inner),
+            8 => self.write_dots::<8>(factors, k, inner),
+            12 => self.write_dots::<12>(factors, k, inner),
+            16 => self.write_dots::<16>(factors, k, inner),
+            20 => self.write_dots::<20>(factors, k, inner),
+            24 => self.write_dots::<24>(factors, k, inner),
+            count => {
+                for (sum, &[a, b]) in inner.iter_mut().zip(factors) {
+                    *sum = S::dot(&self.all[a..][..count], &self.all[b - k..][..count]);
+                }
+            }
+        }
+    }
+
+    /// The same of a length that the compiler knows.
+    #[inline(always)]
+    fn write_dots<const COUNT: usize>(&self, factors: &[[usize; 2]], k: usize, inner: &mut [S]) {
         for (sum, &[a, b]) in inner.iter_mut().zip(factors) {
-            *sum = S::dot(&self.all[a..a + count], &self.all[b - k..b - k + count]);
+            let [a, b] = [a, b - k].map(|from| self.all[from..].first_chunk::<COUNT>().expect("rows are longer"));
+            *sum = S::dot(a, b);
         }
     }
 
