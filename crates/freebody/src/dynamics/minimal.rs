@@ -9,7 +9,7 @@ use crate::mode::ContactMode;
 use crate::plane::{Twist, Wrench};
 use crate::scalar::Scalar;
 use crate::solve::{
-    Condensed, Equations, IslandMemory, Islands, Matrix, Orthogonal, Quasidefinite, SaddleError, Solution,
+    Condensed, Equations, IslandMemory, IslandRank, Islands, Matrix, Orthogonal, Quasidefinite, SaddleError, Solution,
 };
 
 /// Memory of the dense solution.
@@ -33,7 +33,7 @@ pub struct Dense {
     pub(super) carried: Vec<Inertia>,
     factored: Factored,
     /// Memory of the rank of the rows, and of the rows in units of the characteristic length.
-    pub(super) independence: Orthogonal,
+    pub(super) independence: IslandRank,
     pub(super) rows_in_units: Matrix,
 }
 

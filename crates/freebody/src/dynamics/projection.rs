@@ -387,7 +387,7 @@ impl Workspace<'_> {
         let (mut scaled, mut sizes) =
             (std::mem::take(&mut self.dense.rows_in_units), std::mem::take(&mut self.dense.sizes));
         self.in_units(&self.rows, &mut scaled, &mut sizes);
-        let independence = self.dense.independence.find_rank(&scaled).kept;
+        let independence = self.dense.independence.find(&scaled).kept;
         (self.dense.rows_in_units, self.dense.sizes) = (scaled, sizes);
         independence
     }

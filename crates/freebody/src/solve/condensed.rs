@@ -1,5 +1,6 @@
 //! The equations of an instant by their multipliers alone, where every motion has inertia and it is clear which rows depend on others.
 
+use super::islands::Groups;
 use super::{axpy, dot, largest, Matrix, Solution};
 
 /// Pivot, over what it was before others were eliminated, below which digits may be lost.
@@ -10,7 +11,8 @@ const DEPENDENT: f64 = 1e-10;
 const MET: f64 = 1e-9;
 
 /// W λ = r − G M⁻¹ f with W = G M⁻¹ Bᵀ (Delassus), and M a = f + Bᵀ λ. M = L D Lᵀ within its envelope (George & Liu, *Computer
-/// Solution of Large Sparse Positive Definite Systems*, 1981, ch. 4): bodies that share no inertia cost nothing together.
+/// Solution of Large Sparse Positive Definite Systems*, 1981, ch. 4): bodies that share no inertia cost nothing together, and rows
+/// that share no unknown are eliminated apart.
 #[derive(Clone, Debug, Default)]
 pub struct Condensed {
     lower: Matrix,
@@ -27,18 +29,26 @@ pub struct Condensed {
     acting: Vec<Sparse>,
     /// What makes the rows of order one.
     scale: Vec<f64>,
-    /// W in its factors, rows and columns in the order of their pivots.
-    condensed: Matrix,
+    groups: Groups,
+    blocks: Vec<Block>,
+    x: Vec<f64>,
+    part: Vec<f64>,
+}
+
+/// Entries with their places.
+type Sparse = Vec<(usize, f64)>;
+
+/// Rows that share unknowns, by way of others too.
+#[derive(Clone, Debug, Default)]
+struct Block {
+    /// Its part of W in its factors, rows and columns in the order of their pivots.
+    w: Matrix,
     order: [Vec<usize>; 2],
     /// Of each row that is not eliminated its largest entry.
     largest: Vec<f64>,
     rank: usize,
     side: Vec<f64>,
-    x: Vec<f64>,
 }
-
-/// Entries with their places.
-type Sparse = Vec<(usize, f64)>;
 
 impl Condensed {
     /// Factors other equations, false where it declines; `b`: what the multipliers act along, G if none.
@@ -55,7 +65,8 @@ impl Condensed {
             self.half_solve(b, &mut forces);
             self.forces = forces;
         }
-        self.condense() && self.eliminate() && self.is_determinate()
+        self.group();
+        self.condense() && self.blocks.iter_mut().all(Block::eliminate) && self.is_determinate()
     }
 
     /// Whether the multipliers act along others than G.
@@ -118,33 +129,130 @@ impl Condensed {
         }
     }
 
+    /// Finds the rows of each block.
+    fn group(&mut self) {
+        let Condensed { rows, forces, groups, blocks, .. } = self;
+        let own = if self.has_own_forces { &forces[..] } else { &[] };
+        let touched = |i: usize| rows[i].iter().chain(own.get(i).into_iter().flatten()).map(|&(k, _)| k);
+        groups.begin(self.inverse_pivots.len());
+        (0..rows.len()).for_each(|i| groups.join(touched(i)));
+        blocks.resize_with(groups.number(), Block::default);
+        blocks.iter_mut().for_each(|block| block.order[0].clear());
+        for i in 0..rows.len() {
+            // A row that moves nothing is found in any.
+            let group = touched(i).next().map_or(0, |k| groups.of[k]);
+            blocks[group].order[0].push(i);
+        }
+    }
+
     /// W, made of order one; false where a row moves nothing.
     fn condense(&mut self) -> bool {
-        let Condensed { rows, forces, inverse_pivots, scale, acting, condensed, .. } = self;
+        let Condensed { rows, forces, inverse_pivots, scale, acting, blocks, .. } = self;
         let size = |row: &Sparse| row.iter().map(|&(k, x)| x * x * inverse_pivots[k]).sum::<f64>();
         scale.clear();
         scale.extend(rows.iter().map(|row| 1.0 / size(row).sqrt()));
         acting.iter_mut().for_each(Sparse::clear);
         acting.resize_with(inverse_pivots.len(), Sparse::new);
-        for (j, force) in if self.has_own_forces { forces } else { &*rows }.iter().enumerate() {
-            force.iter().for_each(|&(k, x)| acting[k].push((j, x * inverse_pivots[k] * scale[j])));
-        }
-        condensed.reset(rows.len(), rows.len());
-        for (i, row) in rows.iter().enumerate() {
-            let out = condensed.row_mut(i);
-            for &(k, x) in row {
-                acting[k].iter().for_each(|&(j, force)| out[j] += x * force);
+        let forces = if self.has_own_forces { forces } else { &*rows };
+        for Block { order: [own, _], w, .. } in &mut *blocks {
+            for (j, &force) in own.iter().enumerate() {
+                forces[force].iter().for_each(|&(k, x)| acting[k].push((j, x * inverse_pivots[k] * scale[force])));
             }
-            out.iter_mut().for_each(|entry| *entry *= scale[i]);
+            w.reset(own.len(), own.len());
+            for (i, &row) in own.iter().enumerate() {
+                let out = w.row_mut(i);
+                for &(k, x) in &rows[row] {
+                    acting[k].iter().for_each(|&(j, force)| out[j] += x * force);
+                }
+                out.iter_mut().for_each(|entry| *entry *= scale[row]);
+            }
         }
-        condensed.data().iter().all(|entry| entry.is_finite())
+        blocks.iter().all(|block| block.w.data().iter().all(|entry| entry.is_finite()))
     }
 
+    /// Whether rows of W that depend on others are rows of G that do, and columns of B: else forces of their own move what no row
+    /// sees, or a row asks for what no force does.
+    fn is_determinate(&mut self) -> bool {
+        // With W = V Vᵀ, as many rows of V depend on others as of W.
+        if !self.has_own_forces {
+            return true;
+        }
+        let Condensed { rows, forces, scale, inverse_pivots, blocks, x, part, .. } = self;
+        let mut is_nothing = |of: &[Sparse], order: &[usize], part: &[f64]| {
+            x.clear();
+            x.resize(inverse_pivots.len(), 0.0);
+            for (&i, part) in order.iter().zip(part) {
+                of[i].iter().for_each(|&(k, entry)| x[k] += entry * part * scale[i]);
+            }
+            x.iter().zip(&*inverse_pivots).map(|(x, inverse)| x * x * inverse).sum::<f64>() <= DEPENDENT
+        };
+        let mut depends_alike = |block: &Block, i: usize| {
+            block.write_dependence(i, part);
+            let depends = is_nothing(rows, &block.order[0], part);
+            block.write_stress(i, part);
+            depends && is_nothing(forces, &block.order[1], part)
+        };
+        blocks.iter().all(|block| (block.rank..block.order[0].len()).all(|i| depends_alike(block, i)))
+    }
+
+    /// m × d: the multipliers with Bᵀ λ = 0; the largest entry of each column is 1.
+    pub fn self_stress(&self) -> Matrix {
+        let dependent = |block: &Block| block.order[0].len() - block.rank;
+        let mut all = Matrix::zeros(self.rows.len(), self.blocks.iter().map(dependent).sum());
+        let (mut column, mut part) = (0, vec![]);
+        for block in &self.blocks {
+            for i in block.rank..block.order[0].len() {
+                block.write_stress(i, &mut part);
+                let scaled = || block.order[1].iter().zip(&part).map(|(&j, x)| (j, x * self.scale[j]));
+                let largest = scaled().fold(0.0, |most: f64, (_, x)| if x.abs() > most.abs() { x } else { most });
+                scaled().for_each(|(j, x)| all[(j, column)] = x / largest);
+                column += 1;
+            }
+        }
+        all
+    }
+
+    /// Solves for applied forces f (n) and right-hand sides r (m): into `found`. Of multipliers that depend on others some are 0; what
+    /// contradicts others is left open, and told.
+    pub fn solve_into(&mut self, f: &[f64], r: &[f64], found: &mut Solution) {
+        let Solution { a, lambda, inconsistency } = found;
+        f.clone_into(a);
+        forward(&self.lower, &self.first, a);
+        a.iter_mut().zip(&self.inverse_pivots).for_each(|(a, inverse)| *a *= inverse);
+        let terms = |i: usize| self.rows[i].iter().map(|&(k, x)| x * a[k]);
+        let size = |i: usize| (r[i].abs() + terms(i).map(f64::abs).sum::<f64>()) * self.scale[i];
+        lambda.clear();
+        lambda.resize(r.len(), 0.0);
+        let mut open = 0.0_f64;
+        for block in &mut self.blocks {
+            block.side.clear();
+            block.side.extend(block.order[0].iter().map(|&i| (r[i] - terms(i).sum::<f64>()) * self.scale[i]));
+            block.substitute();
+            open = open.max(largest(block.side[block.rank..].iter().copied()));
+            for (&j, x) in block.order[1].iter().zip(&block.side[..block.rank]) {
+                lambda[j] = x * self.scale[j];
+            }
+        }
+        *inconsistency = if open > 0.0 && open > MET * largest((0..r.len()).map(size)) { open } else { 0.0 };
+        let forces = if self.has_own_forces { &self.forces } else { &self.rows };
+        for (force, lambda) in forces.iter().zip(&*lambda) {
+            force.iter().for_each(|&(k, x)| a[k] += x * self.inverse_pivots[k] * lambda);
+        }
+        for i in (0..a.len()).rev() {
+            let first = self.first[i];
+            let (before, own) = a.split_at_mut(i);
+            before[first..].iter_mut().zip(&self.lower.row(i)[first..i]).for_each(|(x, l)| *x -= l * own[0]);
+        }
+    }
+}
+
+impl Block {
     /// W = L U with the largest pivot of all that is left (Golub & Van Loan, *Matrix Computations*, 4th ed., §3.4.6), down to what is
     /// round-off; false where a pivot is neither large nor that.
     fn eliminate(&mut self) -> bool {
-        let (w, m, largest) = (&mut self.condensed, self.rows.len(), &mut self.largest);
-        self.order.iter_mut().for_each(|order| order.splice(.., 0..m).for_each(drop));
+        let Block { w, largest, order: [rows, columns], .. } = self;
+        let m = rows.len();
+        columns.clone_from(rows);
         largest.clear();
         largest.extend((0..m).map(|i| magnitude(w.row(i))));
         for k in 0..m {
@@ -160,8 +268,8 @@ impl Condensed {
             let j = k + at.expect("the largest is an entry");
             w.swap_rows(k, i);
             (0..m).for_each(|row| w.row_mut(row).swap(k, j));
-            self.order[0].swap(k, i);
-            self.order[1].swap(k, j);
+            rows.swap(k, i);
+            columns.swap(k, j);
             largest.swap(k, i);
             let (above, below) = w.split_rows_mut(k + 1, m);
             let pivot = &above[k * m..];
@@ -178,93 +286,24 @@ impl Condensed {
         true
     }
 
-    /// Whether rows of W that depend on others are rows of G that do, and columns of B: else forces of their own move what no row
-    /// sees, or a row asks for what no force does.
-    fn is_determinate(&mut self) -> bool {
-        // With W = V Vᵀ, as many rows of V depend on others as of W.
-        !self.has_own_forces || (self.rank..self.rows.len()).all(|i| self.depends_alike(i))
-    }
-
-    fn depends_alike(&mut self, i: usize) -> bool {
-        let (w, rank) = (&self.condensed, self.rank);
-        self.side.clear();
-        self.side.resize(i, 0.0);
-        self.side.push(1.0);
-        for k in (0..rank).rev() {
-            self.side[k] = -w[(i, k)] - (k + 1..rank).map(|j| self.side[j] * w[(j, k)]).sum::<f64>();
+    /// What dependent row i is of those before it: parts of rows, in the order of their pivots, that add up to nothing.
+    fn write_dependence(&self, i: usize, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(i, 0.0);
+        out.push(1.0);
+        for k in (0..self.rank).rev() {
+            out[k] = -self.w[(i, k)] - (k + 1..self.rank).map(|j| out[j] * self.w[(j, k)]).sum::<f64>();
         }
-        if !self.is_nothing(0) {
-            return false;
-        }
-        let mut side = std::mem::take(&mut self.side);
-        self.write_stress(i, &mut side);
-        self.side = side;
-        self.is_nothing(1)
     }
 
     /// Multipliers, in the order of their pivots and of order one, of which W makes nothing: that of dependent column i and those before.
-    fn write_stress(&self, i: usize, out: &mut [f64]) {
-        let (w, rank) = (&self.condensed, self.rank);
-        out[rank..].fill(0.0);
-        out[i] = 1.0;
-        for k in (0..rank).rev() {
-            out[k] = -(w[(k, i)] + (k + 1..rank).map(|j| w[(k, j)] * out[j]).sum::<f64>()) / w[(k, k)];
-        }
-    }
-
-    /// m × d: the multipliers with Bᵀ λ = 0; the largest entry of each column is 1.
-    pub fn self_stress(&self) -> Matrix {
-        let (rank, m) = (self.rank, self.rows.len());
-        let mut all = Matrix::zeros(m, m - rank);
-        let mut part = vec![0.0; m];
-        for i in rank..m {
-            self.write_stress(i, &mut part);
-            let scaled = || self.order[1].iter().zip(&part).map(|(&j, x)| (j, x * self.scale[j]));
-            let largest = scaled().fold(0.0, |most: f64, (_, x)| if x.abs() > most.abs() { x } else { most });
-            scaled().for_each(|(j, x)| all[(j, i - rank)] = x / largest);
-        }
-        all
-    }
-
-    /// Whether the rows of G (0), or columns of B (1), add up to nothing, each with its part.
-    fn is_nothing(&mut self, which: usize) -> bool {
-        let of = if which == 0 { &self.rows } else { &self.forces };
-        self.x.fill(0.0);
-        for (&i, part) in self.order[which].iter().zip(&self.side) {
-            of[i].iter().for_each(|&(k, x)| self.x[k] += x * part * self.scale[i]);
-        }
-        let size: f64 = self.x.iter().zip(&self.inverse_pivots).map(|(x, inverse)| x * x * inverse).sum();
-        size <= DEPENDENT
-    }
-
-    /// Solves for applied forces f (n) and right-hand sides r (m): into `found`. Of multipliers that depend on others some are 0; what
-    /// contradicts others is left open, and told.
-    pub fn solve_into(&mut self, f: &[f64], r: &[f64], found: &mut Solution) {
-        let Solution { a, lambda, inconsistency } = found;
-        f.clone_into(a);
-        forward(&self.lower, &self.first, a);
-        a.iter_mut().zip(&self.inverse_pivots).for_each(|(a, inverse)| *a *= inverse);
-        let terms = |i: usize| self.rows[i].iter().map(|&(k, x)| x * a[k]);
-        self.side.clear();
-        self.side.extend(self.order[0].iter().map(|&i| (r[i] - terms(i).sum::<f64>()) * self.scale[i]));
-        let size = |i: usize| (r[i].abs() + terms(i).map(f64::abs).sum::<f64>()) * self.scale[i];
-        let most = if self.rank < r.len() { largest((0..r.len()).map(size)) } else { 0.0 };
-        self.substitute();
-        let open = largest(self.side[self.rank..].iter().copied());
-        *inconsistency = if open > MET * most { open } else { 0.0 };
-        lambda.clear();
-        lambda.resize(r.len(), 0.0);
-        for (&j, x) in self.order[1].iter().zip(&self.side[..self.rank]) {
-            lambda[j] = x * self.scale[j];
-        }
-        let forces = if self.has_own_forces { &self.forces } else { &self.rows };
-        for (force, lambda) in forces.iter().zip(&*lambda) {
-            force.iter().for_each(|&(k, x)| a[k] += x * self.inverse_pivots[k] * lambda);
-        }
-        for i in (0..a.len()).rev() {
-            let first = self.first[i];
-            let (before, own) = a.split_at_mut(i);
-            before[first..].iter_mut().zip(&self.lower.row(i)[first..i]).for_each(|(x, l)| *x -= l * own[0]);
+    fn write_stress(&self, i: usize, out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(i, 0.0);
+        out.push(1.0);
+        for k in (0..self.rank).rev() {
+            let row = self.w.row(k);
+            out[k] = -(row[i] + dot(&row[k + 1..self.rank], &out[k + 1..self.rank])) / row[k];
         }
     }
 
@@ -272,10 +311,10 @@ impl Condensed {
     fn substitute(&mut self) {
         for i in 0..self.side.len() {
             let known = i.min(self.rank);
-            self.side[i] -= dot(&self.condensed.row(i)[..known], &self.side[..known]);
+            self.side[i] -= dot(&self.w.row(i)[..known], &self.side[..known]);
         }
         for i in (0..self.rank).rev() {
-            let row = &self.condensed.row(i)[..self.rank];
+            let row = &self.w.row(i)[..self.rank];
             self.side[i] = (self.side[i] - dot(&row[i + 1..], &self.side[i + 1..self.rank])) / row[i];
         }
     }

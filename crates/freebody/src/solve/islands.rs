@@ -1,7 +1,7 @@
 //! Equations that fall apart into groups without a common unknown: each group is solved for itself.
 
 use super::saddle::{gather, Equations, Memory};
-use super::{largest, Matrix, Rank, Saddle, SaddleError, Solution};
+use super::{largest, Matrix, Orthogonal, Rank, Saddle, SaddleError, Solution};
 
 /// Part of a row that is round-off.
 const UNFELT: f64 = 1e-12;
@@ -17,11 +17,11 @@ pub struct Islands {
 
 /// Which unknowns are in one group.
 #[derive(Clone, Debug, Default)]
-struct Groups {
+pub(super) struct Groups {
     /// Of each unknown the least that it is known to be grouped with, found by way of others.
     least: Vec<usize>,
     /// The group of each unknown.
-    of: Vec<usize>,
+    pub of: Vec<usize>,
 }
 
 /// Memory of [`Islands::solve_into`], kept from one solution to the next.
@@ -71,16 +71,7 @@ impl Islands {
 
     /// The rank of G and what it was decided on.
     pub fn rank(&self) -> Rank {
-        let ranks = || self.islands.iter().map(|island| island.saddle.rank()).filter(|rank| rank.rank > 0);
-        if ranks().next().is_none() {
-            return Rank::default();
-        }
-        Rank {
-            rank: ranks().map(|r| r.rank).sum(),
-            kept: ranks().map(|r| r.kept).fold(f64::INFINITY, f64::min),
-            dropped: ranks().map(|r| r.dropped).fold(0.0, f64::max),
-            uncertain: ranks().any(|r| r.uncertain),
-        }
+        together(self.islands.iter().map(|island| island.saddle.rank()))
     }
 
     /// The rank of B.
@@ -153,53 +144,107 @@ impl Islands {
     }
 }
 
+/// The rank of rows that fall apart into groups without a common unknown.
+#[derive(Clone, Debug, Default)]
+pub struct IslandRank {
+    groups: Groups,
+    unknowns: Vec<usize>,
+    rows: Vec<usize>,
+    part: Matrix,
+    split: Orthogonal,
+}
+
+impl IslandRank {
+    /// That of other rows, and what it was decided on in the groups.
+    pub fn find(&mut self, g: &Matrix) -> Rank {
+        let IslandRank { groups, unknowns, rows, part, split } = self;
+        groups.begin(g.cols());
+        (0..g.rows()).for_each(|i| groups.join(touched(g, None, i)));
+        let ranks = (0..groups.number()).map(|group| {
+            unknowns.clear();
+            unknowns.extend((0..g.cols()).filter(|&j| groups.of[j] == group));
+            rows.clear();
+            rows.extend((0..g.rows()).filter(|&i| unknowns.iter().any(|&j| g[(i, j)] != 0.0)));
+            part.fill(rows.len(), unknowns.len(), |i, j| g[(rows[i], unknowns[j])]);
+            split.find_rank(part)
+        });
+        together(ranks)
+    }
+}
+
+/// The rank of groups together.
+fn together(ranks: impl Iterator<Item = Rank>) -> Rank {
+    let none = Rank { kept: f64::INFINITY, ..Rank::default() };
+    let all = ranks.filter(|rank| rank.rank > 0).fold(none, |all, of| Rank {
+        rank: all.rank + of.rank,
+        kept: all.kept.min(of.kept),
+        dropped: all.dropped.max(of.dropped),
+        uncertain: all.uncertain || of.uncertain,
+    });
+    if all.rank == 0 {
+        Rank::default()
+    } else {
+        all
+    }
+}
+
 /// The unknowns that a row touches.
 fn touched<'a>(g: &'a Matrix, b: Option<&'a Matrix>, i: usize) -> impl Iterator<Item = usize> + 'a {
     (0..g.cols()).filter(move |&j| g[(i, j)] != 0.0 || b.is_some_and(|b| b[(i, j)] != 0.0))
 }
 
 impl Groups {
-    /// Finds the groups, in the order of their first unknowns; returns how many, at least one.
+    /// Finds the groups of equations, in the order of their first unknowns; returns how many, at least one.
     fn find(&mut self, mass: &Matrix, g: &Matrix, b: Option<&Matrix>) -> usize {
-        let (n, least) = (g.cols(), &mut self.least);
+        let n = g.cols();
         let is_full = |of: &Matrix| (0..of.rows()).any(|i| of.row(i).iter().all(|&x| x != 0.0));
         if is_full(g) || is_full(mass) {
             self.of.clear();
             self.of.resize(n, 0);
             return 1;
         }
-        least.clear();
-        least.extend(0..n);
+        self.begin(n);
         for i in 0..n {
-            join(least, (0..=i).filter(|&j| mass[(i, j)] != 0.0 || i == j));
+            self.join((0..=i).filter(|&j| mass[(i, j)] != 0.0 || i == j));
         }
-        (0..g.rows()).for_each(|i| join(least, touched(g, b, i)));
+        (0..g.rows()).for_each(|i| self.join(touched(g, b, i)));
+        self.number().max(1)
+    }
+
+    /// Takes `n` unknowns, each by itself.
+    pub fn begin(&mut self, n: usize) {
+        self.least.clear();
+        self.least.extend(0..n);
+    }
+
+    /// Makes one group of all that are given.
+    pub fn join(&mut self, mut of: impl Iterator<Item = usize>) {
+        let Some(first) = of.next() else { return };
+        let mut one = self.root(first);
+        for i in of {
+            let (a, b) = (one, self.root(i));
+            one = a.min(b);
+            self.least[a.max(b)] = one;
+        }
+    }
+
+    /// Numbers the groups in the order of their first unknowns; returns how many there are.
+    pub fn number(&mut self) -> usize {
         let mut count = 0;
         self.of.clear();
-        for i in 0..n {
-            let first = root(least, i);
+        for i in 0..self.least.len() {
+            let first = self.root(i);
             self.of.push(if first == i { count } else { self.of[first] });
             count += usize::from(first == i);
         }
-        count.max(1)
+        count
     }
-}
 
-fn root(least: &[usize], mut i: usize) -> usize {
-    while least[i] != i {
-        i = least[i];
-    }
-    i
-}
-
-/// Makes one group of all that are given.
-fn join(least: &mut [usize], mut of: impl Iterator<Item = usize>) {
-    let Some(first) = of.next() else { return };
-    let mut one = root(least, first);
-    for i in of {
-        let (a, b) = (one, root(least, i));
-        one = a.min(b);
-        least[a.max(b)] = one;
+    fn root(&self, mut i: usize) -> usize {
+        while self.least[i] != i {
+            i = self.least[i];
+        }
+        i
     }
 }
 

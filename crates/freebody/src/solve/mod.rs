@@ -21,7 +21,7 @@ mod sparse;
 
 pub use condensed::Condensed;
 pub use dense::{Lu, Singular};
-pub use islands::{IslandMemory, Islands};
+pub use islands::{IslandMemory, IslandRank, Islands};
 pub use matrix::Matrix;
 pub use ordering::minimum_degree;
 pub use orthogonal::{jacobi_svd, Orthogonal, Rank, Svd};

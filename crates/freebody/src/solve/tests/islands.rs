@@ -1,4 +1,4 @@
-use super::super::{Islands, Matrix};
+use super::super::{Condensed, IslandRank, Islands, Matrix, Solution};
 use super::{distance, factored, unscaled, Random};
 
 /// Equations of two or three groups, their unknowns and rows mixed up, have the solution of the whole: the same
@@ -30,6 +30,17 @@ fn groups_are_solved_as_the_whole() {
         assert!(distance(&a.a, &b.a) < 1e-9, "case {case}: accelerations");
         assert!(distance(&a.lambda, &b.lambda) < 1e-9, "case {case}: multipliers");
         assert_eq!((parts.rank().rank, parts.dof()), (whole.rank().rank, whole.dof()));
+        assert_eq!(IslandRank::default().find(&g).rank, whole.rank().rank);
+        let (mut condensed, mut found) = (Condensed::default(), Solution::default());
+        assert!(condensed.refactor(&mass, &g, None), "case {case}: nothing is in doubt");
+        condensed.solve_into(&f, &r, &mut found);
+        assert!(distance(&found.a, &b.a) < 1e-9 && found.inconsistency == 0.0, "case {case}: by multipliers");
+        let among_rows = g.t_mul(&condensed.self_stress());
+        assert_eq!(among_rows.cols(), m - whole.rank().rank);
+        assert!(
+            among_rows.data().iter().all(|x| x.abs() < 1e-9),
+            "case {case}: a self-stress by multipliers that loads"
+        );
         let stress = parts.self_stress();
         assert_eq!((stress.cols(), parts.motions().cols()), (m - whole.rank().rank, whole.dof()));
         // A sum of rows moves with nothing, any other row with something.
