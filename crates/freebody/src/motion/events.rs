@@ -5,7 +5,10 @@ use super::probe::{Node, Probe};
 use super::roots::{chebyshev_points, SAMPLES};
 use super::system::{DynamicsError, Role, Spent, System};
 
+mod memory;
 mod nodes;
+
+use memory::{beyond, Memory, Place};
 
 /// A value is zero when it is below this many times the size of its function.
 const NOISE: f64 = 4.0 * f64::EPSILON;
@@ -69,69 +72,6 @@ pub struct Unresolved {
     pub doubt: Doubt,
     /// The relative tolerance that may tell.
     pub rtol: f64,
-}
-
-/// Where a switching function is.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    /// Sign of its last value clearly away from zero; 0 before there was one.
-    side: i8,
-    /// How far it has been from zero on that side.
-    reach: f64,
-    /// It is at a touch, which may be recorded already.
-    grazes: Option<bool>,
-    last_touch: f64,
-    /// It is a guard that has not been farther from zero than its leeway since the law changed.
-    begins: bool,
-}
-
-/// What is known of one switching function.
-#[derive(Clone, Debug)]
-struct Memory {
-    now: Place,
-    /// The place at the end of the segment last searched.
-    ahead: Place,
-    /// Largest value seen, or its physical scale.
-    size: f64,
-    /// It acted where the next segment starts: that zero is used up.
-    is_spent: bool,
-    /// It is not watched any more.
-    is_muted: bool,
-    is_guard: bool,
-    /// How far below zero it may be where it begins there.
-    leeway: f64,
-    /// Part of its reach within which it touches zero.
-    graze: f64,
-    /// The same within which it is not sure whether it acts,
-    doubt: f64,
-    /// and within which it is not sure, of any event, when it comes.
-    blur: f64,
-}
-
-impl Memory {
-    /// Sign of a value that is clearly not zero, else 0.
-    fn sign(&self, value: f64) -> i8 {
-        beyond(value, NOISE * self.size)
-    }
-
-    /// Whether a function that goes so far from a value stays clearly on the side where it is.
-    fn is_kept_away(&self, [value, most]: [f64; 2]) -> bool {
-        let (is_calm, noise) = (!self.is_spent && self.now.grazes.is_none(), TOUCH * self.size.max(value.abs()));
-        is_calm && value.abs() - noise > CLEAR_OF_ZERO * most && self.now.side == value.signum() as i8
-    }
-
-    /// Values below this, at an extremum, touch zero.
-    fn near(&self, place: Place) -> f64 {
-        (TOUCH * self.size).max(self.graze * place.reach)
-    }
-}
-
-/// Sign of a value beyond the noise, else 0.
-fn beyond(value: f64, noise: f64) -> i8 {
-    match value.abs() > noise {
-        true => value.signum() as i8,
-        false => 0,
-    }
 }
 
 /// Watches the switching functions along a run.
@@ -202,6 +142,9 @@ impl EventDetector {
                 memory.now.begins &= spec.leeway > 0.0;
                 memory.graze = if spec.of_forces { GRAZE_OF_ACTION * self.rtol } else { 0.0 };
             }
+            if self.memory[i].stays_away(values) {
+                continue;
+            }
             let nodes = self.nodes(i, values, &mut probe)?;
             self.walk(i, &nodes, &mut probe, &mut marks)?;
         }
@@ -218,7 +161,7 @@ impl EventDetector {
         self.unresolved.clear();
         for (memory, [value, _]) in self.memory.iter_mut().zip(&self.bounds) {
             memory.size = memory.size.max(value.abs());
-            memory.ahead = Place { reach: memory.now.reach.max(value.abs()), begins: false, ..memory.now };
+            memory.stay(value.abs());
         }
         true
     }

@@ -29,14 +29,11 @@ impl EventDetector {
     ) -> Result<Vec<Node>, DynamicsError> {
         let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
         let mut nodes: Vec<Node> = self.points.iter().zip(values).map(sample).collect();
-        if values.iter().all(|value| *value == values[0]) {
+        if is_clear_of_zero(values) {
             return Ok(nodes);
         }
         let coefficients = chebyshev(values);
-        let swing: f64 = coefficients[1..].iter().map(|c| c.abs()).sum();
-        if coefficients[0].abs() > CLEAR_OF_ZERO * swing {
-            return Ok(nodes);
-        }
+        let swing = swing(&coefficients);
         let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);
         let (mut past, mut dip) = (None, 0.0_f64);
         for x in extrema(&polynomial, 1.0 + PAST) {
@@ -107,6 +104,18 @@ impl EventDetector {
         }
         Ok(found)
     }
+}
+
+/// Whether the polynomial through samples cannot reach zero.
+pub(super) fn is_clear_of_zero(values: &[f64; SAMPLES]) -> bool {
+    let is_constant = || values.iter().all(|value| *value == values[0]);
+    let is_far = |of: [f64; SAMPLES]| of[0].abs() > CLEAR_OF_ZERO * swing(&of);
+    is_constant() || is_far(chebyshev(values))
+}
+
+/// How far a polynomial is from its mean at most.
+fn swing(coefficients: &[f64; SAMPLES]) -> f64 {
+    coefficients[1..].iter().map(|c| c.abs()).sum()
 }
 
 /// The nodes of function `i` with its extrema as they are themselves, not as those of a polynomial that does not follow it: each node
