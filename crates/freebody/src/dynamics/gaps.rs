@@ -361,11 +361,10 @@ impl Workspace<'_> {
         !switched.is_empty()
     }
 
-    /// Whether the rows of the last solution leave nothing free, and no motion drives it.
-    pub fn is_locked(&self) -> bool {
-        let driven = self.at().drives().any(|(_, drive)| drive.is_motion());
-        let dof = if self.is_closed() { self.dense.saddle.dof() } else { self.m.freedom() };
-        !driven && dof == 0
+    /// How many motions the last solution leaves: those that its rows leave free, and those that are driven.
+    pub fn dof(&self) -> usize {
+        let driven = self.at().drives().filter(|(_, drive)| drive.is_motion()).count();
+        driven + if self.is_closed() { self.dense.saddle.dof() } else { self.m.freedom() }
     }
 
     /// The present mode with the values of all rows of which only the change counts as their zeros.

@@ -60,7 +60,7 @@ impl HybridSystem<'_> {
             }
             self.change(t, y, &parameters);
             if !(self.workspace.m.unilateral.is_empty() && self.workspace.m.joint_friction.is_empty()) {
-                self.resolve_mode(t, y, None)?;
+                self.resolve_mode(t, y, None, None)?;
             }
         }
         let switched = self.switch_parts(t, y, &event.then)?;

@@ -2,7 +2,7 @@
 
 use super::guards::{ContactGuard, CLOSED_GAP, REST_SPEED};
 use super::impacts::{Rule, LEFT_OVER};
-use super::rest::Instant;
+use super::instant::Instant;
 use super::{HybridSystem, Start};
 use crate::dynamics::{ContactTolerances, DynamicsError};
 use crate::mode::{ContactMode, Mode};
@@ -44,7 +44,7 @@ impl HybridSystem<'_> {
             if start.mode.is_none() {
                 self.mode = self.workspace.start_contacts()?;
             }
-            self.resolve_mode(t, y, None)?;
+            self.resolve_mode(t, y, None, None)?;
         }
         for (i, event) in m.events.iter().enumerate().filter(|(_, e)| e.opening && start.mode.is_none()) {
             if self.armed(i, t, y)? {
@@ -67,6 +67,8 @@ impl HybridSystem<'_> {
         t: f64,
         y: &mut [f64],
     ) -> Result<(), DynamicsError> {
+        // Where forces balance each other one guard is of them all.
+        let about = (!self.is_force(l, guard)).then_some(l);
         self.place(t, y);
         let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
         let contact = &mut mode.contacts_mut()[l];
@@ -86,7 +88,7 @@ impl HybridSystem<'_> {
             self.enter_mode(t, mode);
             return Ok(());
         }
-        self.resolve_mode(t, y, None)
+        self.resolve_mode(t, y, about, None)
     }
 
     /// A guard of a joint with friction fell to zero: it sticks no more and slides in a sense, or it stopped.
@@ -98,11 +100,12 @@ impl HybridSystem<'_> {
         y: &mut [f64],
     ) -> Result<(), DynamicsError> {
         let slides = self.mode.joint_friction[friction] == ContactMode::Stick;
-        self.resolve_mode(t, y, slides.then_some(Released { friction, sense }))
+        self.resolve_mode(t, y, None, slides.then_some(Released { friction, sense }))
     }
 
     /// Impacts until nothing approaches, then the mode in which the motion goes on: which unilateral constraints hold
-    /// and which joints stick, the one `released` left out.
+    /// and which joints stick, the one `released` left out. What hangs together with no body of the constraint `about` goes on as it
+    /// does.
     ///
     /// # Errors
     /// `simultaneous_impact` and the paradoxes of Painlevé, by name.
@@ -110,10 +113,11 @@ impl HybridSystem<'_> {
         &mut self,
         t: f64,
         y: &mut [f64],
+        about: Option<usize>,
         released: Option<Released>,
     ) -> Result<(), DynamicsError> {
         let (known, earlier) = ([self.mode_changes.len(), self.phases.len()], y.to_vec());
-        match self.next_mode(t, y, released) {
+        match self.next_mode(t, y, about, released) {
             Ok(mode) => {
                 self.enter_mode(t, mode);
                 Ok(())
@@ -128,10 +132,16 @@ impl HybridSystem<'_> {
         }
     }
 
-    fn next_mode(&mut self, t: f64, y: &mut [f64], released: Option<Released>) -> Result<Mode, DynamicsError> {
+    fn next_mode(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        about: Option<usize>,
+        released: Option<Released>,
+    ) -> Result<Mode, DynamicsError> {
         let mut mode = self.mode.clone();
         mode.resting = false;
-        let (mut tolerances, mut instant) = (self.tolerances(), Instant::new());
+        let (mut tolerances, mut instant) = (self.tolerances(), Instant::about(about, self.workspace.m));
         for round in 0..ROUNDS {
             if round > PATIENT_ROUNDS {
                 // What comes to rest here sets off what rests there, ever more slowly.
@@ -142,6 +152,7 @@ impl HybridSystem<'_> {
             self.place_in(&mode, t, y);
             self.workspace.enter(&self.workspace.find_features(self.lookahead()));
             let touching = self.workspace.touching(CLOSED_GAP * self.workspace.length);
+            let touching = self.concerned(&mut instant, touching);
             let rest_speed = tolerances.rest_speed;
             let contacts = self.workspace.movable_contacts(touching, rest_speed)?;
             mode = contacts.opened.clone();
@@ -169,10 +180,10 @@ impl HybridSystem<'_> {
             // What bounces back does so from where it is: to shift it would turn its way.
             let at_rest: Vec<usize> =
                 contacts.constraints.iter().copied().filter(|l| !instant.impacting.contains(l)).collect();
-            mode = self.close_contacts(mode, t, y, &at_rest, &contacts.constraints)?;
+            mode = self.close_contacts(mode, t, y, &at_rest, &contacts.constraints, &instant)?;
             match self.come_to_rest(&mode, t, y, &contacts, &parting, &mut instant)? {
                 Some(at_rest) => mode = at_rest,
-                None => return Ok(mode),
+                None => return self.rejoin(mode, t, y, &instant),
             }
         }
         Err(DynamicsError::EndlessImpacts(ROUNDS))
@@ -225,9 +236,10 @@ impl HybridSystem<'_> {
         y: &mut [f64],
         at_rest: &[usize],
         contacts: &[usize],
+        instant: &Instant,
     ) -> Result<Mode, DynamicsError> {
         let before = self.energy(t, y);
-        let (mode, work) = self.project_onto_contacts(mode, t, y, at_rest, contacts)?;
+        let work = self.project_onto_contacts(&mode, t, y, at_rest, contacts, instant)?;
         let after = self.energy(t, y);
         let [speed, height] = [after[0] - before[0] - work, after[1] - before[1]];
         if speed > ENERGY_NOISE * self.strength * self.workspace.length {
@@ -240,23 +252,24 @@ impl HybridSystem<'_> {
     }
 
     /// Brings the state exactly onto the unilateral constraints that hold, and out of those that open from rest. Where
-    /// nothing can move then, the mode rests. Returns the work of the drives in that, too.
+    /// nothing that is concerned can move then, it is at rest. Returns the work of the drives in that.
     fn project_onto_contacts(
         &mut self,
-        mut mode: Mode,
+        mode: &Mode,
         t: f64,
         y: &mut [f64],
         at_rest: &[usize],
         contacts: &[usize],
-    ) -> Result<(Mode, f64), DynamicsError> {
+        instant: &Instant,
+    ) -> Result<f64, DynamicsError> {
         let n = self.workspace.m.freedom();
-        self.place_in(&mode, t, y);
+        self.place_in(mode, t, y);
         let is_open = |l: usize| mode.contacts[l].mode == ContactMode::Open;
         let inside = |l: &usize| is_open(*l) && self.workspace.constraint_gap(*l) < 0.0;
         let opening: Vec<usize> = at_rest.iter().copied().filter(inside).collect();
         let carries = mode.contacts.iter().any(|contact| contact.mode.carries());
         if opening.is_empty() && !carries && self.workspace.m.joint_friction.is_empty() {
-            return Ok((mode, 0.0));
+            return Ok(0.0);
         }
         let (q, rest) = y.split_at_mut(n);
         let shut = mode.with_contacts(&opening, ContactMode::Frictionless);
@@ -274,14 +287,14 @@ impl HybridSystem<'_> {
         let unmoved =
             mode.with_contacts(&turned, ContactMode::Stick).with_contacts(&approaching, ContactMode::Frictionless);
         let work = self.project_velocities(&unmoved, t, y)?;
-        self.place_in(&mode, t, y);
+        self.place_in(mode, t, y);
         self.workspace.solve()?;
-        mode.resting = self.workspace.is_locked();
-        if mode.resting {
+        let own = instant.coordinates(self.workspace.m);
+        if self.workspace.dof() == n - own.len() {
             // Nothing can move: not even by round-off.
-            y[n..2 * n].fill(0.0);
+            own.into_iter().for_each(|i| y[n + i] = 0.0);
         }
-        Ok((mode, work))
+        Ok(work)
     }
 
     /// Brings the velocities onto what holds, by impulses; returns the work of the drives in that.

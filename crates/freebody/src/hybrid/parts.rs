@@ -40,7 +40,7 @@ impl HybridSystem<'_> {
         switched |= self.reset(t, y, actions)?;
         if switched {
             self.close_engaged(t, y, engaged)?;
-            self.resolve_mode(t, y, None)?;
+            self.resolve_mode(t, y, None, None)?;
         }
         Ok(switched)
     }

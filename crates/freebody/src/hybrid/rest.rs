@@ -1,10 +1,11 @@
 //! The end of bounces without end, and in a pile of whatever is over within a moment.
 
 use super::guards::REST_SPEED;
+use super::instant::Instant;
 use super::mode_changes::ModeChange;
 use super::HybridSystem;
 use crate::dynamics::{ClosedContacts, DynamicsError};
-use crate::mode::{ContactMode, Mode};
+use crate::mode::{ContactMode, ContactState, Mode};
 
 /// Flight between bounces, over the time in which the mechanism moves its own length, that is not followed any more:
 /// its height comes near the round-off of the gap.
@@ -18,14 +19,6 @@ const UNRELATED: f64 = 1e4;
 /// Largest ratio of one bounce to the one before of which a series is summed: nearer to 1 its end would be infinitely far.
 const SUMMABLE: f64 = 0.999;
 
-/// What takes part in the contacts of one instant.
-pub(super) struct Instant {
-    /// What collided.
-    pub impacting: Vec<usize>,
-    /// What came to rest, for good in this instant, and how it is held.
-    ended: Vec<(usize, ContactMode)>,
-}
-
 /// Something that would be over soon.
 struct Passing {
     constraint: usize,
@@ -35,17 +28,6 @@ struct Passing {
     speed: f64,
     /// Whether it slides, and does not fly.
     slides: bool,
-}
-
-impl Instant {
-    fn has_ended(&self, constraint: usize) -> bool {
-        self.ended.iter().any(|&(l, _)| l == constraint)
-    }
-
-    /// Before anything happened.
-    pub fn new() -> Self {
-        Instant { impacting: vec![], ended: vec![] }
-    }
 }
 
 impl HybridSystem<'_> {
@@ -63,7 +45,7 @@ impl HybridSystem<'_> {
         parting: &[usize],
         instant: &mut Instant,
     ) -> Result<Option<Mode>, DynamicsError> {
-        let is_pile = contacts.constraints.len() > PILE;
+        let is_pile = self.is_pile(contacts);
         if parting.is_empty() && !is_pile {
             self.bounce_interval = None;
             return Ok(None);
@@ -182,10 +164,17 @@ impl HybridSystem<'_> {
         (0..n).map(change).fold(0.0, f64::max)
     }
 
+    /// Whether those that touch, with all that held before, are a pile.
+    fn is_pile(&self, contacts: &ClosedContacts) -> bool {
+        let held =
+            |&(l, contact): &(usize, &ContactState)| contact.mode.is_closed() && !contacts.constraints.contains(&l);
+        contacts.constraints.len() + self.mode.contacts.iter().enumerate().filter(held).count() > PILE
+    }
+
     /// The restitution of each contact that is closed: none in a pile where it would not fly for longer than a moment.
     pub(super) fn restitutions(&self, contacts: &ClosedContacts) -> Vec<f64> {
         let slowest = 0.5 * SHORTEST_IN_PILE * self.speed;
-        let is_pile = contacts.constraints.len() > PILE;
+        let is_pile = self.is_pile(contacts);
         let of = |(&l, &rate): (&usize, &f64)| match self.workspace.restitution(l) {
             e if is_pile && rate < 0.0 && -e * rate <= slowest => 0.0,
             e => e,

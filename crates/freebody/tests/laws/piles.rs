@@ -7,6 +7,7 @@ use crate::model::index_of;
 use freebody::contact::complementarity::ImpactLaw;
 use freebody::hybrid::{simulate, Rule, Settings, Start, Trajectory};
 use freebody::motion::Options;
+use freebody::plane::vec2;
 use pile::{Block, Outline, Pile};
 use std::time::Instant;
 
@@ -169,6 +170,32 @@ fn a_stack_comes_to_rest() {
         let [y, turn] = ["y", "a"].map(|word| end.q[index_of(m, &format!("{word}{i}"))]);
         assert!((y - 0.06 * (2 * i + 1) as f64).abs() < DEPTH && turn.abs() < DEPTH, "b{i} at {y}, turned by {turn}");
     }
+}
+
+/// Bodies that never meet go as they go alone, though each is hit and comes to lie at times of its own.
+#[test]
+fn what_hangs_apart_goes_as_it_goes_alone() {
+    let block = |outline, at| Block { outline, at, rates: [0.0; 3] };
+    let side = |x: f64, drop: f64| {
+        let base = Outline::Polygon(Pile::BOX.map(|[x, y]| vec2(x, y)).into());
+        vec![block(base, [x, 0.06 + drop, 0.1]), block(Outline::Disk(0.05), [x + 0.03, 0.3 + drop, 0.0])]
+    };
+    let sides = || [side(-0.25, 0.03), side(0.25, 0.08)];
+    let ends = |blocks: Vec<Block>| {
+        let pile = Pile::of(blocks, [0.5, 0.3]);
+        let run = follow(&pile, 0.4, f64::INFINITY);
+        let (m, end) = (pile.mechanism(), run.end(pile.mechanism()));
+        let place = |i: usize| ["x", "y", "a"].map(|word| end.q[index_of(m, &format!("{word}{i}"))]);
+        ((0..pile.blocks.len()).map(place).collect::<Vec<_>>(), run.mode_changes.len())
+    };
+    let (both, changes) = ends(sides().into_iter().flatten().collect());
+    let ([(one, of_one), (other, of_other)], mut apart) = (sides().map(ends), 0.0_f64);
+    for (alone, together) in one.iter().chain(&other).zip(&both) {
+        alone.iter().zip(together).for_each(|(a, b)| apart = apart.max((a - b).abs()));
+    }
+    assert_eq!(changes, of_one + of_other);
+    // Errors of the steps, 1e-9, which some dozens of impacts have grown.
+    assert!(changes > 20 && apart < 1e-6, "{changes} changes, {apart:e}");
 }
 
 /// What is no pile bounces on: a disk keeps its restitution from flight to flight, until one is near the round-off of its gap.

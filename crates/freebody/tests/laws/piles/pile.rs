@@ -38,6 +38,9 @@ pub struct Pile {
 type Surfaces = [f64; 2];
 
 impl Pile {
+    /// Corners of a box, 20 by 12 cm.
+    pub const BOX: [[f64; 2]; 4] = [[-0.1, -0.06], [0.1, -0.06], [0.1, 0.06], [-0.1, 0.06]];
+
     /// A pile of 3 to 12 bodies of 0.1 to 0.3 m, thrown down in columns of three; every third seed is all plastic.
     pub fn drawn(seed: u64) -> Pile {
         let mut rng = Rng::new(seed);
@@ -51,12 +54,10 @@ impl Pile {
 
     /// Boxes of one size on one another over the floor, each turned and shifted by a little, that are let go some height, m, apart.
     pub fn stack(count: usize, apart: f64) -> Pile {
-        let [half, side] = [0.1, 0.06];
-        let corners = [[-half, -side], [half, -side], [half, side], [-half, side]];
         let block = |i: usize| {
-            let outline = Outline::Polygon(corners.map(|[x, y]| vec2(x, y)).into());
+            let outline = Outline::Polygon(Pile::BOX.map(|[x, y]| vec2(x, y)).into());
             let off = if i.is_multiple_of(2) { 0.01 } else { -0.01 };
-            Block { outline, at: [off, (2 * i + 1) as f64 * side + (i + 1) as f64 * apart, off], rates: [0.0; 3] }
+            Block { outline, at: [off, (2 * i + 1) as f64 * 0.06 + (i + 1) as f64 * apart, off], rates: [0.0; 3] }
         };
         Pile::of((0..count).map(block).collect(), [0.5, 0.3])
     }
