@@ -16,10 +16,10 @@ pub fn keep_above(a: &Matrix, b: &[f64], most: f64) -> (Vec<f64>, f64) {
     let count = groups.number();
     let (mut x, mut rows) = (vec![0.0; a.cols()], vec![vec![]; count]);
     let mut least = f64::INFINITY;
-    for i in 0..a.rows() {
+    for (i, &b) in b.iter().enumerate() {
         match felt(i).next() {
             Some(j) => rows[groups.of[j]].push(i),
-            None => least = least.min(b[i]),
+            None => least = least.min(b),
         }
     }
     for (group, rows) in rows.iter().enumerate() {
