@@ -104,7 +104,7 @@ def phase(checker: Checker, words: str) -> Phase | None:
     found += begun
     firsts = {name: (t, part) for t, part, name in sorted(found, reverse=True) if t > run.t[0]}
     limits = checker.sampler.core.instant(checker.sampler.own).limits
-    if kind == "touch" and lasts and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
+    if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
     rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
     able = {name for name in limits if (rubs(name) if kind in _STATES else limits[name].state not in _OF_STRINGS)}

@@ -12,6 +12,7 @@ import numpy as np
 
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import Sym
 
 from . import timed_claims
 from .assumptions import WORDS
@@ -87,7 +88,7 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         raise problem
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
-    elsewhere = not verdict.ok or (others and _says_nothing(verdict))
+    elsewhere = not verdict.ok or (others and _awaits(checker, declared, statement, verdict))
     idle = lasts and others and _is_idle(verdict)  # of a part by its name, which does nothing yet
     if (stretch or (placed and others) or idle) and elsewhere and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
@@ -196,6 +197,16 @@ def in_phase(
     return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
 
 
+def _awaits(checker: Checker, declared: Declared, statement: str, one: Verdict) -> bool:
+    """Whether it is of what a contact, a string or a stop does, which does nothing where it was judged."""
+    if not one.untested or one.evidence is None:
+        return bool(one.untested)
+    case = checker.case(statement, declared)
+    still = [n.name for n in symbols_in(case.program) if one.evidence.letters.get(n.key) == 0]
+    read = {owner for name in still for text in case.meaning.texts(Sym(name)) for owner in _OWNER.findall(text)}
+    return any(case.meaning.symbols.named.owners.get(owner) in ("contact", "string", "stop") for owner in read)
+
+
 def _says_nothing(one: Verdict) -> bool:
     """Whether something that a statement is of is 0 where it holds, and may act on another stretch."""
     return bool(one.untested) and _is_idle(one)
@@ -270,4 +281,5 @@ _ONE_PART = re.compile(
 )
 """What lasts, and what is a part of that, or a moment, which no stretch between two events is."""
 _CONDITION = re.compile(r"[^=:]*:(?!=)")
+_OWNER = re.compile(r"(\w[\w .]*)\.\w+")
 _FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")
