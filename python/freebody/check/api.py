@@ -162,6 +162,7 @@ class Checker:
         condition, _, said = with_condition_first(plainly(text)[0]).rpartition(":")
         if "frequencies:" in text or not OMEGA.search(said):
             return None
+        # Of several one alone stays finite where a stiffness grows without bound.
         if self.vibration.is_of_several and re.search(r"→|->|\\(?:right)?to\b|\\rightarrow", condition):
             asked = [self.check(OMEGA.sub(f"ω_{1 + i}", text), letters, *how) for i in range(self.vibration.count)]
             return next((one for one in asked if one.ok), asked[0])

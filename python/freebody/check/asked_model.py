@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
     from .admissible import UnderOtherLoads
 
+WORD = re.compile(r"[^\W\d][\w.\[\]]*")
+"""A name in an expression of the model language, also of a part of the model."""
 _AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _STEPS = 2000  # of a run, which is short
@@ -228,24 +230,27 @@ class AskedModel:
     @cached_property
     def derived_start(self) -> set[str]:
         """Parameters with a formula that say where or how fast the model starts."""
-        return {each["name"] for each in self.spec["parameters"] if isinstance(each["value"], str)} & self._words_of(self._start)
+        return {each["name"] for each in self.spec["parameters"] if isinstance(each["value"], str)} & {
+            *WORD.findall(self._initial)
+        }
 
     @cached_property
-    def of_the_way(self) -> set[str]:
-        """Parameters in what says where and how fast the model starts and what happens on its way, and in formulas there."""
-        said = self._start + json.dumps(self.spec["events"], ensure_ascii=False)
-        for parameter in reversed(self.spec["parameters"]):
-            if isinstance(parameter["value"], str) and parameter["name"] in self._words_of(said):
-                said += f" {parameter['value']}"
-        return self._words_of(said)
+    def in_initial_or_events(self) -> set[str]:
+        """The words in which it is said where and how fast the model starts, and what happens on its motion."""
+        said = self._initial + json.dumps(self.spec["events"], ensure_ascii=False)
+        return {*WORD.findall(self.with_formulas(said))}
 
     @property
-    def _start(self) -> str:
-        return self.mechanism.model.initial.model_dump_json() if self.mechanism.model.initial else ""
+    def _initial(self) -> str:
+        initial = self.mechanism.model.initial
+        return initial.model_dump_json() if initial else ""
 
-    @staticmethod
-    def _words_of(text: str) -> set[str]:
-        return {*re.findall(r"[^\W\d]\w*", text)}
+    def with_formulas(self, text: str) -> str:
+        """A part of the model as text, with the formulas of the parameters that stand in it."""
+        for parameter in reversed(self.spec["parameters"]):
+            if isinstance(parameter["value"], str) and parameter["name"] in WORD.findall(text):
+                text += f" {parameter['value']}"
+        return text
 
     @cached_property
     def frictions(self) -> list[str]:

@@ -22,6 +22,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array
 from freebody.symbolic.tree import Fn, Sym, addends, walk
 
+from .asked_model import WORD
 from .budget import Budget
 from .families import ALL, Family, NoMotion, Samples
 from .language.dimensions import misfit
@@ -32,7 +33,6 @@ from .symbols import Symbols
 from .user_symbols import AMPLITUDE, LARGEST, LEAST, MOMENT, Meaning
 from .vocabulary import Vocabulary
 
-_WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
 _ENERGY = re.compile(r"(?:kinetic|potential|energy)\(")
 _BEYOND = re.compile(
@@ -136,14 +136,14 @@ class StatementSymbols:
     def speaks_of_start(self, equation: Equation) -> bool:
         """Whether it names the time or what the model has at its start alone, so that it is of motions from there."""
         said = [text for n in symbols_in(equation) for text in self.texts(Sym(n.name))]
-        words = {word for text in said for word in _WORD.findall(text)}
+        words = {word for text in said for word in WORD.findall(text)}
         derived = {name for name in self.sampler.derived_start if not _named(name, self.mechanics)}
         return "t" in said or not words.isdisjoint(derived.union(self.of_start_alone))
 
     @cached_property
     def of_start_alone(self) -> list[str]:
         """Free parameters that say where and how fast the model starts, and nothing else."""
-        free, gravities, said = self.sampler.free_parameters, self.sampler.gravities, self.sampler.of_the_way
+        free, gravities, said = self.sampler.free_parameters, self.sampler.gravities, self.sampler.in_initial_or_events
         return [name for name in free if name in said and name not in gravities and not _named(name, self.mechanics)]
 
     def names(self) -> Mapping[str, tuple[str, ...]]:
@@ -228,7 +228,7 @@ class StatementSymbols:
         named = {n.name for n in self.used} | derived.keys()
         made_of = [n.name for n in self.used]
         for name in made_of:  # the numbers of the start of which a letter is made count, too
-            made_of += [word for word in _WORD.findall(derived.get(name, "")) if word not in made_of]
+            made_of += [word for word in WORD.findall(derived.get(name, "")) if word not in made_of]
         named |= {*made_of}
         own = [Sym(name) for name, matters in zip(there, used, strict=True) if matters or start or name in named]
         own = [n for n in own if n in self.used or n.name not in self.symbols.no_place]
@@ -251,16 +251,13 @@ class StatementSymbols:
         given = {k: v for k, v in spec.items() if k not in ("parameters", "name", "events", "points")}
         used = json.dumps(given, ensure_ascii=False)
         used += json.dumps([point["at"] for point in spec["points"] if _named(point["name"], used)], ensure_ascii=False)
-        for parameter in reversed(spec["parameters"]):
-            if isinstance(parameter["value"], str) and parameter["name"] in _WORD.findall(used):
-                used += " " + parameter["value"]
-        return used
+        return self.sampler.with_formulas(used)
 
     def _is_fixed(self, symbol: Sym) -> bool:
         """Whether it is made of parameters alone."""
         if self._one(symbol).kind == "vibration":
             return False
-        words = {word for text in self._one(symbol).texts for word in _WORD.findall(text)}
+        words = {word for text in self._one(symbol).texts for word in WORD.findall(text)}
         return words <= {*(p["name"] for p in self.sampler.spec["parameters"]), "pi", "sqrt", "sin", "cos", "tan"}
 
     @cached_property

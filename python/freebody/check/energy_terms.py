@@ -32,7 +32,7 @@ _MOST = 5  # terms that are told to be lacking
 _KINDS = {"kinetic()": ("kinetic",), "potential()": ("potential",), "energy()": ("kinetic", "potential")}
 """Of which kinds an energy of the model is."""
 _MOMENTUM = re.compile(r"momentum_([xy])\(\)|angular_momentum\((.+)\)")
-_SPIN = "angular_momentum(ground.O)"
+_ABOUT_ORIGIN = "angular_momentum(ground.O)"
 _ANGULAR_MOMENTUM = Dimension(2, 1, -1)
 _EACH = 0.3  # by which a correction is larger for each term of the energy that it brings
 _SAME = 1e-7  # below it a share is 0
@@ -49,9 +49,8 @@ def energy_edits(case: Case, equation: Equation, family: Family) -> Iterator[Edi
             yield from _with(equation, other, lacking_of(case, one, other))
     if case.admissible and dimension(sides[0], case.meaning.vocabulary.dimensions) == _ANGULAR_MOMENTUM:
         whole = Add((sides[0], Negative(sides[1])))
-        values = lambda term: np.asarray(sampled(term, case.admissible))
         with suppress(KeyError, StatementError):
-            yield from _with(equation, sides[0], _lacking(case, whole, _SPIN, values))
+            yield from _with(equation, sides[0], _lacking(case, whole, _ABOUT_ORIGIN, _admissible(case)))
     if (samples := case.samples(family)).starts and any(n.dots == 1 for n in symbols_in(equation)):
         began = case.meaning.values(Samples(samples.core, samples.starts, samples.starts))
         changes = lambda term: sampled(term, case.values(family)) - sampled(term, began)
@@ -71,6 +70,7 @@ def lacking_energies(case: Case, node: Node, value: Callable[[Node], Array]) -> 
 
 
 def _lacking(case: Case, node: Node, kind: str, value: Callable[[Node], Array]) -> tuple[Node, ...]:
+    """The same of an energy or a momentum of a ``kind``, as the model language reads it."""
     true, said = _beside(case, node, kind, value)
     found = difference(said, true)
     return found.missing if found.common and not found.strange and len(found.missing) <= _MOST else ()
@@ -81,7 +81,7 @@ def lacking_of(case: Case, letter: Sym, node: Node) -> tuple[Node, ...]:
     others, or too much of one."""
     kind = "".join(case.meaning.texts(letter))
     known = kind in _KINDS or _MOMENTUM.fullmatch(kind)
-    true, said = _beside(case, node, kind, lambda term: np.asarray(sampled(term, case.admissible))) if known else ([], [])
+    true, said = _beside(case, node, kind, _admissible(case)) if known else ([], [])
     shares: dict[int, tuple[float, Node]] = {}
     for own, value in said:
         found = ((i, ratio(value, its)) for i, (_, its) in enumerate(true))
@@ -97,6 +97,11 @@ def lacking_of(case: Case, letter: Sym, node: Node) -> tuple[Node, ...]:
         if share < 1 - _SAME:
             lost.append(multiplied(own, (1 - share) / (share if own is not term else 1.0)))
     return tuple(lost) if shares and None not in lost and len(lost) <= _MOST else ()  # type: ignore[arg-type]
+
+
+def _admissible(case: Case) -> Callable[[Node], Array]:
+    """What a term is at states that joints allow, where no balance holds."""
+    return lambda term: np.asarray(sampled(term, case.admissible))
 
 
 def _question(case: Case, kind: str) -> dict[str, Any]:

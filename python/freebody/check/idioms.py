@@ -17,7 +17,8 @@ _ABROAD = {
     "for": "für|pour|para",
 }
 """Words of other languages with which a condition begins."""
-_NAME = r"(\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?)"
+_LETTER = r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?"
+_NAME = rf"({_LETTER})"
 _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _PUT: tuple[tuple[str, str], ...] = (
@@ -97,7 +98,7 @@ _SLOPE = re.compile(
     rf"|(?<![\w\\])d(?:²|\^2)\s*{_NAME}\s*/\s*d\s*{_NAME}(?:²|\^2)"
 )
 """``d²u/dθ²``, of which t is read elsewhere."""
-_OF_SQUARE = rf"({_NAME[1:-1]}\s*(?:²|\^\s*\{{?2\}}?))"
+_OF_SQUARE = rf"({_LETTER}\s*(?:²|\^\s*\{{?2\}}?))"
 _IN_BRACKETS = r"(?:\\left)?[(\[]((?:[^()\[\]]|\([^()]*\))*?)(?:\\right)?[)\]]"
 _BY_PLACE = (
     rf"\\[dt]?frac\s*\{{\s*d\s*(?:{_IN_BRACKETS}|{_OF_SQUARE})\s*\}}\s*\{{\s*d\s*{_NAME}\s*\}}()",

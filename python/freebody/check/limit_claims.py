@@ -40,6 +40,8 @@ if TYPE_CHECKING:
 
     from .api import Checker, Declared
 
+_TIME = "(t) - 0"
+"""What is small where it is the time since the start."""
 _SOON = (0.05, 0.005)  # of the time typical of the model
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
 
@@ -107,7 +109,7 @@ def _settles(case: Case, equation: Equation) -> bool:
 
 def _small(case: Case, statement: str, limits: str) -> Verdict:
     """For small motions, to first order."""
-    if [text for text, _ in case.hypothesis.small] == ["(t) - 0"]:
+    if [text for text, _ in case.hypothesis.small] == [_TIME]:
         return _soon(case, statement, limits)
     for equation in case.equations:
         if says_zero(equation) and vanishes(equation, case.values(), case.values(wider(case.hypothesis)), 1 / 3):
@@ -123,6 +125,10 @@ def _small(case: Case, statement: str, limits: str) -> Verdict:
             values = (case if from_start is None else small_from_start(case, SMALL)).values()
             seen = evidence(residual(equation, values), values)
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
+    return _true(statement, limits)
+
+
+def _true(statement: str, limits: str) -> Verdict:
     return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
 
 
@@ -136,7 +142,7 @@ def _soon(case: Case, statement: str, limits: str) -> Verdict:
             mends = tuple(corrections(near, equation, SECOND)) if case.correcting else ()
             seen = evidence(residual(equation, values), values)
             return Verdict(Kind.WRONG, statement, f"not so to first order as {limits}", mends=mends, evidence=seen)
-    return Verdict(Kind.TRUE, statement, f"what is left is small beside each term as {limits}: true to first order", limits)
+    return _true(statement, limits)
 
 
 def _first_order(case: Case, equation: Equation, needed: bool) -> bool:

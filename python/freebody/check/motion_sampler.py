@@ -147,7 +147,7 @@ class MotionSampler(FollowedModel):
             found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
         start = self.started(values) if family.since == BEFORE else start
-        asked = self._asked_behind(start, family) if found and start else family.vanishing
+        asked = self._asked_of_motion(start, family) if found and start else family.vanishing
         lost = [text for text in asked if found and not self.vanishes(self.of_now(text, start), found)]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
@@ -337,7 +337,7 @@ class MotionSampler(FollowedModel):
         )
         start = self.put(start, family, values)
         began = self.started(values) if family.since == BEFORE else start
-        conditions = [self.of_now(text, began) for text in self._asked_behind(start, family)]
+        conditions = [self.of_now(text, began) for text in self._asked_of_motion(start, family)]
         usual = family.late or _LATER[0] * (_LATER[1] / _LATER[0]) ** rng.random()
         first = conditions
         for motion, goes_on in self.followed(start, _STAGES if conditions else (_LONG if family.through else usual,)):
@@ -361,8 +361,8 @@ class MotionSampler(FollowedModel):
         at_start = first and not family.through and self.vanishes(first[0], start)
         return (self._sampled(start) if at_start else None), start
 
-    def _asked_behind(self, start: State, family: Family) -> list[str]:
-        """What has to vanish beside that of which it was seen to at the start, where that was put."""
+    def _asked_of_motion(self, start: State, family: Family) -> list[str]:
+        """What has to vanish on a motion itself: its start was put where it has to be."""
         placed = [] if family.since == BEFORE else self.of_start(family, start)
         return [text for text in family.vanishing if text not in placed]
 

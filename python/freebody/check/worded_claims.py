@@ -50,22 +50,13 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
 def labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
     that is the ``problem``. Raises it."""
-    lasts, said = LASTS.match(words) is not None, bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
+    lasts, said = LASTS.match(words) is not None, _is_plain(words)
     if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
         return _of_phase(checker, declared, found, words, statement, problem)
-    if not lasts and kind_of(words) == "reversal" and not NOT_FIRST.search(words):
-        if len(checker.sampler.names) == 1:
-            return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
-        if len(turning := _moves_in(checker, declared, statement)) == 1:
-            return checker.check(f"at the greatest {turning[0]}: {statement}", declared)
-    if not lasts and _OVER.search(words):
-        with suppress(ModelProblem):
-            return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
-    if not lasts and kind_of(words):
-        with suppress(ModelProblem):  # an event by what goes on from there
-            return in_phase(checker, declared, Phase(False, (checker.happening(words),), True), words, statement)
+    if not lasts and (verdict := _of_moment(checker, declared, words, statement)):
+        return verdict
     if said and (until := _UNTIL.fullmatch(words)):
         with suppress(ModelProblem):
             return beside_event(checker, declared, "", "before", until[1], statement)
@@ -73,6 +64,29 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         verdict = _described(checker, declared, given, words, statement)
         if verdict is not None:
             return verdict
+    return _label_or_stretch(checker, declared, words, statement, problem)
+
+
+def _of_moment(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
+    """At a moment that words call by what goes on, or after it; None where they call none."""
+    if kind_of(words) == "reversal" and not NOT_FIRST.search(words):
+        if len(checker.sampler.names) == 1:
+            return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
+        if len(turning := _moves_in(checker, declared, statement)) == 1:
+            return checker.check(f"at the greatest {turning[0]}: {statement}", declared)
+    if _OVER.search(words):
+        with suppress(ModelProblem):
+            return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
+    if kind_of(words):
+        with suppress(ModelProblem):  # an event by what goes on from there
+            return in_phase(checker, declared, Phase(False, (checker.happening(words),), True), words, statement)
+    return None
+
+
+def _label_or_stretch(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
+    """Behind words of which nothing is known but that they name a part, or that they last: as the model is at first, or on a later
+    stretch of its own motion. Raises the ``problem`` where they are neither, and it is not true without them."""
+    lasts, said = LASTS.match(words) is not None, _is_plain(words)
     parts = {*checker.symbols(declared).bodies, *(joint["name"] for joint in checker.sampler.metadata["joints"])}
     meshing = {
         word for joint in checker.sampler.metadata["joints"] if joint["type"] == "gear" for word in ("mesh", joint["name"])
@@ -95,6 +109,11 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
+
+
+def _is_plain(words: str) -> bool:
+    """Whether they are words alone, without a relation."""
+    return bool(words) and re.search(r"[=<>≤≥→]|->", words) is None
 
 
 def _moves_in(checker: Checker, declared: Declared, statement: str) -> list[str]:
@@ -282,4 +301,5 @@ _ONE_PART = re.compile(
 """What lasts, and what is a part of that, or a moment, which no stretch between two events is."""
 _CONDITION = re.compile(r"[^=:]*:(?!=)")
 _OWNER = re.compile(r"(\w[\w .]*)\.\w+")
+"""The part of which a reading is, ``blow`` of ``blow.N``."""
 _FIGURE = re.compile(r"\(?-?\d+(?:\.\d*)?\)?")

@@ -212,7 +212,7 @@ fn run(program: &Program, memory: &mut [Lanes], t: &Lanes, y: &[Lanes], results:
     program.run(memory, *t, y, results);
 }
 
-/// Carries members along a interval in the widest registers that the machine has.
+/// Carries members along an interval in the widest registers that the machine has.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd+avx2", "x86_64+avx2"))]
 fn carry(
     members: &mut Members<'_>,

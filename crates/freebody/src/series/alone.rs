@@ -7,7 +7,7 @@ use crate::scalar::{real, Block};
 /// Places of operands beyond the first in one step: a term has one, a product two.
 const MOST: usize = 5;
 
-/// What a step makes of its operands; of a sum the first with so many terms and products.
+/// What a step makes of its operands; `Sum21` is the first with two terms and one product added.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Sum00,
