@@ -98,6 +98,11 @@ def test_the_width_is_that_of_the_terminal(monkeypatch):
         assert 0.8 * room < max(map(columns, shown.split("\n"))) <= room
 
 
+def test_no_line_of_a_page_begins_with_what_ends_a_formula():
+    shown = Document([Paragraph(["The mass ", M1, ", its length ", L, ": both are given."])], LETTERS).html()
+    assert re.findall(r"</math>(?:.)(</span>)?", shown) == ["</span>"] * 2
+
+
 def test_ascii_text_is_ascii():
     assert DOCUMENT.text(ascii=True).isascii()
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from base64 import b64encode
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,6 +20,7 @@ from freebody.symbolic.nomenclature import Nomenclature
 from freebody.symbolic.printers.mathml import broken, mathml
 
 _FONT = Path(__file__).with_name("templates") / "math.woff"
+_BEFORE_STOP = re.compile(r"(<math(?:(?!<math).)*</math>[:;,.)])", re.S)
 
 
 class Html(TypesetMarkup):
@@ -30,6 +32,10 @@ class Html(TypesetMarkup):
 
     def plain(self, text: str) -> str:
         return markupsafe.escape(text)
+
+    def paragraph(self, words: str) -> str:
+        # A browser would begin a line with a colon or a stop; of Markup, ``sub`` would escape what it puts in.
+        return super().paragraph(self.kind(_BEFORE_STOP.sub(r'<span style="white-space:nowrap">\1</span>', str(words))))
 
     def inline(self, formula: Formula) -> str:
         return self.kind(mathml(formula))
