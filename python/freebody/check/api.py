@@ -25,7 +25,8 @@ from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, BEFORE, SINCE_START, Family, NoMotion
-from .frequency_claims import OMEGA
+from .frequency_claims import OMEGA, PERIOD
+from .held import without_others
 from .language.glyphs import CONDITION
 from .language.spelling import spell
 from .language.statements import symbols_in, terms
@@ -125,7 +126,7 @@ class Checker:
         if (
             (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0])))
             and not self.vibration.alone
-            and (alone := self._swinging(one[1], letters))
+            and (alone := self.swinging(one[1], letters))
         ):
             return alone.check(*how)
         try:
@@ -133,10 +134,11 @@ class Checker:
                 return found
             verdict = self._checked(*how)
             as_rate = verdict.kind is Kind.WRONG and any(note.startswith("Here ω is read as") for note in verdict.notes)
-            found = self._of_frequencies(*how) if as_rate else None  # a rate is no expression of what stays the same
+            as_energy = verdict.kind is Kind.DIMENSIONS and any(note.startswith("Here T is read as") for note in verdict.notes)
+            found = self._of_frequencies(*how) if as_rate or as_energy else None  # a rate is no expression of what stays the same
             return replace(found, text=verdict.text) if found else verdict
         except StatementError as error:
-            is_of_omega = re.search("`(?:ω|omega)(?:_[A-Za-z])?`", error.what) is not None
+            is_of_omega = re.search("`(?:(?:ω|omega)(?:_[A-Za-z])?|T|τ|tau)`", error.what) is not None
             others = (self._of_frequencies,) * is_of_omega + (self._without_laws, partial(self._without_words, error))
             if found := next(filter(None, (other(*how) for other in others)), None):
                 return found
@@ -148,10 +150,15 @@ class Checker:
         rates = [run.evaluate(text, run.t) for text in family(senses, self, letters or {}).above]
         return all(rate.any() and np.all(rate >= -_ROUND_OFF * np.abs(rate).max()) for rate in rates)
 
-    def _swinging(self, coordinate: str, letters: Declared | None) -> Checker | None:
+    def swinging(self, coordinate: str, letters: Declared | None) -> Checker | None:
         """The same of the vibration of one of several coordinates, which swings for itself; None where it does not."""
         meaning = self.symbols(letters).spelt(coordinate)
-        if meaning is None or meaning.kind != "coordinate" or len(self.sampler.names) < 2 or not self.vibration.is_of_several:
+        if meaning is None or meaning.kind != "coordinate" or len(self.sampler.names) < 2:
+            return None
+        if self.vibration.rest is None:
+            other = without_others(self, meaning.texts[0])
+            return other if other and other.vibration.rest else None
+        if not self.vibration.is_of_several:
             return None
         other = copy(self)
         other.vibration = Vibration(self.sampler, meaning.texts[0])
@@ -159,7 +166,10 @@ class Checker:
 
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
-        condition, _, said = with_condition_first(plainly(text)[0]).rpartition(":")
+        condition, colon, said = with_condition_first(plainly(text)[0]).rpartition(":")
+        if PERIOD.match(said) and not OMEGA.search(said):
+            said = PERIOD.sub(r"ω = 2*pi/(\1)", said)
+            text = f"{condition}{colon} {said}"
         if "frequencies:" in text or not OMEGA.search(said):
             return None
         # Of several one alone stays finite where a stiffness grows without bound.
@@ -238,6 +248,9 @@ class Checker:
             plainly_said = verdict.ok and not found and checker.hypothesis == ALL
             if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
                 verdict = self._also_later(verdict, text, letters)
+            as_said = not found and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment)
+            if as_said and verdict.kind is Kind.WRONG and verdict.mends and verdict.is_idle:
+                verdict = self._corrected_later(verdict, text, letters)
             return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
         except NoMotion as error:
             return Verdict.without_motion(text, error)
@@ -260,12 +273,22 @@ class Checker:
         for name in self.switches:
             with suppress(ModelProblem, StatementError):
                 later = self.beside("after", name, {}).check(text, letters)
-                if later.kind is Kind.WRONG and self._is_idle(verdict, text, letters):
+                if later.kind is Kind.WRONG and self._stays_zero(verdict, text, letters):
                     said = ", ".join(f"`{term}`" for term in verdict.untested)
                     return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
         return verdict
 
-    def _is_idle(self, verdict: Verdict, text: str, letters: Declared | None) -> bool:
+    def _corrected_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
+        """The verdict about what is wrong as the model is at first, where something of which it is stays 0: with the corrections of
+        after something switches."""
+        for name in self.switches:
+            with suppress(ModelProblem, StatementError):
+                later = self.beside("after", name, {}).check(text, letters)
+                if later.kind is Kind.WRONG and later.mends and not later.is_idle:
+                    return replace(later, notes=(*later.notes, f"It is corrected by what is so after {name}."))
+        return verdict
+
+    def _stays_zero(self, verdict: Verdict, text: str, letters: Declared | None) -> bool:
         """Whether what is not established of a statement is 0 as the model is at first, and not only small where it was tried."""
         since = SINCE_START if verdict.assumption == FROM_START else None
         case = self.case(with_condition_first(plainly(text)[0]), letters, since)

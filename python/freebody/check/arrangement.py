@@ -187,5 +187,5 @@ class _Place(_Rates):
 
 def stated(text: str) -> str:
     """What vanishes, as the equation that it comes from."""
-    found = re.fullmatch(r"\((.+)\) - \((.+)\)", text)
+    found = re.fullmatch(r"(?:sin\(\()?\((.+)\) - \((.+?)\)(?:\)/2\))?", text)
     return f"{found[1]} = {found[2]}" if found else f"{text} = 0"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -20,6 +20,7 @@ from freebody.run.moments import START, state_of
 from freebody.solve.perturbed_states import independent
 from freebody.symbolic.dimensions import LENGTH, Dimension
 
+from .families import NoMotion
 from .sides import changes_side, squares
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment
 _MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
+_NO_GAP = 1e-9  # of the size of the model, at which parts touch
 _STRIDE = 4.0  # by which a length grows from place to place on the way to where it is far larger
 _DEPENDENT = (
     0.05  # part of the motions by which loops stay closed that moves a coordinate: below it loops are near a dead position for it
@@ -125,6 +127,14 @@ class AskedModel:
         """Whether limits, joint friction, events at the start or the moment decide what moves, so that states lie near that."""
         named = [event.get("opening") for event in self.spec["events"]] + [joint.get("friction") for joint in self.spec["joints"]]
         return bool(self.moment) or any(named) or not all(x.is_open for x in self.core.instant(self.first).limits.values())
+
+    def require_touch(self, names: Collection[str]) -> None:
+        """Raises ``NoMotion`` where those of some contacts and stops whose parts touch at the moment all open at once."""
+        limits = self.core.instant(self.own).limits
+        there = [limits[name] for name in names if name in limits]
+        if there and all(limit.is_open and abs(limit.gap) <= _NO_GAP * self.length for limit in there):
+            what = f"with its own numbers the model leaves `{' '.join(names)}` at once"
+            raise NoMotion(f"{what}: give it others, with which it stays there")
 
     @cached_property
     def is_held(self) -> bool:

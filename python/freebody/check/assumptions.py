@@ -16,7 +16,7 @@ from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell
 from freebody.solve.perturbed_states import independent
-from freebody.symbolic.dimensions import INERTIA, LENGTH, Known
+from freebody.symbolic.dimensions import ANGLE, INERTIA, LENGTH, Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, is_zero, sampled
 from freebody.symbolic.tree import Fn, Mul, Pow, Sym, walk
@@ -54,6 +54,7 @@ _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
 _SQUARE = re.compile(r"(\S+?)\s*(?:²|\^\{?2\}?)")
 _OTHER_THAN = re.compile(r"([^=<>≤≥≠]+)(?:≠|\\neq?(?![a-z])|!=)([^=<>≤≥≠]+)")
+_NO_FORCE = re.compile(r"\(+([\w ]+)\.N\)+ - \(?0\)?")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
 FROM_REST = f"{FROM_START} at rest"
@@ -346,7 +347,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         if part == IN_EQUILIBRIUM:  # at rest the others follow
             names = [names[i] for i in independent(checker.sampler.free_rates)]
         still = (f"accel({spell(name)})" for name in names)
-        return replace(given, at_rest=given.at_rest or part == IN_EQUILIBRIUM, vanishing=(*given.vanishing, *still))
+        rests = part == IN_EQUILIBRIUM
+        return replace(given, at_rest=given.at_rest or rests, near=rests, vanishing=(*given.vanishing, *still))
     if part in WORDS:
         return replace(given, **WORDS[part])
     if lost := {"without damping": checker.sampler.dampings, "without friction": checker.sampler.frictions}.get(part):
@@ -369,9 +371,19 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     ):
         return replace(given, held=(*given.held, (name, value)))
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
+    if found := _NO_FORCE.fullmatch(vanishing):
+        checker.sampler.require_touch([found[1]])
+    if _are_moving_angles(left, right, checker, declared):  # a whole turn between two directions makes no difference
+        vanishing = f"sin(({vanishing})/2)"
     asks_past = "⟦" in vanishing or OF_TIME.search(vanishing)
     since = given.since or ("start" if asks_past else "")
     return replace(given, vanishing=(*given.vanishing, vanishing), since=since)
+
+
+def _are_moving_angles(left: str, right: str, checker: Checker, declared: Declared) -> bool:
+    """Whether two sides are angles that both change as the model moves."""
+    moving = all(_moves(_meant(side, checker, declared), checker) for side in (left, right))
+    return moving and checker.symbols(declared).measured(left)[1] == ANGLE
 
 
 def _moves(text: str, checker: Checker) -> bool:

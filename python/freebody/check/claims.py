@@ -133,6 +133,8 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         or _is_of_start(checker, declared, statement)
         or _OF_RATES.search("".join(given.vanishing)) is not None
     )
+    if given.near and verdict.kind is Kind.UNDECIDABLE:
+        others.append((replace(given, near=False), condition))
     if given.vanishing and later:  # it may be so only where something switches, or has done so
         others += [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since and not others:

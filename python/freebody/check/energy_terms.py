@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.equations import read
+from freebody.symbolic.algebra import spread
 from freebody.symbolic.dimensions import Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import ZERO, Add, Negative, Node, Sym, addends, exchange
+from freebody.symbolic.tree import ZERO, Add, Mul, Negative, Node, Pow, Sym, addends, canonical, exchange, rebuilt, walk
 
 from .beside import Letters, Term, difference, ratio, signed
 from .coefficients import more, multiplied
@@ -70,10 +71,27 @@ def lacking_energies(case: Case, node: Node, value: Callable[[Node], Array]) -> 
 
 
 def _lacking(case: Case, node: Node, kind: str, value: Callable[[Node], Array]) -> tuple[Node, ...]:
-    """The same of an energy or a momentum of a ``kind``, as the model language reads it."""
-    true, said = _beside(case, node, kind, value)
-    found = difference(said, true)
-    return found.missing if found.common and not found.strange and len(found.missing) <= _MOST else ()
+    """The same of an energy or a momentum of a ``kind``, as the model language reads it; where squares of sums are multiplied out, in the
+    letters of the expression alone."""
+    own = {n.key for n in symbols_in(node)}
+    for opened in (False, True):
+        true, said = _beside(case, node, kind, value, opened)
+        found = difference(said, true)
+        missing = _unbalanced(case, found.missing, value)
+        is_own = all(n.key in own for term in missing for n in symbols_in(term))
+        if found.common and not found.strange and len(missing) <= _MOST and (is_own or not opened):
+            return missing
+    return ()
+
+
+def _unbalanced(case: Case, terms: tuple[Node, ...], value: Callable[[Node], Array]) -> tuple[Node, ...]:
+    """Terms without those that cancel, as a weight and the springs that carry it at rest: of those of the same coordinates all together."""
+    groups: dict[frozenset[str], list[Node]] = {}
+    for term in terms:
+        groups.setdefault(frozenset(n.name for n in symbols_in(term)) & {*case.sampler.names}, []).append(term)
+    values = {of: [value(term) for term in some] for of, some in groups.items()}
+    left = {of for of, each in values.items() if np.abs(sum(each)).max() > _SAME * np.abs(each).max()}
+    return tuple(term for of, some in groups.items() if of in left for term in some)
 
 
 def lacking_of(case: Case, letter: Sym, node: Node) -> tuple[Node, ...]:
@@ -113,14 +131,30 @@ def _question(case: Case, kind: str) -> dict[str, Any]:
     return {"ask": "equation", "bodies": bodies, **({"along": axis} if axis else {"about": {"point": point}})}
 
 
-def _beside(case: Case, node: Node, kind: str, value: Callable[[Node], Array]) -> tuple[list[Term], list[Term]]:
-    """The terms of an energy or a momentum of the model that change, and those of an expression; none where it has other symbols."""
+def _without_squares(term: Node) -> Node:
+    """A term with squares of sums in it multiplied out."""
+    if not any(isinstance(node, Pow) and isinstance(node.base, Add) for node in walk(term)):
+        return term
+    return spread(rebuilt(canonical(term), lambda node: Mul((node.base,) * 2) if _is_square_of_sum(node) else None))
+
+
+def _is_square_of_sum(node: Node) -> bool:
+    return isinstance(node, Pow) and isinstance(node.base, Add) and node.exponent == 2
+
+
+def _beside(
+    case: Case, node: Node, kind: str, value: Callable[[Node], Array], opened: bool = False
+) -> tuple[list[Term], list[Term]]:
+    """The terms of an energy or a momentum of the model that change, with squares of sums ``opened``, and those of an expression; none
+    where it has other symbols."""
     if not case.admissible:
         return [], []
     answer = case.sampler.core.symbolic_answers(case.samples().states[0], [_question(case, kind)])
     letters = Letters(case, Equation(node, ZERO), answer.symbols)
     whole = Add(tuple(read(answer.answers[0][part]) for part in _KINDS.get(kind, ("momentum",))))
     terms = [term for term, _ in letters.terms(whole, ZERO)]
+    if opened:
+        terms = [signed(sign, part) for term in terms for sign, part in addends(_without_squares(term))]
     if not {n.key for term in terms for n in symbols_in(term)} <= case.values().keys():
         return [], []
     true = [(term, change) for term in terms if np.any(change := value(term))]

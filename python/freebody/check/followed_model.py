@@ -84,6 +84,10 @@ class FollowedModel(AskedModel):
                 return
             start = motion.end
 
+    def impacts(self, start: State, found: State) -> list[tuple[str, ...]]:
+        """Between what the impacts are on the way from a start to a state of its motion."""
+        return [change.of for change in self.run(start, found.t - start.t, _EXACT).changes if change.kind == "impact"]
+
     def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:
         """Whether an expression is 0 on all of a stretch."""
         return all(self.vanishes(text, motion.state(begins + part * (ends - begins))) for part in _INSIDE)

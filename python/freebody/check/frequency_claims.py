@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 from itertools import chain
@@ -13,6 +14,7 @@ import numpy as np
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 
+from .families import ALL
 from .residual import HOLDS
 from .verdict import Kind, Verdict
 from .vibration import OfVibration
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 
 _FEWEST = 8  # places at which something has to swing
 OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
+PERIOD = re.compile(r"\A[\s$]*(?:T|τ|\\tau)\s*=([^=]+?)[\s$]*\Z")
+"""A period alone on its side, of a model that has several."""
 _SAYS_OMEGA = re.compile(
     rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*(?:=(?!.*(?:±|\\pm))[^=]*|[-−](?!.*{OMEGA.pattern})[^=±]*=\s*0[\s$.]*)"
 )
@@ -33,12 +37,13 @@ def frequencies(checker: Checker, declared: Declared, number: str, statement: st
     names = _vibrations(checker, declared)
     names = names[int(number) - 1 :][:1] if number and len(names) > 1 else names
     said = [OMEGA.sub(lambda _, name=name: name, statement) for name in names]  # type: ignore[misc]
-    verdicts = (checker.check(text, declared) for text in said)
     if not _SAYS_OMEGA.fullmatch(statement):
+        verdicts = (checker.check(text, declared) for text in said)
         first = next(verdicts)
         return next((verdict for verdict in chain((first,), verdicts) if not verdict.ok), first)
-    best = min(verdicts, key=lambda verdict: (not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf))
-    if best.ok or best.kind is not Kind.WRONG:
+    judged = [checker.check(text, declared, correcting=False) for text in said]
+    best = min(judged, key=_wrong)
+    if best.ok or best.kind not in (Kind.WRONG, Kind.TRUE_IF):
         return best
     cases = [checker.case(text, declared) for text in said]
     left = np.array([np.abs(case.residual(case.equations[0]).ratio).max(axis=1) for case in cases])
@@ -46,7 +51,21 @@ def frequencies(checker: Checker, declared: Declared, number: str, statement: st
     if left.shape[1] >= _FEWEST and np.nanmin(left, axis=0).max() < HOLDS:
         reason = "one of the natural frequencies, with any parameters"
         return replace(best, kind=Kind.TRUE, reason=reason, mends=(), evidence=None)
-    return best
+    alone = [one for one in _of_each(checker, declared, statement) if one.ok or one.mends] if checker.hypothesis != ALL else []
+    return min(alone or (checker.check(text, declared) for text in said), key=_wrong)
+
+
+def _wrong(verdict: Verdict) -> tuple[bool, float]:
+    """How wrong a verdict calls what is said."""
+    return not verdict.ok, verdict.mends[0].size if verdict.mends else np.inf
+
+
+def _of_each(checker: Checker, declared: Declared, statement: str) -> Iterator[Verdict]:
+    """The verdicts about the natural frequency of each coordinate that swings for itself."""
+    for name in checker.sampler.names:
+        if other := checker.swinging(name, declared):
+            with suppress(StatementError, ModelProblem):
+                yield other.check(OMEGA.sub("ω_n", statement), declared)
 
 
 def _vibrations(checker: Checker, declared: Declared) -> list[str]:

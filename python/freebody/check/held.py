@@ -32,16 +32,33 @@ def held(checker: Checker, declared: Declared, what: str, place: str) -> Checker
     if not names or len(names) == len(sampler.names) or (place and len(names) > 1):
         return None
     laws = {}
-    for k, name in ((sampler.names.index(name), name) for name in names):
-        value = place or repr(float(sampler.own.q[k]))
-        unit = " rad" if sampler.coordinates[k]["dimension"] == "rad" else " m"
-        laws[name] = value + unit * (re.fullmatch(r"-?[\d.e-]+", value) is not None)
+    for name in names:
+        value = place or repr(float(sampler.own.q[sampler.names.index(name)]))
+        laws[name] = value + _unit(checker, name) * (re.fullmatch(r"-?[\d.e-]+", value) is not None)
 
     def hold(mechanism: Builder) -> None:
         for name, law in laws.items():
             _hold(mechanism, name, law)
 
     return checker.of_model(("held", *laws.items()), hold)
+
+
+def without_others(checker: Checker, name: str) -> Checker | None:
+    """The same of the model in which nothing but one coordinate moves; None where the others have to do with how that one does."""
+    sampler = checker.sampler
+    n, k = len(sampler.names), sampler.names.index(name)
+    slopes = sampler.core.derivatives([f"accel({quote(name)})"], sampler.own)[0, 1 : 1 + 2 * n]
+    parts = np.abs(slopes) * np.concatenate([sampler.sizes, sampler.rate * sampler.sizes])
+    if np.delete(parts, [k, k + n]).max() > _MOVED * parts.max():
+        return None
+    others = {other: repr(float(q)) for other, q in zip(sampler.names, sampler.own.q, strict=True) if other != name}
+    laws = {other: q + _unit(checker, other) for other, q in others.items()}
+    return checker.of_model(("alone", name), lambda mechanism: [_hold(mechanism, *each) for each in laws.items()])
+
+
+def _unit(checker: Checker, coordinate: str) -> str:
+    is_angle = {each["name"]: each["dimension"] == "rad" for each in checker.sampler.coordinates}
+    return " rad" if is_angle[coordinate] else " m"
 
 
 def with_held(checker: Checker, declared: Declared, condition: str) -> tuple[Checker, str, str] | None:

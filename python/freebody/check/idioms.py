@@ -21,7 +21,11 @@ _LETTER = r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?"
 _NAME = rf"({_LETTER})"
 _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
+_SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
 _PUT: tuple[tuple[str, str], ...] = (
+    # ψ' < 0, ΣM_D: …, in equilibrium, ΣM_A = 0: …
+    (rf"\A([^:\n]*[<>=≤≥][^:\n]*?),\s*{_SUM}[^,:=<>]*(?:=\s*0\s*)?:(?!=)", r"\1:"),
+    (rf"\A([^:=\n]*,\s*{_SUM}[^,:=<>]*)=\s*0\s*:(?!=)", r"\1:"),
     (rf"\A\s*(\$?(?:{_RATE}\s*=\s*)+0\$?)\s*:(?!=)", r"when \1:"),  # φ' = φ'' = 0: …
     # heels on the verge of lifting, N = 0: …
     (
@@ -90,6 +94,34 @@ _PUT: tuple[tuple[str, str], ...] = (
     ),
     # link locked (θ = 0, d = 0)
     (r"\b(held|locked|fixed|clamped|blocked)\s*\(([^()=,:]+=[^()=,:]+),\s*([^():]+=[^():]+)\)(?=[^:=]*:)", r"\1 (\2), \3"),
+    # bolt in flight, ΣF_r: …
+    (
+        rf"\A\s*(?!(?:{CONDITION})\b)((?:the\s+)?[A-Za-z]+)\s+(in\s+(?:the\s+)?(?:flight|air)|off\s+the\s+[a-z]+|airborne)\s*(?=[,:](?!=))",
+        r"while \1 is \2",
+    ),
+    # pure bounce has the period T = …
+    (
+        r"([a-z]+(?:\s+[a-z]+){0,3})\s+(?:has|have)\s+(?:the|a)\s+(?:natural\s+|circular\s+)*(?:period|frequency)\s+(?=\S+\s*=)",
+        r"\1: ",
+    ),
+    # if k₁ a = k₂ b the car pitches by itself: …
+    (r"\A(\s*(?:if|when|for)\s+[^:,=]+=[^:,=]+?)\s+(?=the\s+[a-z]+\s+[a-z]{3,}[^:=]*:(?!=))", r"\1, "),
+    # let go at rest from y₀, θ = 0: …
+    (
+        r"\b(?:let\s+go|released|dropped|set\s+free)\s+(?:at|from)\s+rest\s+(?:from|at|in|where)\s+(?:\$?\\?[^\W\d]\w*\$?,\s*)?(?=[^:]*=[^:]*:(?!=))",
+        "released from rest at ",
+    ),
+    (r"\A\s*(?:for\s+)?small\s+(?:vibrations|oscillations|motions|swings),?\s+(?=natural\s+(?:circular\s+)?frequenc)", ""),
+    # v_B has no part along PB, so …
+    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?=[^:\n]*=)", ""),
+    # right after the impact \dot\theta = …
+    (
+        r"\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on)\s+(?:the\s+)?(?:[a-z-]{3,}\s+)?[a-z-]{3,})\s+"
+        r"(?=\$?\s*(?:\\(?!text|and\b|or\b)|[α-ωΑ-Ω]|[A-Za-z](?![a-z]))[^:\n]*=[^:\n]*\Z)",
+        r"\1: ",
+    ),
+    # N = 0 where cos θ = 2/3: a function alone gets no name
+    (r"\bwhere\s+(?=\$?\s*\\?(?:sin|cos|tan)(?![a-z])[^=:;\n]*=[^=:;\n]*\Z)", "when "),
     (r"(frequenc(?:y|ies))\s+of\s+the\s+\w+(?=\s+(?:with|when|if|for|where)\b)", r"\1"),
 )
 """What is written, and what is read for it, one after the other."""
@@ -119,9 +151,9 @@ _LONG_WORD = re.compile(r"(?<![\\A-Za-z])(?!sin|cos|tan|sqrt)[A-Za-z]{3,}")
 
 def usual(text: str) -> str:
     """A statement in the ways of writing that are read."""
-    text = _ranged(text)
     for written, read in _PUT:
         text = re.sub(written, read, text)
+    text = _ranged(text)
     for written in _BY_PLACE:
         text = re.sub(written, _by_place, text)
     return _SLOPE.sub(_slope, text)

@@ -229,6 +229,8 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     given, figure = case.hypothesis, says_a_figure(equation)
     if replace(given, vanishing=(), above=(), held=(), numbers=False, zeros=True) != ALL or (figure and not given.vanishing):
         return None
+    if given.vanishing and not case.sampler.free_rates.size:  # what is driven was followed from the start already
+        return None
     since = replace(given, since="start")
     glance = lambda: case.sampler.starts_to_move and of_family(case, equation, since, _GLANCE)
     # What is said of after an event is of the motion that has come there.
@@ -244,7 +246,7 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     if forward := one_sense(case, equation):
         ways.append(replace(since, above=forward[0].above))
     for family in ways:
-        if of_family(case, equation, family, SAMPLES):
+        if of_family(case, equation, family, _GLANCE) and of_family(case, equation, family, SAMPLES):
             verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
             return replace(verdict, assumption=FROM_START) if verdict.ok else None
     return None

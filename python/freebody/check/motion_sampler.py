@@ -36,6 +36,7 @@ SAMPLES = 64
 _TRIES = 40  # for one sample; a four-bar with random bars closes in about one of three
 _FEW_TRIES = 16  # where a parameter is far from the model's, and states are rarer or none
 _NEARER = 0.9  # to the start after a try that failed: loops may have few places far from it
+_SOONER = 4  # tries that a sample begins before that with which the last one was found
 _PATIENCE = 3  # samples, of which one at least must be found
 _ENOUGH = 8  # samples to judge by
 _LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
@@ -51,6 +52,7 @@ _SHORT_LOOP = 4  # coordinates, up to which a loop is taken far
 _OTHER = 1.01  # times a parameter: another value, by which it shows whether loops close with it
 _NEAR = 0.15  # of the time typical of the model: a run that lasts so long stays near its start
 _ELSEWHERE = 0.8  # share of samples at random places with random rates; the others are at the moment's own
+_NEXT = 0.1  # of the farthest: a place next to the start
 _APART = 0.2  # rad, or so much of the size of the model, by which places at rest differ
 _LONG = 12.0  # of the time typical of the model: how long a run is followed at least
 _STAGES = tuple(0.3 * 2.0**k for k in range(10))  # of the same time, one after the other: most of what vanishes does so soon
@@ -69,6 +71,7 @@ class MotionSampler(FollowedModel):
         super().__init__(mechanism, **asked)
         self.seed = seed
         self._families: dict[tuple[Family, int], Samples] = {}
+        self._usual_impacts: dict[Family, list[tuple[str, ...]] | None] = {}
         self._without: set[tuple[Family, int]] = set()  # families of which no state was found
 
     @cached_property
@@ -106,18 +109,22 @@ class MotionSampler(FollowedModel):
         if (family, fresh) in self._without:
             return found
         began, seconds = thread_time(), Budget.seconds_for(len(self.metadata["bodies"]))
+        first = 0  # tries that fail are followed by one nearer the start, and so are those of the next sample
         for i in range(count):
             spent = (thread_time() - began) / seconds
             if (i >= _PATIENCE and not found) or spent > _MOST:
                 break
             if len(found) >= _FEWER and spent > _SHARE:
                 return found
-            for failed in range(_FEW_TRIES if family.scaled or family.held else _TRIES):
+            for failed in range(first, first + (_FEW_TRIES if family.scaled or family.held else _TRIES)):
                 if thread_time() - began > _MOST * seconds:
                     break
                 try:
-                    if (made := self._made(rng, self._parameters(rng, family), family, _NEARER**failed)) is not None:
+                    if (
+                        made := self._made(rng, self._parameters(rng, family, _NEARER**failed), family, _NEARER**failed)
+                    ) is not None:
                         found.append(made)
+                        first = max(0, failed - _SOONER)
                         break
                 except NoMotion:
                     if not found and failed >= _ENOUGH:  # else it may be so with these numbers alone
@@ -132,13 +139,14 @@ class MotionSampler(FollowedModel):
     def _made(
         self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float
     ) -> tuple[State, State | None] | None:
-        start = None
+        start, reach = None, reach * (_NEXT if family.near else 1.0)
         if family.steady:
             values = self._tied(values, family)
             return (found, None) if (found := steady_state(self, rng, values, _EXACT)) else None
         driven = bool(family.vanishing and self.spec["motions"]) and not self.free_rates.size
         if (family.since or driven) and not family.at_start:
             found, start = self._since_start(rng, values, family)
+            found = found if found and self._comes_as_usual(family, start, found) else None
         elif self.restricted:
             found = self._near_moment(rng, values, family, reach)
         elif self.rolls_in_loop and not family.at_start:
@@ -171,17 +179,18 @@ class MotionSampler(FollowedModel):
         """Expressions in a state, with what is asked of the start of its motion."""
         return self.core.evaluate([self.of_now(text, start) for text in texts], state).tolist()
 
-    def _parameters(self, rng: np.random.Generator, family: Family) -> dict[str, float]:
+    def _parameters(self, rng: np.random.Generator, family: Family, reach: float = 1.0) -> dict[str, float]:
+        """Random numbers, within ``reach`` of the farthest from the model's."""
         held, scaled = dict(family.held), dict(family.scaled)
         held |= {} if family.gravity else dict.fromkeys(self.gravities, 0.0)
-        drawn = {name: self._drawn(rng, name, value, family) for name, value in self.free_parameters.items()}
+        drawn = {name: self._drawn(rng, name, value, family, reach) for name, value in self.free_parameters.items()}
         numbers = {name: x for name, x in held.items() if not isinstance(x, str)}
         plain = {name: numbers.get(name, value) * scaled.get(name, 1.0) for name, value in drawn.items()}
         for name, x in held.items():  # one after the other: the later ones may read the earlier
             plain |= {name: evaluate(x, plain)} if isinstance(x, str) else {}
         return plain
 
-    def _drawn(self, rng: np.random.Generator, name: str, value: float, family: Family) -> float:
+    def _drawn(self, rng: np.random.Generator, name: str, value: float, family: Family, reach: float) -> float:
         dimension = self.start.parameters.get(name)
         size, sign = rng.random(), rng.choice([-1.0, 1.0])
         if name in self.metadata["states"]:
@@ -195,7 +204,7 @@ class MotionSampler(FollowedModel):
             dimension == ANGLE and self.restricted and value % (math.pi / 2)
         ):  # what leans to one side does so with other numbers, too
             high = min(high, math.ceil(abs(value) / (math.pi / 2)) * (math.pi / 2) / abs(value))
-        factor = low * (high / low) ** size
+        factor = (low * (high / low) ** size) ** (reach if value else 1.0)
         return value * factor if value else sign * factor * self.unit(dimension)
 
     def _anywhere(self, rng: np.random.Generator, values: Mapping[str, float], family: Family, reach: float) -> State | None:
@@ -360,6 +369,20 @@ class MotionSampler(FollowedModel):
                 break
         at_start = first and not family.through and self.vanishes(first[0], start)
         return (self._sampled(start) if at_start else None), start
+
+    def _comes_as_usual(self, family: Family, start: State, found: State) -> bool:
+        """Whether what is asked comes through the impacts of the model's own motion: with other numbers a second one may come before."""
+        if not (family.through and family.vanishing):
+            return True
+        if family not in self._usual_impacts:
+            try:
+                own, began = self._since_start(
+                    np.random.default_rng(self.seed), self.free_parameters, replace(family, numbers=True)
+                )
+            except (MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
+                own = None
+            self._usual_impacts[family] = self.impacts(began, own) if own else None
+        return self._usual_impacts[family] in (None, self.impacts(start, found))
 
     def _asked_of_motion(self, start: State, family: Family) -> list[str]:
         """What has to vanish on a motion itself: its start was put where it has to be."""

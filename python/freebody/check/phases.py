@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
 _OVER = r"\s+(?:has\s+|is\s+|have\s+)?(?:stop|cease|end|over)\w*"
 _KINDS = {
-    "stick": rf"{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
+    "stick": rf"(?:end|stop)\s+of\s+(?:the\s+)?(?:slip|slid|skid)\w*|{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
     r"|(?:moves?|goes|turns?)\s+with|(?:is|are)\s+carried",
     "slip": rf"{_STOPS}(?:roll|stick|rid)\w*|(?:roll|stick|rid)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?"
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
@@ -28,7 +28,7 @@ _KINDS = {
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on the (?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
-    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air",
+    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
@@ -45,7 +45,7 @@ _BEFORE = {"stick": "sliding", "slip": "stuck"}
 """What a joint with friction was in before its first change."""
 _TOUCHES = ("impact", "contact")
 _MOMENT = re.compile(
-    r"\b(?:moment|instant|(?:begin|start|become|go|get|come|turn|end|stop|cease)(?:e?s)?\b|is over|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
+    r"\b(?:moment|instant|end of|(?:begin|start|become|go|get|come|turn|end|stop|cease)(?:e?s)?\b|is over|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
 )
 _LASTED = re.compile(r"\b(?:has|have|had)\b")
 """``once it has left``: from then on."""
@@ -57,6 +57,7 @@ NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
 _ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4}
 _NUMBERED = re.compile(rf"\b({'|'.join(_ORDINALS)})\s+([A-Za-z]\w*)")
+_STAYS = re.compile(r"\b(?:stays?|remains?|rests?|still|not\s+yet|not\s+(?:leave|lift))\b")
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -111,8 +112,12 @@ def phase(checker: Checker, words: str) -> Phase | None:
     parts = {*(part for _, part in firsts.values()), *able} or {*limits}
     surfaces = parts & {contact["name"] for contact in checker.sampler.spec["contacts"]} if kind in _CHANGES else set()
     meant = _meant(words, parts, limits, surfaces or parts)
+    is_off = any(name in limits and limits[name].state == "open" for name in meant - {part for _, part in firsts.values()})
+    lasts = lasts or (kind == "lift-off" and _LASTED.search(words) is not None and is_off)  # it has left from the start
     if not lasts and not meant & {part for _, part in firsts.values()}:  # what is called so goes on under another name
         meant = parts
+    if kind == "touch" and lasts and _STAYS.search(words):
+        checker.sampler.require_touch(meant)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times

@@ -99,6 +99,11 @@ class Verdict(PlainText):
         return self.kind is Kind.TRUE
 
     @property
+    def is_idle(self) -> bool:
+        """Whether a letter is 0 where it was judged, or every term: then it may not be meant of that stretch of the motion."""
+        return self.evidence is None or any(value == 0 for name, value in self.evidence.letters.items() if name != "t")
+
+    @property
     def details(self) -> list[str]:
         """What is behind it, a line each."""
         lines = [self.reason] if self.reason else []

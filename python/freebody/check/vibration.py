@@ -4,6 +4,7 @@ frequencies."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -13,7 +14,7 @@ import numpy as np
 from freebody.core import Array, CompiledModel, ModelError, MotionError, State, quote
 from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
-from freebody.stability.equilibria import equilibria, newton_step, rest_near
+from freebody.stability.equilibria import Equilibrium, equilibria, newton_step, rest_near
 from freebody.stability.state_space import SingularConfiguration, StateSpace, state_space
 from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
@@ -208,13 +209,20 @@ class Vibration:
                 return rest if rest and _swings(_space(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
-            found, _ = equilibria(core, first, {free[0]: (first.q[k] - reach, first.q[k] + reach)})
+            found = self._within(first, free[0], reach)
         except (MotionError, ModelError, SingularConfiguration, ValueError, np.linalg.LinAlgError):
             return None
         swinging = [each.state for each in found if len(each.space.a) == 2 and np.linalg.det(each.space.a) > 0]
         if not swinging and (far := self._at_rest(first)) and _swings(_space(core, far).a):
             return far
         return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
+
+    def _within(self, first: State, name: str, reach: float) -> Sequence[Equilibrium]:
+        """The places of rest that one coordinate comes to; none where something is in its way."""
+        q = first.q[self.sampler.names.index(name)]
+        with suppress(MotionError):
+            return equilibria(self.sampler.core, first, {name: (q - reach, q + reach)})[0]
+        return []
 
     def _undriven(self, state: State) -> State:
         """A state without what drives the model."""

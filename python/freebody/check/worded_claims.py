@@ -103,7 +103,7 @@ def _label_or_stretch(checker: Checker, declared: Declared, words: str, statemen
     run = checker.own_motion
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
     elsewhere = not verdict.ok or (others and _awaits(checker, declared, statement, verdict))
-    idle = lasts and others and _is_idle(verdict)  # of a part by its name, which does nothing yet
+    idle = lasts and others and verdict.is_idle  # of a part by its name, which does nothing yet
     if (stretch or (placed and others) or idle) and elsewhere and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
     at_first = (lasts or placed) and others
@@ -228,12 +228,7 @@ def _awaits(checker: Checker, declared: Declared, statement: str, one: Verdict) 
 
 def _says_nothing(one: Verdict) -> bool:
     """Whether something that a statement is of is 0 where it holds, and may act on another stretch."""
-    return bool(one.untested) and _is_idle(one)
-
-
-def _is_idle(one: Verdict) -> bool:
-    """Whether a letter of a statement is 0 where it was judged, or every term: then it may not be meant of that stretch."""
-    return one.evidence is None or any(value == 0 for name, value in one.evidence.letters.items() if name != "t")
+    return bool(one.untested) and one.is_idle
 
 
 def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
@@ -243,7 +238,7 @@ def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
     def order(one: Verdict) -> tuple[bool, bool, bool, float]:
         if not one.mends:
             return True, True, True, np.inf
-        return False, _is_idle(one), any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
+        return False, one.is_idle, any(kind == "extra term" for kind, *_ in one.mends[0].edits), one.mends[0].size
 
     return min(verdicts, key=order)
 
