@@ -55,6 +55,8 @@ _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
 _WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
+_SETS_FREE = ("lift-off ", "slack ", "released ")  # what switches so that more moves
+_SWITCHES = 2  # of these, after which corrections are tried
 _LIKELY = 2.0  # size of a correction by which a statement is wrong, whatever some words ask
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
@@ -249,9 +251,11 @@ class Checker:
             if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
                 verdict = self._also_later(verdict, text, letters)
             as_said = not found and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment)
-            if as_said and verdict.kind is Kind.WRONG and verdict.mends and verdict.is_idle:
+            if as_said and verdict.kind is Kind.WRONG and verdict.mends:
                 verdict = self._corrected_later(verdict, text, letters)
-            return replace(verdict, moment=self.sampler.own.moment) if self.sampler.has(checker.hypothesis) else verdict
+            if verdict.moment or not self.sampler.has(checker.hypothesis):
+                return verdict
+            return replace(verdict, moment=self.sampler.own.moment)
         except NoMotion as error:
             return Verdict.without_motion(text, error)
         except (ModelProblem, ModelError, MotionError) as error:
@@ -279,13 +283,17 @@ class Checker:
         return verdict
 
     def _corrected_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
-        """The verdict about what is wrong as the model is at first, where something of which it is stays 0: with the corrections of
-        after something switches."""
-        for name in self.switches:
+        """The verdict about what is wrong as the model is at first, where parts of it are 0 or move as one: with the corrections of after
+        something switches that are true at first, too."""
+        holds = lambda checker, correction: checker.check(correction.equation, letters, correcting=False).ok
+        for name in [name for name in self.switches if name.startswith(_SETS_FREE)][:_SWITCHES]:
             with suppress(ModelProblem, StatementError):
-                later = self.beside("after", name, {}).check(text, letters)
-                if later.kind is Kind.WRONG and later.mends and not later.is_idle:
-                    return replace(later, notes=(*later.notes, f"It is corrected by what is so after {name}."))
+                there = self.beside("after", name, {})
+                if holds(there, verdict.mends[0]):
+                    continue
+                later = there.check(text, letters)
+                if later.kind is Kind.WRONG and (mends := tuple(each for each in later.mends if holds(self, each))):
+                    return replace(later, mends=mends, notes=(*later.notes, f"It is corrected by what is so after {name}."))
         return verdict
 
     def _stays_zero(self, verdict: Verdict, text: str, letters: Declared | None) -> bool:
@@ -341,6 +349,7 @@ class Checker:
     def happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""
         events = {e["name"]: None for e in self.sampler.spec["events"]}
+        kinds = {e["name"]: "released" if _cuts(e) else kind_of(e["name"]) for e in self.sampler.spec["events"]}
         said = _ARTICLE.sub("", event)
         if said in events:
             return said
@@ -354,12 +363,14 @@ class Checker:
                 f"of what happens several times only the first is judged, not the {found[0]}",
                 "write `at 0.3 s: …`, or say when it is",
             )
+        alike_in_kind = [name for name, its in kinds.items() if (kind := kind_of(said)) and kind == its]
+        if len(alike_in_kind) == 1 and kinds[alike_in_kind[0]] == "released":  # before the cord is cut: not of the cord else
+            return alike_in_kind[0]
         words = re.findall(r"\w+", said)
         begins, ends = (when.changes if (when := phase(self, f"{said}{over}")) else () for over in ("", " is over"))
         for found in (called(events, words), begins, called(parts, words), ends):  # after slipping: what goes on ends
             if len(found) == 1:
                 return found[0]
-        alike_in_kind = [name for name in events if (kind := kind_of(said)) and kind == kind_of(name)]
         if len(alike_in_kind) == 1:
             return alike_in_kind[0]
         times = [event.t for event in run.events]
@@ -428,3 +439,8 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
+
+
+def _cuts(event: Mapping[str, Any]) -> bool:
+    """Whether an event cuts or releases a part."""
+    return any({"cut", "release"} & {*action} for action in event["then"] if isinstance(action, Mapping))

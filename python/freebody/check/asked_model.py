@@ -303,7 +303,7 @@ class AskedModel:
     @cached_property
     def rate(self) -> float:
         """A rate typical of the model, 1/s: what its accelerations at rest and its own rates suggest; where these are round-off, in an
-        equilibrium, that of vibrations about it."""
+        equilibrium, that of vibrations about it, or of what falls."""
         found = float(np.max(np.abs(self.first.u / self.sizes), initial=0.0))
         with suppress(MotionError):
             n, falls = len(self.names), [f"rate(rate({quote(name)}))" for name in self.names]
@@ -311,7 +311,10 @@ class AskedModel:
             found = max(found, math.sqrt(np.max(np.abs(accelerations / self.sizes), initial=0.0)))
             stiff = np.abs(by * self.sizes / self.sizes[:, None]).max(axis=1, initial=0.0)
             vibrations = math.sqrt(min((x for x in stiff if x > _AT_REST**2 * stiff.max()), default=0.0))  # the slowest
-            found = vibrations if found < _AT_REST * vibrations else found
+            gravity = np.hypot(*self.core.evaluate([str(part) for part in self.spec.get("gravity") or (0, 0)], self.first))
+            falling = math.sqrt(gravity / self.length)
+            natural = vibrations if vibrations > _AT_REST * falling else falling
+            found = natural if found < _AT_REST * natural else found
         return found or 1.0
 
     def unit(self, dimension: Dimension | None) -> float:

@@ -112,11 +112,23 @@ _PUT: tuple[tuple[str, str], ...] = (
         "released from rest at ",
     ),
     (r"\A\s*(?:for\s+)?small\s+(?:vibrations|oscillations|motions|swings),?\s+(?=natural\s+(?:circular\s+)?frequenc)", ""),
+    # cord still whole: …
+    (
+        r"\A\s*(?:with\s+|while\s+)?(?:the\s+)?([a-z]+)\s+(?:is\s+)?(?:still\s+)?(?:whole|intact|uncut|unbroken)\s*(?=[,:](?!=))",
+        r"before the \1 is cut",
+    ),
+    # rolling (x' = r ω): the stretch, and no moment at which it is so
+    (r"\A\s*(?:pure\s+)?(rolling|rolls|sliding|slides|slipping|slips)\s*\([^():=]+=[^():]+\)\s*:(?!=)", r"while \1:"),
+    # v_A and v_B along AB: …
+    (
+        rf"\A(?!\s*(?:{CONDITION})\b)(?=[^:=<>]*\b(?:along|across|normal\s+to|perpendicular\s+to)\b)[^:=<>\n]*\\[^:=<>\n]*:(?!=)",
+        "",
+    ),
     # v_B has no part along PB, so …
     (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?=[^:\n]*=)", ""),
     # right after the impact \dot\theta = …
     (
-        r"\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on)\s+(?:the\s+)?(?:[a-z-]{3,}\s+)?[a-z-]{3,})\s+"
+        r"\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on|when|once|while)\s+(?:[A-Za-z-]+\s+){0,6}[a-z-]{3,})\s+"
         r"(?=\$?\s*(?:\\(?!text|and\b|or\b)|[α-ωΑ-Ω]|[A-Za-z](?![a-z]))[^:\n]*=[^:\n]*\Z)",
         r"\1: ",
     ),

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import reduce
 
 from freebody.symbolic.dimensions import LENGTH, TIME
-from freebody.symbolic.tree import Add, Negative, Node, Num, Quotient, Sym, substitute, walk
+from freebody.symbolic.tree import Add, Negative, Node, Num, Quotient, Sym, exchange, substitute, walk
 
 from .edits import Edit
+from .language.spelling import spell
 from .language.statements import Equation, symbols_in
 from .vocabulary import Vocabulary
 
@@ -37,12 +39,27 @@ def seen_from_elsewhere(equation: Equation, vocabulary: Vocabulary) -> Iterator[
             if turns or any(n.name == other.name for n in found):
                 pairs = dict(zip(_with_rates(name), _with_rates(other.name), strict=True))
                 yield from _other_frames(equation, name, other.name, pairs)
+    yield from _of_one_alone(equation)
     stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == _SPEED)
     speeds = {stem: [Sym(stem + index) for index in _MOMENTS] for stem in stems}
     for one, own in speeds.items():
         for two, others in speeds.items():
             if one != two and {*own, *others} <= {*vocabulary.others}:
                 yield from _other_frames(equation, one, two, dict(zip(own, others, strict=True)))
+
+
+def _of_one_alone(equation: Equation) -> Iterator[Edit]:
+    """One rate alone for the sum or difference of two that stands more than once."""
+    sums = [n for n in walk(equation) if isinstance(n, Add) and len(n.terms) == 2]
+    for of in dict.fromkeys(sums):
+        rates = [n for n in symbols_in(of) if n.dots == 1]
+        if sums.count(of) < 2 or len(rates) != 2 or any(not isinstance(term, Sym | Negative) for term in of.terms):
+            continue
+        for rate in rates:
+            mended = reduce(lambda whole, place: exchange(whole, place, rate), (n for n in sums if n == of), equation)
+            yield Edit(
+                "convention", None, None, mended, words=f"`{spell(rate)}` for `{spell(of)}`: absolute where it is relative"
+            )
 
 
 def _other_frames(equation: Equation, one: str, two: str, pairs: Mapping[Sym, Sym]) -> Iterator[Edit]:

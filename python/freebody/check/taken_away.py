@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ import numpy as np
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, addends, is_zero, unsigned, walk
+from freebody.symbolic.tree import Add, Mul, Node, addends, is_zero, unsigned, walk
 
 from .language.dimensions import dimension
 from .language.statements import Equation, terms
@@ -79,12 +80,18 @@ class TakenAway:
 
 
 def cancels(equation: Equation) -> bool:
-    """Whether a term stands in a sum beside its opposite, or on both sides."""
-    sums = [addends(node) for node in walk(equation) if isinstance(node, Add)]
+    """Whether a term stands in a sum beside its opposite, or on both sides; a product in any order."""
+    sums = [_in_order(node) for node in walk(equation) if isinstance(node, Add)]
     if any(sign > 0 and (-1, term) in found for found in sums for sign, term in found):
         return True
-    left, right = (addends(side) for side in (equation.left, equation.right))
-    return len(left) + len(right) > 2 and any(each in right and not is_zero(each[1]) for each in left)
+    left, right = _in_order(equation.left), _in_order(equation.right)
+    return len(left) + len(right) > 2 and any(each in right for each in left)
+
+
+def _in_order(side: Node) -> list[tuple[int, frozenset[tuple[Node, int]]]]:
+    """The terms of a sum by their factors."""
+    factors = ((sign, term.factors if isinstance(term, Mul) else (term,)) for sign, term in addends(side))
+    return [(sign, frozenset(Counter(each).items())) for sign, each in factors]
 
 
 def cancels_within(whole: Node, values: Mapping[str, Array]) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from contextlib import suppress
+from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -192,13 +193,11 @@ def in_phase(
     sides = [("just ", "after"), ("just ", "before")] if when.is_moment else [("", "after")]
     places = [("", "", "")] * when.at_first + [(just, side, name) for name in when.changes for just, side in sides]
     names = ["at first"] * bool(verdicts) + [f"{just}{side} {name}" if side else "at first" for just, side, name in places]
-    found: list[Verdict] = [*verdicts]
+    found: list[tuple[Place | None, Verdict]] = [(None, one) for one in verdicts]
     problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
     for place, name in zip(places, names[len(names) - len(places) :], strict=True):
         try:
-            one = (
-                beside_event(checker, declared, *place, statement) if place[1] else checker.at_first().check(statement, declared)
-            )
+            one = _judged_at(checker, declared, place, statement, checker.correcting and len(places) == 1)
         except (ModelProblem, StatementError) as error:
             problem = error
             continue
@@ -206,14 +205,37 @@ def in_phase(
             one = replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
             if not _says_nothing(one):
                 return one
-        found.append(one)
+        found.append((place, one))
     if not found:
         raise problem
-    found = [one for one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
-    found = [one for one in found if not one.of_no_motion] or found
-    nearest = next((one for one in found if one.kind not in (Kind.WRONG, Kind.DIMENSIONS)), None) or _least_wrong(found)
+    found = [(place, one) for place, one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
+    found = [(place, one) for place, one in found if not one.of_no_motion] or found
+    nearest = next((one for _, one in found if one.kind not in _WRONG), None)
+    nearest = nearest or _least_wrong(
+        _corrected(checker, declared, found, statement) if len(places) > 1 else [one for _, one in found]
+    )
     how = f"is read as {names[0]}" if len(names) == 1 else f"is not judged: it does not hold {' or '.join(names)}"
     return nearest if nearest.ok else replace(nearest, notes=(*nearest.notes, f"`{words}` {how}."))
+
+
+def _judged_at(checker: Checker, declared: Declared, place: Place, statement: str, correcting: bool) -> Verdict:
+    """On one stretch, or at one moment; the model as it is at first, where none is named."""
+    asked = copy(checker)
+    asked.correcting = correcting
+    return beside_event(asked, declared, *place, statement) if place[1] else asked.at_first().check(statement, declared)
+
+
+def _corrected(
+    checker: Checker, declared: Declared, found: Sequence[tuple[Place | None, Verdict]], statement: str
+) -> list[Verdict]:
+    """Verdicts about stretches with corrections: first of those on which all letters of the statement take part, then of the others."""
+    given = [one for place, one in found if place is None]
+    for idle in (False, True) if checker.correcting else ():
+        asked = [place for place, one in found if place and one.is_idle is idle]
+        some = [_judged_at(checker, declared, place, statement, True) for place in asked]
+        if any(one.mends for one in (*given, *some)):
+            return [*given, *some]
+    return [one for _, one in found]
 
 
 def _awaits(checker: Checker, declared: Declared, statement: str, one: Verdict) -> bool:
@@ -271,6 +293,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     just = just or there.sampler.stated  # before what happens at the start there is no motion
     given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
     verdict = there.check(statement, declared, given)
+    verdict = replace(verdict, moment=verdict.moment or f"{just}{side} {event}")
     if not verdict.ok and any(INITIAL in note for note in verdict.notes):  # v₀ is that of the start before
         verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
@@ -280,6 +303,9 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
+Place = tuple[str, str, str]
+"""``just`` or nothing, ``before`` or ``after``, and what happens there."""
+_WRONG = (Kind.WRONG, Kind.DIMENSIONS)
 _SOON = 0.01  # of the time typical of a model
 IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
