@@ -91,7 +91,66 @@ joints:
 events: {hit: {at: start, then: {weld: [bar, clay]}}}
 initial: {θ: 0, x: 0, y: -b, rates: {θ: 0, x: v, y: 0}}
 """
+# a body on two springs that the weight presses together at rest, let go level
+CAR = """
+freebody: 1
+parameters: {m: 1200 kg, J: 1500 kg*m^2, a: 1.1 m, b: 1.5 m, k1: 35 kN/m, k2: 30 kN/m, g: 9.81 m/s^2, d1: m*g*b/(k1*(a + b)), d2: m*g*a/(k2*(a + b)), y0: 0.07 m}
+gravity: g
+bodies: {car: {mass: m, inertia: J, points: {F: [a, 0], R: [-b, 0]}}}
+joints: {guide: {type: slot, along: {through: ground.O, angle: 90 deg}, point: car.G, coordinates: [y, {name: θ, absolute: true}]}}
+gauges: {front: y(car.F), rear: y(car.R)}
+forces:
+  s1: {type: spring, along: front, stiffness: k1, rest_length: d1}
+  s2: {type: spring, along: rear, stiffness: k2, rest_length: d2}
+initial: {y: y0, θ: 0, at_rest: true}
+"""
+# a crank that is turned evenly, and rocks an arm against dry friction
+WIPER = """
+freebody: 1
+parameters: {r: 30 mm, l: 300 mm, c: 60 mm, d: 310 mm, I: 0.03 kg*m^2, R: 1.7 N*m, Ω: 5 rad/s}
+gravity: none
+ground: {points: {D: [d, 0]}}
+bodies: {crank: {mass: 0, inertia: 0, points: {A: [r, 0]}}, arm: {mass: 0, inertia: I, points: {B: [c, 0]}}}
+joints:
+  shaft: {type: hinge, of: [ground.O, crank.origin], coordinate: φ}
+  spindle: {type: hinge, of: [ground.D, arm.origin], coordinate: ψ}
+  rod: {type: link, of: [crank.A, arm.B], length: l}
+gauges: {β: "direction(crank.A, arm.B)"}
+motions: {motor: {of: φ, is: Ω, level: velocity}}
+forces: {glass: {type: torque, on: arm, value: -R*sign(rate(ψ))}}
+initial: {φ: 50 deg, guess: {ψ: 100 deg}}
+"""
+# a stepladder on a smooth floor, whose cord is cut at the start
+LADDER = """
+freebody: 1
+parameters: {l: 2.3 m, M: 5 kg, b: 0.8 m, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {floor: {through: O, angle: 0}}}
+bodies:
+  left: {shape: rod, length: l, mass: M, points: {D: [b - l/2, 0]}}
+  right: {shape: rod, length: l, mass: M, points: {D: [b - l/2, 0]}}
+joints:
+  A: {type: slot, along: ground.floor, point: left.start, coordinates: [x, θ]}
+  B: {type: slot, along: ground.floor, point: right.start, coordinates: [u, {name: ψ, zero: left, sense: clockwise}]}
+  top: {type: hinge, of: [left.end, right.end]}
+strings: {cord: {ends: [left.D, right.D]}}
+initial: {θ: 68 deg, x: 0, at_rest: true, guess: {u: 1.7 m, ψ: 68 deg}}
+events: {snip: {at: start, then: {cut: cord}}}
+"""
+# a spinning tyre that is set down on a slope
+TYRE = """
+freebody: 1
+parameters: {m: 9 kg, r: 0.3 m, k: 0.27 m, β: 17 deg, μ: 0.6, w: 34 rad/s, g: 9.81 m/s^2}
+gravity: [-g*sin(β), -g*cos(β)]
+ground: {lines: {slope: {through: O, angle: 0}}}
+bodies: {tyre: {shape: ring, radius: r, mass: m, inertia: m*k^2}}
+joints: {plane: {type: free, of: [ground.O, tyre.centre], coordinates: [x, y, {name: φ, sense: clockwise}]}}
+contacts: {road: {of: [tyre, ground.slope], friction: μ}}
+initial: {x: 0, y: r, φ: 0, rates: {x: 0, y: 0, φ: w}}
+run: {until: 2.2 s}
+"""
 MODELS = {"rod": ROD, "block": BLOCK, "two": TWO, "level": LEVEL, "collar": COLLAR, "gears": GEARS, "struck": STRUCK}
+MODELS |= {"car": CAR, "wiper": WIPER, "ladder": LADDER, "tyre": TYRE}
 
 SAID = {
     "rod": [
@@ -207,6 +266,32 @@ SAID = {
         ("for small θ: ω_n² = (½ M L + m b) g/(⅓ M L²)", W),
         ("½ (⅓ M L² + m b²)(θ̇² − θ̇₀²) = −(½ M L + m b) g (1 − cos θ)", T),
         ("cos θ_max = 1 − (⅓ M L² + m b²) θ̇_0²/((M L + 2 m b) g)", T),
+    ],
+    "car": [
+        ("if k1 a = k2 b, pitch: ω² = (k1 a² + k2 b²)/J", T),
+        ("if k1 a = k2 b, pitch: ω² = (k1 a² + k2 b²)/(J + m a²)", W),
+        ("if k1 a = k2 b, pure bounce has the period T = 2π √(m/(k1 + k2))", T),
+        ("small vibrations, natural frequencies: (k1 + k2 − m ω²)(k1 a² + k2 b² − J ω²) = (k1 a − k2 b)²", T),
+        ("in equilibrium: k1 (d1 − y − a sin θ) = m g b/(a + b)", T),
+        ("in equilibrium: k1 (d1 − y − a sin θ) = m g a/(a + b)", W),
+        ("let go at rest from y₀, θ = 0: m y'² + J θ'² + k1 (y + a sin θ)² + k2 (y − b sin θ)² = (k1 + k2) y₀²", T),
+        ("let go at rest from y₀, θ = 0: m y'² + J θ'² + (k1 + k2) y² + (k1 a² + k2 b²) sin²θ = (k1 + k2) y₀²", W),
+    ],
+    "wiper": [
+        ("stretched out (φ = β): (r + l)² = c² + d² + 2 c d cos ψ", T),
+        ("folded back (φ = β + π): (l − r)² = c² + d² + 2 c d cos ψ", T),
+        ("folded back (φ = β + π): (l − r)² = c² + d² − 2 c d cos ψ", W),
+        ("on the way back, ψ' < 0, ΣM_D: I ψ'' = S c sin(ψ − β) + R where S = rod.tension", T),
+        ("on the way back, ψ' < 0, ΣM_D: I ψ'' = S c sin(ψ − β) − R where S = rod.tension", W),
+    ],
+    "ladder": [
+        ("before the cord is cut: cord.tension = M g l cot θ/(2 (l − b))", T),
+        ("cord still whole: cord.tension = M g l cot θ/(2 b)", W),
+    ],
+    "tyre": [
+        ("rolling (x' = r φ'): road.Fx = m g sin β k²/(r² + k²)", T),
+        ("rolling (x' = r φ'): road.Fx = μ m g cos β", W),
+        ("at the end of slipping: t = r w/(g (μ cos β (1 + r²/k²) − sin β))", T),
     ],
 }  # fmt: skip
 

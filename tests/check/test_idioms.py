@@ -20,6 +20,12 @@ PUT = {
     "recovery (handle free): E = const": "during recovery: E = const",
     "\\text{plank + spool: } P = M a": "plank + spool: P = M a",
     "small, from equilibrium: m a = F": "for small motions: m a = F",
+    "N = 0 where cos θ = 2/3": "N = 0 when cos θ = 2/3",
+    "in equilibrium, ΣM_A = 0: F a = W b": "in equilibrium, ΣM_A : F a = W b",
+    "v_B has no part along PB, so x = y": "x = y",
+    "right after the impact \\dot x = v": "right after the impact: \\dot x = v",
+    "bolt in flight, ΣF_r: F = m a": "while bolt is in flight, ΣF_r: F = m a",
+    "cord still whole, left leg: F = m g": "before the cord is cut, left leg: F = m g",
     "d²u/dθ² + u = p": "((u'' θ' − u' θ'')/(θ')^3) + u = p",
 }
 AS_WRITTEN = ("(N_1 - N_2) b = mu N h", "(M + m) a = F", "d²x/dt² = −g", "at the top (θ' = 0): N = m g", "sin θ = 0")

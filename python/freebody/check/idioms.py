@@ -23,13 +23,19 @@ _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
 _PUT: tuple[tuple[str, str], ...] = (
+    # let go at rest from y₀, θ = 0: …
+    (
+        r"\b(?:let\s+go|released|dropped|set\s+free)\s+(?:at|from)\s+rest\s+(?:from|at|in|where)\s+(?:\$?\\?[^\W\d]\w*\$?,\s*)?(?=[^:]*=[^:]*:(?!=))",
+        "released from rest at ",
+    ),
+    (r"\A\s*(?:for\s+)?small\s+(?:vibrations|oscillations|motions|swings),?\s+(?=natural\s+(?:circular\s+)?frequenc)", ""),
     # ψ' < 0, ΣM_D: …, in equilibrium, ΣM_A = 0: …
     (rf"\A([^:\n]*[<>=≤≥][^:\n]*?),\s*{_SUM}[^,:=<>]*(?:=\s*0\s*)?:(?!=)", r"\1:"),
     (rf"\A([^:=\n]*,\s*{_SUM}[^,:=<>]*)=\s*0\s*:(?!=)", r"\1:"),
     (rf"\A\s*(\$?(?:{_RATE}\s*=\s*)+0\$?)\s*:(?!=)", r"when \1:"),  # φ' = φ'' = 0: …
     # heels on the verge of lifting, N = 0: …
     (
-        rf"\A\s*(?!(?:{CONDITION})\b)[A-Za-z][^=:;,\n]*?\b[a-z]{{3}}[^=:;,\n]*,\s+(\$?\\?[^\W\d]\w*\s*=\s*(?:0|[\d.]+\s*°|[\d.]*\s*(?:π|\\pi)(?:/\d)?)\$?)\s*:(?!=)",
+        rf"\A\s*(?!(?:{CONDITION})\b|[^:]*\b(?:released|let\s+go|dropped|start\w*|from\s+rest)\b)[A-Za-z][^=:;,\n]*?\b[a-z]{{3}}[^=:;,\n]*,\s+(\$?\\?[^\W\d]\w*\s*=\s*(?:0|[\d.]+\s*°|[\d.]*\s*(?:π|\\pi)(?:/\d)?)\$?)\s*:(?!=)",
         r"when \1:",
     ),
     (r"=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\.?\s*\}?\s*(?==)", ""),  # ω = const = v/r
@@ -106,12 +112,6 @@ _PUT: tuple[tuple[str, str], ...] = (
     ),
     # if k₁ a = k₂ b the car pitches by itself: …
     (r"\A(\s*(?:if|when|for)\s+[^:,=]+=[^:,=]+?)\s+(?=the\s+[a-z]+\s+[a-z]{3,}[^:=]*:(?!=))", r"\1, "),
-    # let go at rest from y₀, θ = 0: …
-    (
-        r"\b(?:let\s+go|released|dropped|set\s+free)\s+(?:at|from)\s+rest\s+(?:from|at|in|where)\s+(?:\$?\\?[^\W\d]\w*\$?,\s*)?(?=[^:]*=[^:]*:(?!=))",
-        "released from rest at ",
-    ),
-    (r"\A\s*(?:for\s+)?small\s+(?:vibrations|oscillations|motions|swings),?\s+(?=natural\s+(?:circular\s+)?frequenc)", ""),
     # cord still whole: …
     (
         r"\A\s*(?:with\s+|while\s+)?(?:the\s+)?([a-z]+)\s+(?:is\s+)?(?:still\s+)?(?:whole|intact|uncut|unbroken)\s*(?=[,:](?!=))",
