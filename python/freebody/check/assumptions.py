@@ -382,8 +382,10 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
 
 def _are_moving_angles(left: str, right: str, checker: Checker, declared: Declared) -> bool:
     """Whether two sides are angles that both change as the model moves."""
-    moving = all(_moves(_meant(side, checker, declared), checker) for side in (left, right))
-    return moving and checker.symbols(declared).measured(left)[1] == ANGLE
+    with suppress(ModelProblem, StatementError):
+        moving = all(_moves(_meant(side, checker, declared), checker) for side in (left, right))
+        return moving and checker.symbols(declared).measured(left)[1] == ANGLE
+    return False
 
 
 def _moves(text: str, checker: Checker) -> bool:

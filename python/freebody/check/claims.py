@@ -63,9 +63,9 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             said = ((part or "").strip() for part in found.groups())
             return judge(checker, {**declared, **given}, *said)
     label, colon, said = claim.partition(":")
-    words = label.strip(_BESIDE_WORDS)
-    if colon and IN_WORDS.fullmatch(words) and (found := phase(checker, words)) and found.changes and not found.is_moment:
-        return in_phase(checker, {**declared, **given}, found, words, said)
+    for words in (part.strip(_BESIDE_WORDS) for part in label.split(",") if colon):  # rolling, power: …
+        if IN_WORDS.fullmatch(words) and (found := phase(checker, words)) and found.changes and not found.is_moment:
+            return in_phase(checker, {**declared, **given}, found, words, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")

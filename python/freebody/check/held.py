@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,11 +50,20 @@ def without_others(checker: Checker, name: str) -> Checker | None:
     n, k = len(sampler.names), sampler.names.index(name)
     slopes = sampler.core.derivatives([f"accel({quote(name)})"], sampler.own)[0, 1 : 1 + 2 * n]
     parts = np.abs(slopes) * np.concatenate([sampler.sizes, sampler.rate * sampler.sizes])
-    if np.delete(parts, [k, k + n]).max() > _MOVED * parts.max():
+    if sampler.loops or np.delete(parts, [k, k + n]).max() > _MOVED * parts.max() or _shares_inertia(checker, k):
         return None
     others = {other: repr(float(q)) for other, q in zip(sampler.names, sampler.own.q, strict=True) if other != name}
     laws = {other: q + _unit(checker, other) for other, q in others.items()}
     return checker.of_model(("alone", name), lambda mechanism: [_hold(mechanism, *each) for each in laws.items()])
+
+
+def _shares_inertia(checker: Checker, k: int) -> bool:
+    """Whether the kinetic energy has a product of a coordinate's rate with others."""
+    sampler = checker.sampler
+    moved = np.diag(sampler.sizes)
+    energy = lambda u: float(sampler.core.evaluate(["kinetic()"], replace(sampler.own, u=u))[0])
+    own, most = energy(moved[k]), max(map(energy, moved))
+    return any(abs(energy(moved[k] + u) - own - energy(u)) > _MOVED * most for i, u in enumerate(moved) if i != k)
 
 
 def _unit(checker: Checker, coordinate: str) -> str:

@@ -124,6 +124,16 @@ _PUT: tuple[tuple[str, str], ...] = (
         rf"\A(?!\s*(?:{CONDITION})\b)(?=[^:=<>]*\b(?:along|across|normal\s+to|perpendicular\s+to)\b)[^:=<>\n]*\\[^:=<>\n]*:(?!=)",
         "",
     ),
+    # natural frequencies for c = 0: …
+    (
+        r"\A\s*(?:the\s+)?natural\s+(?:circular\s+)?frequencies,?\s+(?:for\s+|with\s+|if\s+|when\s+)?([^\s:=,]+\s*=\s*[^:,=]+?)\s*:(?!=)",
+        r"if \1: natural frequencies:",
+    ),
+    # Tarzan just before the pickup, ΣF_y: …
+    (
+        rf"\A\s*(?!(?:{CONDITION})\b)(?:the\s+)?[A-Za-z]+\s+((?:just|right|immediately)\s+(?:before|after)\s+[^:,=]+)(?=[,:](?!=))",
+        r"\1",
+    ),
     # v_B has no part along PB, so …
     (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?=[^:\n]*=)", ""),
     # right after the impact \dot\theta = …

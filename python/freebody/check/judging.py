@@ -10,6 +10,7 @@ from itertools import chain, islice
 
 import numpy as np
 
+from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.differentiate import rate
 from freebody.symbolic.errors import StatementError
@@ -19,7 +20,7 @@ from freebody.symbolic.tree import Sym
 from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, nearer, of_family, tiny
 from .case import Case
 from .correction import MOST, SECOND, corrections
-from .families import ALL, NoMotion, Samples
+from .families import ALL, Family, NoMotion, Samples
 from .figures import corrected_figures, rounding, says_a_figure, says_a_measure
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
@@ -246,10 +247,17 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     if forward := one_sense(case, equation):
         ways.append(replace(since, above=forward[0].above))
     for family in ways:
-        if of_family(case, equation, family, _GLANCE) and of_family(case, equation, family, SAMPLES):
+        if _at_a_glance(case, equation, family) and of_family(case, equation, family, SAMPLES):
             verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
             return replace(verdict, assumption=FROM_START) if verdict.ok else None
     return None
+
+
+def _at_a_glance(case: Case, equation: Equation, family: Family) -> bool:
+    """Whether an equation holds on a few motions of a family, whether or not every term takes part."""
+    with suppress(NoMotion, StatementError, ModelError, MotionError):
+        return residual(equation, case.values(family, count=_GLANCE)).holds_but_for_few
+    return False
 
 
 def _never_changes(case: Case, equation: Equation) -> bool:

@@ -149,8 +149,20 @@ def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, st
     if not found.is_moment and (way := way_of(words, checker)):
         statement = f"if {way}: {statement}"
     verdict = in_phase(checker, declared, found, words, statement)
+    if found.is_moment and not verdict.ok and (there := _before_another(checker, declared, found, words, statement)):
+        return there
     unclear = found == Phase(True, (), False) and not verdict.ok
     return _later(checker, declared, words, statement, verdict, problem) if unclear else verdict
+
+
+def _before_another(checker: Checker, declared: Declared, found: Phase, words: str, statement: str) -> Verdict | None:
+    """True just before an event that words may mean beside what they are taken for; else None."""
+    for name in dict.fromkeys(event.name for event in checker.own_motion.events if event.name not in " ".join(found.changes)):
+        with suppress(ModelProblem, StatementError):
+            there = beside_event(checker, declared, "just ", "before", name, statement)
+            if there.ok and not _says_nothing(there):
+                return replace(there, notes=(*there.notes, f"`{words}` is read as just before {name}."))
+    return None
 
 
 def _later(checker: Checker, declared: Declared, words: str, statement: str, at_first: Verdict, problem: ModelProblem) -> Verdict:

@@ -27,7 +27,7 @@ LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at re
 """``while it slips``: words of a stretch of the motion."""
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""
-_SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?)"
+_SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)"
 _HELD = r"(?:is\s+|are\s+)?(?:held|fixed|locked|clamped|blocked)(?:\s+(?:still|fixed|fast|in place))?"
 _LISTED = (
     (re.compile(rf"(?:with\s+)?(?:the\s+)?([\w\s'-]+?)\s+{_HELD}\s*(?:\(|at\s+)\s*(\S+?)\s*=\s*([^()]+?)\)?"), r"\2 held at \3"),

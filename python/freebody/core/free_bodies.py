@@ -15,6 +15,8 @@ from .state import Array
 
 GROUND = "ground"
 _DRIVEN = ("motion", "coupling", "lock", "force")
+_POINT = 1e-12
+"""Size in m below which all of a mechanism is at one point, but for round-off."""
 _VANISHES = 1e-9
 """Part of the size of the mechanism below which what changes a row of lengths is round-off."""
 Pair = tuple[float, float]
@@ -154,7 +156,8 @@ class FreeBodies:
     def extent(self) -> float:
         """The size of the mechanism: how far its mass centres and the points of its loads lie apart, m; 1 m where all are in one."""
         places = [part.point for load in self.loads for part in load.on] + [body.G for body in self.bodies.values()]
-        return float(np.hypot(*np.ptp(places, axis=0))) or 1.0
+        extent = float(np.hypot(*np.ptp(places, axis=0)))
+        return extent if extent > _POINT else 1.0
 
     def units(self, coordinates: Sequence[Mapping[str, Any]]) -> Array:
         """What each coordinate is measured by, (n,): an angle by 1 rad, a length by the size of the mechanism."""
