@@ -65,6 +65,7 @@ NOT_FOUND = {
     ("coil_on_truck", "moments about the corner on the bed"): "asks of a contact that the model's numbers open at once",
     ("despin_cords", "length that stops the spin"): "comes only on motions through other assemblies of its loops",
     ("door_closer", "when it stops opening"): "calls the only coordinate by what the door does",
+    ("dragster", "about to lift the nose"): "gives a force that is 0, and limits in brackets",
     ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
     ("grip_car", "heat when it holds"): "takes longer to arrange than there is time",
     ("inerter", "undamped steady state"): "takes about as long as there is time",
@@ -74,9 +75,9 @@ NOT_FOUND = {
     ("record_tone_arm", "steady amplitude"): "is of the steady state of small motions",
     ("snap_through", "small swings about the relaxed place"): "is of a place of rest that other numbers do not have",
     ("soap_box", "final speed"): "dies away too slowly to be seen to",
-    ("square_wheel", "coasting to a corner"): "begins at another place than the model",
     ("sounding_rocket", "coasting"): "is of so late a time that few random motions have come to it",
     ("sounding_rocket", "growing acceleration"): "is of the rate of an acceleration",
+    ("square_wheel", "coasting to a corner"): "begins at another place than the model",
     ("thrown_baton", "no spin up"): "is of the model's own motion by its figure alone",
     ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",
     ("two_shoe_brake", "turns"): "gives a letter among its conditions",
@@ -199,7 +200,8 @@ class Book:
     def _plain(self, text: str) -> str:
         """What is said, with its condition first and without remarks."""
         names = {*self.checker.mechanism.parameters, *self.checker.sampler.names, *self.checker.declared}
-        return as_claim(with_condition_first(plainly(text, names)[0]))
+        plain = with_condition_first(plainly(text, names)[0])
+        return plain if ":" in plain else as_claim(plain)
 
     def slip(self, rng: np.random.Generator, statement: Mapping[str, Any]) -> Slip | None:
         """A right statement with a slip of a student, and the verdict; None where none is found to be wrong."""

@@ -196,7 +196,7 @@ class Checker:
     def _without_laws(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where what cannot be read begins with a law, and says something behind it; where both can be read, about both."""
         for other, law in without_laws(text):
-            if re.search(r"→|->|\\to\b", law):  # no law but a condition
+            if re.search(r"(?:→|->|\\to\b)\s*(?:0|∞|inf|\\infty)", law):  # no law but a condition
                 continue
             if (said := _GIVEN.fullmatch(law)) and free_parameter(said[1], self, letters or {}) and self.hypothesis == ALL:
                 return self.check(f"if {law.rpartition(',')[2]}: {other}", letters, *how)
