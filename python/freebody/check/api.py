@@ -18,25 +18,23 @@ from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
 from freebody.run.moments import PATIENT, Unreached
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import sampled
 
 from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
-from .families import ALL, BEFORE, SINCE_START, Family, NoMotion
+from .families import ALL, BEFORE, Family, NoMotion
 from .frequency_claims import OMEGA, PERIOD
 from .held import without_others
 from .language.glyphs import CONDITION
-from .language.spelling import spell
-from .language.statements import symbols_in, terms
+from .language.statements import symbols_in
+from .later import also_later, corrected_later
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
 from .phases import NOT_FIRST, called, kind_of, phase, with_names
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
-from .residual import magnitude
 from .symbols import Symbols
 from .timed_claims import holds_on_run
 from .tried_readings import stated
@@ -55,8 +53,6 @@ _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
 _WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
-_SETS_FREE = ("lift-off ", "slack ", "released ")  # what switches so that more moves
-_SWITCHES = 2  # of these, after which corrections are tried
 _LIKELY = 2.0  # size of a correction by which a statement is wrong, whatever some words ask
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
@@ -251,10 +247,10 @@ class Checker:
                 )
             plainly_said = verdict.ok and not found and checker.hypothesis == ALL
             if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
-                verdict = self._also_later(verdict, text, letters)
+                verdict = also_later(self, verdict, text, letters)
             as_said = not found and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment)
             if as_said and verdict.kind is Kind.WRONG and verdict.mends:
-                verdict = self._corrected_later(verdict, text, letters)
+                verdict = corrected_later(self, verdict, text, letters)
             if verdict.moment or not self.sampler.has(checker.hypothesis):
                 return verdict
             return replace(verdict, moment=self.sampler.own.moment)
@@ -273,43 +269,6 @@ class Checker:
         word = next((word for word in re.findall("`([^`]+)`", what) if word in text), text)
         start = text.find(word)
         raise StatementError(what, (start, start + len(word)), hint, text)
-
-    def _also_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
-        """The verdict about what holds as the model is at first, where some of it is 0: wrong where it does not hold after something switches."""
-        for name in self.switches:
-            with suppress(ModelProblem, StatementError):
-                later = self.beside("after", name, {}).check(text, letters)
-                if later.kind is Kind.WRONG and self._stays_zero(verdict, text, letters):
-                    said = ", ".join(f"`{term}`" for term in verdict.untested)
-                    return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
-        return verdict
-
-    def _corrected_later(self, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
-        """The verdict about what is wrong as the model is at first, where parts of it are 0 or move as one: with the corrections of after
-        something switches that are true at first, too."""
-        holds = lambda checker, correction: checker.check(correction.equation, letters, correcting=False).ok
-        for name in [name for name in self.switches if name.startswith(_SETS_FREE)][:_SWITCHES]:
-            with suppress(ModelProblem, StatementError):
-                there = self.beside("after", name, {})
-                if holds(there, verdict.mends[0]):
-                    continue
-                later = there.check(text, letters)
-                if later.kind is Kind.WRONG and (mends := tuple(each for each in later.mends if holds(self, each))):
-                    return replace(later, mends=mends, notes=(*later.notes, f"It is corrected by what is so after {name}."))
-        return verdict
-
-    def _stays_zero(self, verdict: Verdict, text: str, letters: Declared | None) -> bool:
-        """Whether what is not established of a statement is 0 as the model is at first, and not only small where it was tried."""
-        since = SINCE_START if verdict.assumption == FROM_START else None
-        case = self.case(with_condition_first(plainly(text)[0]), letters, since)
-        values = case.values()
-        untested = [
-            (equation, term)
-            for equation in case.equations
-            for term in terms(equation, expand=True)
-            if spell(term) in verdict.untested
-        ]
-        return all(np.all(np.abs(sampled(term, values)) <= _ROUND_OFF * magnitude(one.left, values)) for one, term in untested)
 
     def at_first(self) -> Checker:
         """The same, of which is asked what is so as the model is at first, whatever switches on it later."""

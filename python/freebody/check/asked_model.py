@@ -36,6 +36,7 @@ _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment
 _MOMENTS, _HALVES = 12, 8  # of a motion, at which its assembly is looked at, and how often it is halved where that changes
 _SAME_PLACE = 1e-3  # of the sizes of coordinates: where two states differ by more, they are of two assemblies
+_SOON = 1e-4  # of the time typical of the model: what starts with a speed has moved a hundred times as far as what starts without
 _NO_GAP = 1e-9  # of the size of the model, at which parts touch
 _STRIDE = 4.0  # by which a length grows from place to place on the way to where it is far larger
 _DEPENDENT = (
@@ -129,10 +130,13 @@ class AskedModel:
         return bool(self.moment) or any(named) or not all(x.is_open for x in self.core.instant(self.first).limits.values())
 
     def require_touch(self, names: Collection[str]) -> None:
-        """Raises ``NoMotion`` where those of some contacts and stops whose parts touch at the moment all open at once."""
-        limits = self.core.instant(self.own).limits
-        there = [limits[name] for name in names if name in limits]
-        if there and all(limit.is_open and abs(limit.gap) <= _NO_GAP * self.length for limit in there):
+        """Raises ``NoMotion`` where those of some contacts and stops whose parts touch at the moment, without a speed between them, all
+        open at once."""
+        soon = self.run(self.own, _SOON / self.rate).end
+        now, then = (self.core.instant(state).limits for state in (self.own, soon))
+        there = [(now[name], then[name]) for name in names if name in now and name in then]
+        near = (_NO_GAP * self.length, 0.01 * _SOON * self.length)
+        if there and all(one.is_open and abs(one.gap) <= near[0] and abs(two.gap) <= near[1] for one, two in there):
             what = f"with its own numbers the model leaves `{' '.join(names)}` at once"
             raise NoMotion(f"{what}: give it others, with which it stays there")
 

@@ -57,7 +57,6 @@ NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
 _ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4}
 _NUMBERED = re.compile(rf"\b({'|'.join(_ORDINALS)})\s+([A-Za-z]\w*)")
-_STAYS = re.compile(r"\b(?:stays?|remains?|rests?|still|not\s+yet|not\s+(?:leave|lift))\b")
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -116,7 +115,7 @@ def phase(checker: Checker, words: str) -> Phase | None:
     lasts = lasts or (kind == "lift-off" and _LASTED.search(words) is not None and is_off)  # it has left from the start
     if not lasts and not meant & {part for _, part in firsts.values()}:  # what is called so goes on under another name
         meant = parts
-    if kind == "touch" and lasts and _STAYS.search(words):
+    if kind == "touch" and lasts:
         checker.sampler.require_touch(meant)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
     every = _ALL.search(words) is not None

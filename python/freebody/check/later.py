@@ -1,0 +1,69 @@
+"""What is said of a model in which something switches: whether it still holds after that, and what corrects it there."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.evaluate import sampled
+
+from .assumptions import FROM_START
+from .families import SINCE_START
+from .language.spelling import spell
+from .language.statements import terms
+from .prose import plainly
+from .residual import magnitude
+from .verdict import Kind, Verdict
+from .wording import with_condition_first
+
+if TYPE_CHECKING:
+    from .api import Checker, Declared
+
+_ROUND_OFF = 1e-9  # of the terms of an equation, below which one of them is 0
+_SETS_FREE = ("lift-off ", "slack ", "released ")  # what switches so that more moves
+_SWITCHES = 2  # of these, after which corrections are tried
+
+
+def also_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
+    """The verdict about what holds as the model is at first, where some of it is 0: wrong where it does not hold after something switches."""
+    for name in checker.switches:
+        with suppress(ModelProblem, StatementError):
+            later = checker.beside("after", name, {}).check(text, letters)
+            if later.kind is Kind.WRONG and _stays_zero(checker, verdict, text, letters):
+                said = ", ".join(f"`{term}`" for term in verdict.untested)
+                return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
+    return verdict
+
+
+def corrected_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
+    """The verdict about what is wrong as the model is at first, where parts of it are 0 or move as one: with the corrections of after
+    something switches that are true at first, too."""
+    holds = lambda asked, correction: asked.check(correction.equation, letters, correcting=False).ok
+    for name in [name for name in checker.switches if name.startswith(_SETS_FREE)][:_SWITCHES]:
+        with suppress(ModelProblem, StatementError):
+            there = checker.beside("after", name, {})
+            if holds(there, verdict.mends[0]):
+                continue
+            later = there.check(text, letters)
+            if later.kind is Kind.WRONG and (mends := tuple(each for each in later.mends if holds(checker, each))):
+                return replace(later, mends=mends, notes=(*later.notes, f"It is corrected by what is so after {name}."))
+    return verdict
+
+
+def _stays_zero(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> bool:
+    """Whether what is not established of a statement is 0 as the model is at first, and not only small where it was tried."""
+    since = SINCE_START if verdict.assumption == FROM_START else None
+    case = checker.case(with_condition_first(plainly(text)[0]), letters, since)
+    values = case.values()
+    untested = [
+        (equation, term)
+        for equation in case.equations
+        for term in terms(equation, expand=True)
+        if spell(term) in verdict.untested
+    ]
+    return all(np.all(np.abs(sampled(term, values)) <= _ROUND_OFF * magnitude(one.left, values)) for one, term in untested)
