@@ -20,7 +20,7 @@ use crate::bound_values::BoundValues;
 use crate::joints::Relative;
 use crate::mechanism::{Body, Joint, Mechanism, TreeJoint};
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
-use crate::scalar::{Dual, Jet, Scalar};
+use crate::scalar::{Dual, Jet, Scalar, WIDE};
 
 /// Poses, twists and velocity-product accelerations of all bodies at one state.
 #[derive(Clone, Debug, Default)]
@@ -57,44 +57,65 @@ impl<S: Scalar> Kinematics<S> {
     /// Goes through the tree from ground to the leaves, at coordinates `q` and rates `u`.
     #[inline(always)]
     pub fn forward_kinematics(&mut self, m: &Mechanism, n: &BoundValues<S>, q: &[S], u: &[S]) {
-        for body in 1..m.bodies.len() {
-            let Some(tree_joint) = m.bodies[body].tree_joint else { continue };
-            if tree_joint.hinge {
-                self.place_child_by_hinge(n, body, m.bodies[body].particle, tree_joint, q, u);
-            } else {
-                self.place_child(m, n, body, tree_joint, q, u);
+        let mut body = 1;
+        while body < m.bodies.len() {
+            let hinges = m.bodies[body..].iter().map_while(|body| body.tree_joint.filter(|b| b.hinge));
+            if hinges.take(WIDE).count() == WIDE {
+                self.place_on_hinges(m, n, body, [q, u]);
+                body += WIDE;
+                continue;
             }
+            match m.bodies[body].tree_joint {
+                Some(b) if b.hinge => {
+                    let angle = self.turn_on_hinge(m, n, body, b, [q, u]);
+                    self.shift_on_hinge(n, body, b, Turn::by(angle));
+                }
+                Some(b) => self.place_child(m, n, body, b, q, u),
+                None => {}
+            }
+            body += 1;
         }
     }
 
-    /// A body on a plain hinge between body axes: the general case, written short.
+    /// Bodies in a row on plain hinges, from one on, each as alone: their sines and cosines are found side by side.
     #[inline(always)]
-    fn place_child_by_hinge(
-        &mut self,
-        n: &BoundValues<S>,
-        body: usize,
-        particle: bool,
-        b: TreeJoint,
-        q: &[S],
-        u: &[S],
-    ) {
-        let hinge = &n.hinges[body];
-        let (base, parent_twist) = (self.pose[b.parent], self.twist[b.parent]);
-        let arm = base.turn.apply(hinge.arm);
-        self.arm[body] = arm;
-        let mut pose = Pose { at: base.at + arm, turn: Turn::none() };
-        let mut twist = Twist { v: parent_twist.at(arm), w: S::zero() };
-        if !particle {
-            let base_angle = base.turn.angle + hinge.near;
-            let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], base_angle, parent_twist.w);
-            let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
-            pose.turn = Turn::by(base_angle + angle - hinge.far);
-            twist.w = parent_twist.w + rate;
-            self.nu[b.start] = if b.reversed { -rate } else { rate };
+    fn place_on_hinges(&mut self, m: &Mechanism, n: &BoundValues<S>, first: usize, state: [&[S]; 2]) {
+        let on_hinge = |k: usize| m.bodies[first + k].tree_joint.expect("a body on a hinge");
+        let mut angles = [S::zero(); WIDE];
+        for (k, angle) in angles.iter_mut().enumerate() {
+            *angle = self.turn_on_hinge(m, n, first + k, on_hinge(k), state);
         }
-        self.pose[body] = pose;
-        self.twist[body] = twist;
-        self.bias_acceleration[body] = Twist { v: -(arm * (parent_twist.w * parent_twist.w)), w: S::zero() };
+        let [sin, cos] = S::sin_cos_each(&angles);
+        for k in 0..WIDE {
+            self.shift_on_hinge(n, first + k, on_hinge(k), Turn { cos: cos[k], sin: sin[k], angle: angles[k] });
+        }
+    }
+
+    /// The angle of a body on a plain hinge between body axes: the general case, written short.
+    #[inline(always)]
+    fn turn_on_hinge(&mut self, m: &Mechanism, n: &BoundValues<S>, body: usize, b: TreeJoint, [q, u]: [&[S]; 2]) -> S {
+        if m.bodies[body].particle {
+            return S::zero();
+        }
+        let hinge = &n.hinges[body];
+        let (near, base_rate) = (self.pose[b.parent].turn.angle + hinge.near, self.twist[b.parent].w);
+        let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], near, base_rate);
+        let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
+        self.nu[b.start] = if b.reversed { -rate } else { rate };
+        self.twist[body].w = base_rate + rate;
+        self.pose[body].turn.angle = near + angle - hinge.far;
+        self.pose[body].turn.angle
+    }
+
+    /// The place of that body, which is turned like this.
+    #[inline(always)]
+    fn shift_on_hinge(&mut self, n: &BoundValues<S>, body: usize, b: TreeJoint, turn: Turn<S>) {
+        let (base, carried) = (self.pose[b.parent], self.twist[b.parent]);
+        let arm = base.turn.apply(n.hinges[body].arm);
+        self.arm[body] = arm;
+        self.pose[body] = Pose { at: base.at + arm, turn };
+        self.twist[body].v = carried.at(arm);
+        self.bias_acceleration[body].v = -(arm * (carried.w * carried.w));
     }
 
     /// A body on any joint, from the joint's pose.
