@@ -8,6 +8,7 @@
 use super::momentum::Inertia;
 use super::DynamicsError;
 use crate::kinematics::StateView;
+use crate::mechanism::TreeJoint;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
 
@@ -152,24 +153,30 @@ impl<S: Scalar> ArticulatedBody<S> {
         let n = at.m.bodies.len();
         let (tree, full, hinges, general) =
             (&at.m.bodies[..n], &mut self.full[..n], &mut self.hinges[..n], &mut self.general[..n]);
-        let (arms, biases) = (&at.k.arm[..n], &at.k.bias_acceleration[..n]);
+        let (arms, biases, subspaces) = (&at.k.arm[..n], &at.k.bias_acceleration[..n], &at.k.motion_subspace[..n]);
         // The body that comes next, in a chain the parent: what it is given stays at hand.
         let mut next = full[n - 1];
         for i in (1..n).rev() {
-            let tree_joint = tree[i].tree_joint.expect("every body hangs in the tree");
-            let (body, arm, bias, parent) = (next, arms[i], biases[i].v, tree_joint.parent);
+            let TreeJoint { parent, hinge, freedom, .. } = tree[i].tree_joint.expect("every body hangs in the tree");
+            let (body, arm, bias, columns) = (next, arms[i], biases[i].v, &subspaces[i]);
             let (particle, singular) = (tree[i].particle, || DynamicsError::singular_inertia(at.m, i));
-            full[i] = body;
-            next = full[i - 1];
-            if tree_joint.hinge {
-                let hinge = FreeHinge::of(&body, particle, arm, bias).ok_or_else(singular)?;
-                hinges[i] = hinge;
-                next = give(full, next, [i, parent], |to| to.with_freed(&body, &hinge, arm, bias));
-            } else {
-                let (body, columns) = (full[i], &at.k.motion_subspace[i]);
-                general[i] = GeneralJoint::of(&body, columns, tree_joint.freedom).ok_or_else(singular)?;
-                let rest = || general[i].beyond(&body, columns, particle, biases[i]);
-                next = give(full, next, [i, parent], |to| to.with_child(&rest(), arm));
+            (full[i], next) = (body, full[i - 1]);
+            match hinge {
+                true => hinges[i] = FreeHinge::of(&body, particle, arm, bias).ok_or_else(singular)?,
+                false => general[i] = GeneralJoint::of(&full[i], columns, freedom).ok_or_else(singular)?,
+            }
+            // Ground resists whatever hangs on it.
+            if parent == 0 {
+                continue;
+            }
+            let to = if parent == i - 1 { next } else { full[parent] };
+            let given = match hinge {
+                true => to.with_freed(&body, &hinges[i], arm, bias),
+                false => to.with_child(&general[i].beyond(&full[i], columns, particle, biases[i]), arm),
+            };
+            match parent == i - 1 {
+                true => next = given,
+                false => full[parent] = given,
             }
         }
         Ok(())
@@ -215,11 +222,12 @@ impl<S: Scalar> ArticulatedBody<S> {
         self.hinges.resize(n, FreeHinge { inverse: S::zero(), couple: S::zero(), lever: S::zero() });
         self.general.resize(n, GeneralJoint { u: [[S::zero(); 3]; 3], inverse: [[S::zero(); 3]; 3], freedom: 0 });
         self.full.resize(n, ArticulatedInertia::none());
+        let (arms, loads, twists, full) = (&arms[..n], &loads[..n], &at.k.twist[..n], &mut self.full[..n]);
         for i in 1..n {
-            let (arm, w) = (arms[i], at.k.twist[i].w);
+            let (arm, w) = (arms[i], twists[i].w);
             let Inertia { mass, moment, turn } = Inertia::of(at, i, arm);
             let swing = arm * (-mass * w * w);
-            self.full[i] = ArticulatedInertia {
+            full[i] = ArticulatedInertia {
                 xx: mass,
                 xy: S::zero(),
                 yy: mass,
@@ -231,23 +239,6 @@ impl<S: Scalar> ArticulatedBody<S> {
             };
         }
     }
-}
-
-/// Gives what is left of a child to its parent; ground resists whatever hangs on it. Answers `next`, the body before the child.
-#[inline(always)]
-fn give<S: Scalar>(
-    full: &mut [ArticulatedInertia<S>],
-    next: ArticulatedInertia<S>,
-    [child, parent]: [usize; 2],
-    with: impl FnOnce(ArticulatedInertia<S>) -> ArticulatedInertia<S>,
-) -> ArticulatedInertia<S> {
-    if parent > 0 && parent == child - 1 {
-        return with(next);
-    }
-    if parent > 0 {
-        full[parent] = with(full[parent]);
-    }
-    next
 }
 
 impl<S: Scalar> FreeHinge<S> {

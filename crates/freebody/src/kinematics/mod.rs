@@ -16,7 +16,7 @@ pub use measure::{gradient, jet, Config, Observed, State};
 pub use travel::{Travel, TravelView};
 pub use view::{relative, MotionView, Poses, SeededView, StateView, ValuesView};
 
-use crate::bound_values::BoundValues;
+use crate::bound_values::{BoundValues, HingeNumbers};
 use crate::joints::Relative;
 use crate::mechanism::{Body, Joint, Mechanism, TreeJoint};
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
@@ -67,8 +67,9 @@ impl<S: Scalar> Kinematics<S> {
             }
             match m.bodies[body].tree_joint {
                 Some(b) if b.hinge => {
-                    let angle = self.turn_on_hinge(m, n, body, b, [q, u]);
-                    self.shift_on_hinge(n, body, b, Turn::by(angle));
+                    let hinge = &n.hinges[body];
+                    let angle = self.turn_on_hinge(body, m.bodies[body].particle, b, hinge, [q, u]);
+                    self.shift_on_hinge(body, b.parent, hinge.arm, Turn::by(angle));
                 }
                 Some(b) => self.place_child(m, n, body, b, q, u),
                 None => {}
@@ -80,38 +81,47 @@ impl<S: Scalar> Kinematics<S> {
     /// Bodies in a row on plain hinges, from one on, each as alone: their sines and cosines are found side by side.
     #[inline(always)]
     fn place_on_hinges(&mut self, m: &Mechanism, n: &BoundValues<S>, first: usize, state: [&[S]; 2]) {
-        let on_hinge = |k: usize| m.bodies[first + k].tree_joint.expect("a body on a hinge");
+        let (bodies, hinges) = (&m.bodies[first..][..WIDE], &n.hinges[first..][..WIDE]);
+        let on_hinge = |body: &Body| body.tree_joint.expect("it is on a hinge");
         let mut angles = [S::zero(); WIDE];
-        for (k, angle) in angles.iter_mut().enumerate() {
-            *angle = self.turn_on_hinge(m, n, first + k, on_hinge(k), state);
+        for (k, (body, hinge)) in bodies.iter().zip(hinges).enumerate() {
+            angles[k] = self.turn_on_hinge(first + k, body.particle, on_hinge(body), hinge, state);
         }
         let [sin, cos] = S::sin_cos_each(&angles);
-        for k in 0..WIDE {
-            self.shift_on_hinge(n, first + k, on_hinge(k), Turn { cos: cos[k], sin: sin[k], angle: angles[k] });
+        for (k, (body, hinge)) in bodies.iter().zip(hinges).enumerate() {
+            let turn = Turn { cos: cos[k], sin: sin[k], angle: angles[k] };
+            self.shift_on_hinge(first + k, on_hinge(body).parent, hinge.arm, turn);
         }
     }
 
     /// The angle of a body on a plain hinge between body axes: the general case, written short.
     #[inline(always)]
-    fn turn_on_hinge(&mut self, m: &Mechanism, n: &BoundValues<S>, body: usize, b: TreeJoint, [q, u]: [&[S]; 2]) -> S {
-        if m.bodies[body].particle {
+    fn turn_on_hinge(
+        &mut self,
+        body: usize,
+        particle: bool,
+        b: TreeJoint,
+        hinge: &HingeNumbers<S>,
+        [q, u]: [&[S]; 2],
+    ) -> S {
+        if particle {
             return S::zero();
         }
-        let hinge = &n.hinges[body];
         let (near, base_rate) = (self.pose[b.parent].turn.angle + hinge.near, self.twist[b.parent].w);
         let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], near, base_rate);
         let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
+        let angle = near + angle - hinge.far;
         self.nu[b.start] = if b.reversed { -rate } else { rate };
         self.twist[body].w = base_rate + rate;
-        self.pose[body].turn.angle = near + angle - hinge.far;
-        self.pose[body].turn.angle
+        self.pose[body].turn.angle = angle;
+        angle
     }
 
-    /// The place of that body, which is turned like this.
+    /// The place of that body, which is turned like this and hangs on its parent at `arm`, in the parent's axes.
     #[inline(always)]
-    fn shift_on_hinge(&mut self, n: &BoundValues<S>, body: usize, b: TreeJoint, turn: Turn<S>) {
-        let (base, carried) = (self.pose[b.parent], self.twist[b.parent]);
-        let arm = base.turn.apply(n.hinges[body].arm);
+    fn shift_on_hinge(&mut self, body: usize, parent: usize, arm: Vec2<S>, turn: Turn<S>) {
+        let (base, carried) = (self.pose[parent], self.twist[parent]);
+        let arm = base.turn.apply(arm);
         self.arm[body] = arm;
         self.pose[body] = Pose { at: base.at + arm, turn };
         self.twist[body].v = carried.at(arm);
