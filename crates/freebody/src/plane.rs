@@ -96,12 +96,12 @@ impl<S: Scalar> SubAssign for Vec2<S> {
 /// A direction with its angle: turning by it costs no further sine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turn<S = f64> {
-    /// Angle in radians, unwrapped.
-    pub angle: S,
-    /// Its cosine.
+    /// Cosine of the angle.
     pub cos: S,
     /// Its sine.
     pub sin: S,
+    /// Angle in radians, unwrapped.
+    pub angle: S,
 }
 
 impl<S: Scalar> Turn<S> {

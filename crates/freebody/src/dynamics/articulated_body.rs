@@ -8,6 +8,7 @@
 use super::momentum::Inertia;
 use super::DynamicsError;
 use crate::kinematics::StateView;
+use crate::mechanism::TreeJoint;
 use crate::plane::{vec2, Twist, Vec2, Wrench};
 use crate::scalar::Scalar;
 
@@ -30,16 +31,34 @@ struct ArticulatedInertia<S> {
     size: S,
 }
 
+/// What the way back needs of a plain hinge: each acceleration waits for the one before, and for little else.
+#[derive(Clone, Copy, Debug)]
+struct FreeHinge<S> {
+    /// 1 / turn; 0 of a particle, which nothing turns.
+    inverse: S,
+    /// The couple that would keep the body from turning faster, where its parent has no acceleration,
+    couple: S,
+    /// and for each unit of the parent's angular acceleration.
+    lever: S,
+}
+
 type Square<S> = [[S; 3]; 3];
+
+/// The same of any other joint, of so many columns S: U = A S and (SᵀAS)⁻¹.
+#[derive(Clone, Copy, Debug)]
+struct GeneralJoint<S> {
+    u: Square<S>,
+    inverse: Square<S>,
+    freedom: usize,
+}
 
 /// Memory of the sweep.
 #[derive(Clone, Debug)]
 pub struct ArticulatedBody<S = f64> {
     full: Vec<ArticulatedInertia<S>>,
-    /// 1 / turn of plain hinges: on the way back each acceleration waits for the one before, and not for a division.
-    inverse_inertia: Vec<S>,
-    /// U = A S and (SᵀAS)⁻¹ of joints that are no plain hinges.
-    general: Vec<(Square<S>, Square<S>)>,
+    /// Of each body that of its joint.
+    hinges: Vec<FreeHinge<S>>,
+    general: Vec<GeneralJoint<S>>,
 }
 
 impl<S: Scalar> ArticulatedInertia<S> {
@@ -62,25 +81,49 @@ impl<S: Scalar> ArticulatedInertia<S> {
     fn bias(&self) -> Wrench<S> {
         Wrench { f: self.p, m: self.pm }
     }
-    /// Adds what a child resists at its joint origin, which lies at `arm`.
+    /// The force needed for an acceleration of the joint origin.
     #[inline(always)]
-    fn add_child(&mut self, c: &ArticulatedInertia<S>, arm: Vec2<S>) {
+    fn push(&self, v: Vec2<S>) -> Vec2<S> {
+        vec2(self.xx * v.x + self.xy * v.y, self.xy * v.x + self.yy * v.y)
+    }
+    /// With what is left of a child that turns freely about its joint origin, which lies at `arm` and has this acceleration beside its
+    /// parent: what the child resists, less what its turning gives way. Little is left to be done once `inverse` is known.
+    #[inline(always)]
+    fn with_freed(self, c: &ArticulatedInertia<S>, hinge: &FreeHinge<S>, arm: Vec2<S>, bias: Vec2<S>) -> Self {
+        let (r, h, FreeHinge { inverse, couple, lever }) = (arm.perp(), c.h, *hinge);
+        let (mr, p) = (c.push(r), c.p + c.push(bias));
+        ArticulatedInertia {
+            xx: self.xx + c.xx - h.x * h.x * inverse,
+            xy: self.xy + c.xy - h.x * h.y * inverse,
+            yy: self.yy + c.yy - h.y * h.y * inverse,
+            h: self.h + mr - h * (lever * inverse),
+            turn: self.turn + r.dot(mr) - lever * lever * inverse,
+            p: self.p + p - h * (couple * inverse),
+            pm: self.pm + arm.cross(p) - lever * couple * inverse,
+            size: self.size + (c.xx + c.yy) * r.dot(r),
+        }
+    }
+    /// With what a child resists at its joint origin, which lies at `arm`.
+    #[inline(always)]
+    fn with_child(self, c: &ArticulatedInertia<S>, arm: Vec2<S>) -> Self {
         let r = arm.perp();
-        let mr = vec2(c.xx * r.x + c.xy * r.y, c.xy * r.x + c.yy * r.y);
-        self.xx += c.xx;
-        self.xy += c.xy;
-        self.yy += c.yy;
-        self.h += mr + c.h;
-        self.turn += r.dot(mr) + r.dot(c.h).scale(2.0) + c.turn;
-        self.p += c.p;
-        self.pm += arm.cross(c.p) + c.pm;
-        self.size += c.size + (c.xx + c.yy) * r.dot(r);
+        let mr = c.push(r);
+        ArticulatedInertia {
+            xx: self.xx + c.xx,
+            xy: self.xy + c.xy,
+            yy: self.yy + c.yy,
+            h: self.h + (mr + c.h),
+            turn: self.turn + (r.dot(mr) + r.dot(c.h).scale(2.0) + c.turn),
+            p: self.p + c.p,
+            pm: self.pm + (arm.cross(c.p) + c.pm),
+            size: self.size + (c.size + (c.xx + c.yy) * r.dot(r)),
+        }
     }
 }
 
 impl<S: Scalar> ArticulatedBody<S> {
     pub fn new() -> Self {
-        ArticulatedBody { full: vec![], inverse_inertia: vec![], general: vec![] }
+        ArticulatedBody { full: vec![], hinges: vec![], general: vec![] }
     }
 
     /// Joint accelerations `nu_dot`, accelerations of the joint origins and, by `passed`, the load that each body's joint puts
@@ -96,68 +139,95 @@ impl<S: Scalar> ArticulatedBody<S> {
         loads: &[Wrench<S>],
         nu_dot: &mut [S],
         bodies: &mut [Twist<S>],
-        mut passed: impl FnMut(usize, Wrench<S>),
+        passed: impl FnMut(usize, Wrench<S>),
     ) -> Result<(), DynamicsError> {
         self.start_bodies(at, arms, loads);
-        for i in (1..at.m.bodies.len()).rev() {
-            let tree_joint = at.m.bodies[i].tree_joint.expect("every body hangs in the tree");
-            if tree_joint.hinge {
-                self.free_hinge(at, i)?;
-            } else {
-                self.free_joint(at, i, tree_joint.freedom)?;
+        self.free_joints(at)?;
+        self.accelerate(at, nu_dot, bodies, passed);
+        Ok(())
+    }
+
+    /// Towards ground: frees one joint after the other, and gives what is left of its body to the parent.
+    #[inline(always)]
+    fn free_joints(&mut self, at: StateView<'_, S>) -> Result<(), DynamicsError> {
+        let n = at.m.bodies.len();
+        let (tree, full, hinges, general) =
+            (&at.m.bodies[..n], &mut self.full[..n], &mut self.hinges[..n], &mut self.general[..n]);
+        let (arms, biases, subspaces) = (&at.k.arm[..n], &at.k.bias_acceleration[..n], &at.k.motion_subspace[..n]);
+        // The body that comes next, in a chain the parent: what it is given stays at hand.
+        let mut next = full[n - 1];
+        for i in (1..n).rev() {
+            let TreeJoint { parent, hinge, freedom, .. } = tree[i].tree_joint.expect("every body hangs in the tree");
+            let (body, arm, bias, columns) = (next, arms[i], biases[i].v, &subspaces[i]);
+            let (particle, singular) = (tree[i].particle, || DynamicsError::singular_inertia(at.m, i));
+            (full[i], next) = (body, full[i - 1]);
+            match hinge {
+                true => hinges[i] = FreeHinge::of(&body, particle, arm, bias).ok_or_else(singular)?,
+                false => general[i] = GeneralJoint::of(&full[i], columns, freedom).ok_or_else(singular)?,
             }
             // Ground resists whatever hangs on it.
-            if tree_joint.parent > 0 {
-                let rest = match tree_joint.hinge {
-                    true => self.beyond_hinge(at, i),
-                    false => self.beyond_joint(at, i, tree_joint.freedom),
-                };
-                self.full[tree_joint.parent].add_child(&rest, at.k.arm[i]);
+            if parent == 0 {
+                continue;
+            }
+            let to = if parent == i - 1 { next } else { full[parent] };
+            let given = match hinge {
+                true => to.with_freed(&body, &hinges[i], arm, bias),
+                false => to.with_child(&general[i].beyond(&full[i], columns, particle, biases[i]), arm),
+            };
+            match parent == i - 1 {
+                true => next = given,
+                false => full[parent] = given,
             }
         }
+        Ok(())
+    }
+
+    /// Back from ground: each joint's acceleration, and the load that it passes.
+    #[inline(always)]
+    fn accelerate(
+        &self,
+        at: StateView<'_, S>,
+        nu_dot: &mut [S],
+        bodies: &mut [Twist<S>],
+        mut passed: impl FnMut(usize, Wrench<S>),
+    ) {
+        let n = at.m.bodies.len();
+        let (tree, full, hinges, bodies) = (&at.m.bodies[..n], &self.full[..n], &self.hinges[..n], &mut bodies[..n]);
+        let (arms, biases) = (&at.k.arm[..n], &at.k.bias_acceleration[..n]);
         bodies[0] = Twist::zero();
-        for i in 1..at.m.bodies.len() {
-            let body = &at.m.bodies[i];
-            let tree_joint = body.tree_joint.expect("every body hangs in the tree");
-            let (base, bias) = (bodies[tree_joint.parent], at.k.bias_acceleration[i]);
-            let mut a =
-                Twist { v: base.at(at.k.arm[i]) + bias.v, w: if body.particle { S::zero() } else { base.w + bias.w } };
-            if tree_joint.hinge && !body.particle {
-                let full = &self.full[i];
-                let alpha = -(full.pm + full.h.dot(a.v)) * self.inverse_inertia[i];
+        let mut last = bodies[0];
+        for i in 1..n {
+            let (body, tree_joint) = (&full[i], tree[i].tree_joint.expect("every body hangs in the tree"));
+            let base = if tree_joint.parent == i - 1 { last } else { bodies[tree_joint.parent] };
+            let (bias, particle) = (biases[i], tree[i].particle);
+            let mut a = Twist { v: base.at(arms[i]) + bias.v, w: if particle { S::zero() } else { base.w + bias.w } };
+            if tree_joint.hinge && !particle {
+                let alpha = hinges[i].acceleration(body, base);
                 let sense = if tree_joint.reversed { -1.0 } else { 1.0 };
                 nu_dot[tree_joint.start] = (alpha - a.w).scale(sense);
                 a.w = alpha;
             } else if tree_joint.freedom > 0 {
-                let rest = (self.full[i].apply(a) + self.full[i].bias()).parts();
-                let (_, inverse) = &self.general[i];
-                let columns = &at.k.motion_subspace[i];
-                let applied: [S; 3] = std::array::from_fn(|k| dot(columns[k].parts(), rest));
-                for k in 0..tree_joint.freedom {
-                    let share = |j: usize| inverse[k][j] * applied[j];
-                    let rate = -(1..tree_joint.freedom).fold(share(0), |sum, j| sum + share(j));
-                    nu_dot[tree_joint.start + k] = rate;
-                    a = a + columns[k] * rate;
-                }
+                let rates = &mut nu_dot[tree_joint.start..][..tree_joint.freedom];
+                a = self.general[i].accelerate(body, &at.k.motion_subspace[i], a, rates);
             }
-            bodies[i] = a;
-            passed(i, self.full[i].apply(a) + self.full[i].bias());
+            (bodies[i], last) = (a, a);
+            passed(i, body.apply(a) + body.bias());
         }
-        Ok(())
     }
 
     /// Every body alone.
     #[inline(always)]
     fn start_bodies(&mut self, at: StateView<'_, S>, arms: &[Vec2<S>], loads: &[Wrench<S>]) {
         let n = at.m.bodies.len();
-        self.inverse_inertia.resize(n, S::zero());
-        self.general.resize(n, ([[S::zero(); 3]; 3], [[S::zero(); 3]; 3]));
+        self.hinges.resize(n, FreeHinge { inverse: S::zero(), couple: S::zero(), lever: S::zero() });
+        self.general.resize(n, GeneralJoint { u: [[S::zero(); 3]; 3], inverse: [[S::zero(); 3]; 3], freedom: 0 });
         self.full.resize(n, ArticulatedInertia::none());
+        let (arms, loads, twists, full) = (&arms[..n], &loads[..n], &at.k.twist[..n], &mut self.full[..n]);
         for i in 1..n {
-            let (arm, w) = (arms[i], at.k.twist[i].w);
+            let (arm, w) = (arms[i], twists[i].w);
             let Inertia { mass, moment, turn } = Inertia::of(at, i, arm);
             let swing = arm * (-mass * w * w);
-            self.full[i] = ArticulatedInertia {
+            full[i] = ArticulatedInertia {
                 xx: mass,
                 xy: S::zero(),
                 yy: mass,
@@ -169,43 +239,30 @@ impl<S: Scalar> ArticulatedBody<S> {
             };
         }
     }
+}
 
-    /// Prepares a hinge to be eliminated: a body that nothing resists cannot be.
+impl<S: Scalar> FreeHinge<S> {
+    /// That of a body whose joint origin lies at `arm` and has this acceleration beside its parent; None where nothing resists.
     #[inline(always)]
-    fn free_hinge(&mut self, at: StateView<'_, S>, i: usize) -> Result<(), DynamicsError> {
-        let c = &self.full[i];
-        if at.m.bodies[i].particle {
-            return Ok(());
+    fn of(body: &ArticulatedInertia<S>, particle: bool, arm: Vec2<S>, bias: Vec2<S>) -> Option<Self> {
+        if !particle && is_nothing(body.turn, body.size) {
+            return None;
         }
-        if is_nothing(c.turn, c.size) {
-            return Err(DynamicsError::singular_inertia(at.m, i));
-        }
-        self.inverse_inertia[i] = S::one() / c.turn;
-        Ok(())
+        let inverse = if particle { S::zero() } else { S::one() / body.turn };
+        Some(FreeHinge { inverse, couple: body.pm + body.h.dot(bias), lever: arm.cross(body.h) })
     }
 
-    /// What is left of body `i` when it may turn about its joint origin.
+    /// The angular acceleration of the body, for the acceleration of its parent.
     #[inline(always)]
-    fn beyond_hinge(&self, at: StateView<'_, S>, i: usize) -> ArticulatedInertia<S> {
-        let c = &self.full[i];
-        let only_force = ArticulatedInertia { xx: c.xx, xy: c.xy, yy: c.yy, p: c.p, ..ArticulatedInertia::none() };
-        if at.m.bodies[i].particle {
-            return shift_bias(only_force, at, i);
-        }
-        let (h, inverse) = (c.h, self.inverse_inertia[i]);
-        let rest = ArticulatedInertia {
-            xx: c.xx - h.x * h.x * inverse,
-            xy: c.xy - h.x * h.y * inverse,
-            yy: c.yy - h.y * h.y * inverse,
-            p: c.p - h * (c.pm * inverse),
-            ..only_force
-        };
-        shift_bias(rest, at, i)
+    fn acceleration(&self, body: &ArticulatedInertia<S>, parent: Twist<S>) -> S {
+        -(self.couple + body.h.dot(parent.v) + self.lever * parent.w) * self.inverse
     }
+}
 
-    /// Prepares a joint that moves along its columns to be eliminated.
-    fn free_joint(&mut self, at: StateView<'_, S>, i: usize, freedom: usize) -> Result<(), DynamicsError> {
-        let (c, columns, zero) = (&self.full[i], &at.k.motion_subspace[i], S::zero());
+impl<S: Scalar> GeneralJoint<S> {
+    /// That of a body; None where nothing resists.
+    fn of(c: &ArticulatedInertia<S>, columns: &[Twist<S>; 3], freedom: usize) -> Option<Self> {
+        let zero = S::zero();
         let u: Square<S> = std::array::from_fn(|k| if k < freedom { c.apply(columns[k]).parts() } else { [zero; 3] });
         let mut d = [[zero; 3]; 3];
         for (k, row) in d.iter_mut().enumerate().take(freedom) {
@@ -213,16 +270,20 @@ impl<S: Scalar> ArticulatedBody<S> {
                 *entry = dot(columns[k].parts(), u[j]);
             }
         }
-        let scale = (c.xx + c.yy, c.size);
-        let inverse = invert(d, freedom, columns, scale).ok_or_else(|| DynamicsError::singular_inertia(at.m, i))?;
-        self.general[i] = (u, inverse);
-        Ok(())
+        let inverse = invert(d, freedom, columns, (c.xx + c.yy, c.size))?;
+        Some(GeneralJoint { u, inverse, freedom })
     }
 
-    /// What is left of body `i` when its joint may move along its columns.
-    fn beyond_joint(&self, at: StateView<'_, S>, i: usize, freedom: usize) -> ArticulatedInertia<S> {
-        let (c, columns, (u, inverse)) = (&self.full[i], &at.k.motion_subspace[i], &self.general[i]);
-        let start = (c.apply(at.k.bias_acceleration[i]) + c.bias()).parts();
+    /// What is left of the body, whose joint origin has an acceleration beside its parent, when the joint may move along its columns.
+    fn beyond(
+        &self,
+        c: &ArticulatedInertia<S>,
+        columns: &[Twist<S>; 3],
+        particle: bool,
+        bias: Twist<S>,
+    ) -> ArticulatedInertia<S> {
+        let GeneralJoint { u, inverse, freedom } = *self;
+        let start = (c.apply(bias) + c.bias()).parts();
         let applied: [S; 3] = std::array::from_fn(|k| dot(columns[k].parts(), start));
         let mut full = [[c.xx, c.xy, c.h.x], [c.xy, c.yy, c.h.y], [c.h.x, c.h.y, c.turn]];
         let mut bias = start;
@@ -237,7 +298,7 @@ impl<S: Scalar> ArticulatedBody<S> {
                 }
             }
         }
-        let keep = if at.m.bodies[i].particle { 0.0 } else { 1.0 };
+        let keep = if particle { 0.0 } else { 1.0 };
         ArticulatedInertia {
             xx: full[0][0],
             xy: full[0][1],
@@ -249,14 +310,24 @@ impl<S: Scalar> ArticulatedBody<S> {
             size: c.turn,
         }
     }
-}
 
-/// The bias of a freed hinge, that of its joint origin included.
-#[inline(always)]
-fn shift_bias<S: Scalar>(rest: ArticulatedInertia<S>, at: StateView<'_, S>, i: usize) -> ArticulatedInertia<S> {
-    let bias = at.k.bias_acceleration[i].v;
-    let moved = vec2(rest.xx * bias.x + rest.xy * bias.y, rest.xy * bias.x + rest.yy * bias.y);
-    ArticulatedInertia { p: rest.p + moved, ..rest }
+    /// The acceleration of the body where that with the joint at rest is `a`; writes the joint's own.
+    fn accelerate(
+        &self,
+        body: &ArticulatedInertia<S>,
+        columns: &[Twist<S>; 3],
+        mut a: Twist<S>,
+        rates: &mut [S],
+    ) -> Twist<S> {
+        let rest = (body.apply(a) + body.bias()).parts();
+        let applied: [S; 3] = std::array::from_fn(|k| dot(columns[k].parts(), rest));
+        for (k, rate) in rates.iter_mut().enumerate() {
+            let share = |j: usize| self.inverse[k][j] * applied[j];
+            *rate = -(1..self.freedom).fold(share(0), |sum, j| sum + share(j));
+            a = a + columns[k] * *rate;
+        }
+        a
+    }
 }
 
 #[inline(always)]

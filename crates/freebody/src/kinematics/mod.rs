@@ -16,11 +16,11 @@ pub use measure::{gradient, jet, Config, Observed, State};
 pub use travel::{Travel, TravelView};
 pub use view::{relative, MotionView, Poses, SeededView, StateView, ValuesView};
 
-use crate::bound_values::BoundValues;
+use crate::bound_values::{BoundValues, HingeNumbers};
 use crate::joints::Relative;
 use crate::mechanism::{Body, Joint, Mechanism, TreeJoint};
 use crate::plane::{vec2, Pose, Turn, Twist, Vec2};
-use crate::scalar::{Dual, Jet, Scalar};
+use crate::scalar::{Dual, Jet, Scalar, WIDE};
 
 /// Poses, twists and velocity-product accelerations of all bodies at one state.
 #[derive(Clone, Debug, Default)]
@@ -57,44 +57,75 @@ impl<S: Scalar> Kinematics<S> {
     /// Goes through the tree from ground to the leaves, at coordinates `q` and rates `u`.
     #[inline(always)]
     pub fn forward_kinematics(&mut self, m: &Mechanism, n: &BoundValues<S>, q: &[S], u: &[S]) {
-        for body in 1..m.bodies.len() {
-            let Some(tree_joint) = m.bodies[body].tree_joint else { continue };
-            if tree_joint.hinge {
-                self.place_child_by_hinge(n, body, m.bodies[body].particle, tree_joint, q, u);
-            } else {
-                self.place_child(m, n, body, tree_joint, q, u);
+        let mut body = 1;
+        while body < m.bodies.len() {
+            let hinges = m.bodies[body..].iter().map_while(|body| body.tree_joint.filter(|b| b.hinge));
+            if hinges.take(WIDE).count() == WIDE {
+                self.place_on_hinges(m, n, body, [q, u]);
+                body += WIDE;
+                continue;
             }
+            match m.bodies[body].tree_joint {
+                Some(b) if b.hinge => {
+                    let hinge = &n.hinges[body];
+                    let angle = self.turn_on_hinge(body, m.bodies[body].particle, b, hinge, [q, u]);
+                    self.shift_on_hinge(body, b.parent, hinge.arm, Turn::by(angle));
+                }
+                Some(b) => self.place_child(m, n, body, b, q, u),
+                None => {}
+            }
+            body += 1;
         }
     }
 
-    /// A body on a plain hinge between body axes: the general case, written short.
+    /// Bodies in a row on plain hinges, from one on, each as alone: their sines and cosines are found side by side.
     #[inline(always)]
-    fn place_child_by_hinge(
+    fn place_on_hinges(&mut self, m: &Mechanism, n: &BoundValues<S>, first: usize, state: [&[S]; 2]) {
+        let (bodies, hinges) = (&m.bodies[first..][..WIDE], &n.hinges[first..][..WIDE]);
+        let on_hinge = |body: &Body| body.tree_joint.expect("it is on a hinge");
+        let mut angles = [S::zero(); WIDE];
+        for (k, (body, hinge)) in bodies.iter().zip(hinges).enumerate() {
+            angles[k] = self.turn_on_hinge(first + k, body.particle, on_hinge(body), hinge, state);
+        }
+        let [sin, cos] = S::sin_cos_each(&angles);
+        for (k, (body, hinge)) in bodies.iter().zip(hinges).enumerate() {
+            let turn = Turn { cos: cos[k], sin: sin[k], angle: angles[k] };
+            self.shift_on_hinge(first + k, on_hinge(body).parent, hinge.arm, turn);
+        }
+    }
+
+    /// The angle of a body on a plain hinge between body axes: the general case, written short.
+    #[inline(always)]
+    fn turn_on_hinge(
         &mut self,
-        n: &BoundValues<S>,
         body: usize,
         particle: bool,
         b: TreeJoint,
-        q: &[S],
-        u: &[S],
-    ) {
-        let hinge = &n.hinges[body];
-        let (base, parent_twist) = (self.pose[b.parent], self.twist[b.parent]);
-        let arm = base.turn.apply(hinge.arm);
-        self.arm[body] = arm;
-        let mut pose = Pose { at: base.at + arm, turn: Turn::none() };
-        let mut twist = Twist { v: parent_twist.at(arm), w: S::zero() };
-        if !particle {
-            let base_angle = base.turn.angle + hinge.near;
-            let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], base_angle, parent_twist.w);
-            let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
-            pose.turn = Turn::by(base_angle + angle - hinge.far);
-            twist.w = parent_twist.w + rate;
-            self.nu[b.start] = if b.reversed { -rate } else { rate };
+        hinge: &HingeNumbers<S>,
+        [q, u]: [&[S]; 2],
+    ) -> S {
+        if particle {
+            return S::zero();
         }
-        self.pose[body] = pose;
-        self.twist[body] = twist;
-        self.bias_acceleration[body] = Twist { v: -(arm * (parent_twist.w * parent_twist.w)), w: S::zero() };
+        let (near, base_rate) = (self.pose[b.parent].turn.angle + hinge.near, self.twist[b.parent].w);
+        let (angle, rate) = hinge.reading.to_joint(q[b.start], u[b.start], near, base_rate);
+        let (angle, rate) = if b.reversed { (-angle, -rate) } else { (angle, rate) };
+        let angle = near + angle - hinge.far;
+        self.nu[b.start] = if b.reversed { -rate } else { rate };
+        self.twist[body].w = base_rate + rate;
+        self.pose[body].turn.angle = angle;
+        angle
+    }
+
+    /// The place of that body, which is turned like this and hangs on its parent at `arm`, in the parent's axes.
+    #[inline(always)]
+    fn shift_on_hinge(&mut self, body: usize, parent: usize, arm: Vec2<S>, turn: Turn<S>) {
+        let (base, carried) = (self.pose[parent], self.twist[parent]);
+        let arm = base.turn.apply(arm);
+        self.arm[body] = arm;
+        self.pose[body] = Pose { at: base.at + arm, turn };
+        self.twist[body].v = carried.at(arm);
+        self.bias_acceleration[body].v = -(arm * (carried.w * carried.w));
     }
 
     /// A body on any joint, from the joint's pose.

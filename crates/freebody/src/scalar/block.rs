@@ -1,6 +1,7 @@
 //! Values side by side: one number of several mechanisms at once.
 
 use super::real;
+use multiversion::multiversion;
 
 /// So many values, each computed as an `f64` would be, to the same bits; they begin where a register's do, whatever its width.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +10,9 @@ pub struct Block<const B: usize>(pub [f64; B]);
 
 /// How many values stay in registers while they are computed: four of AVX-512, which compute while others wait.
 pub const PART: usize = 32;
+
+/// How many values fill the widest registers.
+pub const WIDE: usize = 8;
 
 /// Loops, and no closures that the compiler might leave as calls: those would not use the wide registers of their caller.
 impl<const B: usize> Block<B> {
@@ -69,6 +73,12 @@ pub fn sin_cos<const N: usize>(of: &[f64; N]) -> [[f64; N]; 2] {
     [sin, cos]
 }
 
+/// The same in the widest registers that the machine has.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx512cd+avx2", "x86_64+avx2"))]
+pub fn wide_sin_cos(of: &[f64; WIDE]) -> [[f64; WIDE]; 2] {
+    sin_cos(of)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{real, Block};
@@ -80,10 +90,12 @@ mod tests {
         let blocks = (0..500).map(|k| Block(std::array::from_fn(|i| f64::from(k * 64 + i as i32 - 16000) * 0.0171)));
         for x in blocks.chain([odd]) {
             let [s, c] = super::sin_cos(&x.0);
-            for i in 0..64 {
+            let wide = x.0.as_chunks().0.iter().map(super::wide_sin_cos).flat_map(|[s, c]| s.into_iter().zip(c));
+            for (i, wide) in wide.enumerate() {
                 let (sin, cos) = real::sin_cos(x.0[i]);
                 let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan();
                 assert!(same(s[i], sin) && same(c[i], cos), "{}", x.0[i]);
+                assert!(same(wide.0, sin) && same(wide.1, cos), "{}", x.0[i]);
             }
         }
     }

@@ -18,7 +18,7 @@ mod jet;
 pub mod real;
 
 pub use ball::Ball;
-pub use block::Block;
+pub use block::{Block, WIDE};
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use jet::Jet;
@@ -43,6 +43,11 @@ pub trait Scalar:
     fn of(value: f64) -> Self;
     /// Sine and cosine of an angle in radians, computed together.
     fn sin_cos(self) -> (Self, Self);
+    /// The same of several angles, each to the same bits as alone.
+    fn sin_cos_each(of: &[Self; WIDE]) -> [[Self; WIDE]; 2] {
+        let each = of.map(Self::sin_cos);
+        [each.map(|(sin, _)| sin), each.map(|(_, cos)| cos)]
+    }
     /// Square root; its derivative at 0 is infinite.
     fn sqrt(self) -> Self;
     /// Natural exponential.
@@ -89,6 +94,10 @@ impl Scalar for f64 {
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         real::sin_cos(self)
+    }
+    #[inline(always)]
+    fn sin_cos_each(of: &[Self; WIDE]) -> [[Self; WIDE]; 2] {
+        block::wide_sin_cos(of)
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
