@@ -79,6 +79,7 @@ NOT_FOUND = {
     ("sounding_rocket", "growing acceleration"): "is of the rate of an acceleration",
     ("square_wheel", "coasting to a corner"): "begins at another place than the model",
     ("thrown_baton", "no spin up"): "is of the model's own motion by its figure alone",
+    ("trampoline", "take-off at rim level"): "says of what it is in another sentence",
     ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",
     ("two_shoe_brake", "turns"): "gives a letter among its conditions",
 }
@@ -89,6 +90,9 @@ CALLED_WRONG = {
     ("drum_with_free_core", "thick oil"): "comes to its limit only some time after the start",
     ("loudspeaker_on_foam", "damping by the coil"): "lets a state follow at once, which stiffens the model",
     ("snakeboard", "turning circle"): "is of going forward: a curvature has a sign",
+    ("tailgate_on_chain", "at rest in the chain"): "is of where the motion ends",
+    ("tailgate_on_chain", "impulse of the chain"): "is of an impulse, written as an integral of a force over time",
+    ("trampoline", "energy after the landing"): "starts at rest with the model's own numbers alone",
 }
 """What is right of it and called wrong: faults that are known, with the reason."""
 

@@ -64,7 +64,14 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             return judge(checker, {**declared, **given}, *said)
     label, colon, said = claim.partition(":")
     for words in (part.strip(_BESIDE_WORDS) for part in label.split(",") if colon):  # rolling, power: …
-        if IN_WORDS.fullmatch(words) and (found := phase(checker, words)) and found.changes and not found.is_moment:
+        is_part = words in checker.symbols(declared).bodies  # a roll, and not what rolls
+        if (
+            IN_WORDS.fullmatch(words)
+            and not is_part
+            and (found := phase(checker, words))
+            and found.changes
+            and not found.is_moment
+        ):
             return in_phase(checker, {**declared, **given}, found, words, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):

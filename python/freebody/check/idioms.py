@@ -4,6 +4,7 @@ second slopes."""
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from .language.glyphs import CONDITION
 
@@ -22,7 +23,7 @@ _NAME = rf"({_LETTER})"
 _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
-_PUT: tuple[tuple[str, str], ...] = (
+_PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # let go at rest from y₀, θ = 0: …
     (
         r"\b(?:let\s+go|released|dropped|set\s+free)\s+(?:at|from)\s+rest\s+(?:from|at|in|where)\s+(?:\$?\\?[^\W\d]\w*\$?,\s*)?(?=[^:]*=[^:]*:(?!=))",
@@ -134,13 +135,26 @@ _PUT: tuple[tuple[str, str], ...] = (
         rf"\A\s*(?!(?:{CONDITION})\b)(?:the\s+)?[A-Za-z]+\s+((?:just|right|immediately)\s+(?:before|after)\s+[^:,=]+)(?=[,:](?!=))",
         r"\1",
     ),
+    # at the highest point after the first jerk: …
+    (r"\A\s*(at\s+(?:the|its)\s+[a-z]+\s+(?:point|position|place))\s+(after\s+[^:,=]+?)\s*(?=[,:](?!=))", r"\2, \1"),
+    (r"\A\s*(?:as\s+a\s+)?[Ss]pecial\s+case,?\s+(?=[^:]*=[^:]*:(?!=))", "if "),
+    # no outer force → …
+    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n→]*→\s*(?=[^:;\n]*=)", ""),
+    # Solving both equations, …
+    (r"\A\s*(?:Solving|Using|Eliminating|Substituting|Combining|Inserting)\b[^=:;\n]*?,\s+(?=[^:;\n]*=)", ""),
+    # B and C go apart; after the impact …
+    (r"\A(?=[A-Z][^=<>:;\n]*\b[a-z]{3,}\s+[a-z]{3,}\b)[^=<>:;\n\\]*;\s*(?=[^;\n]*=)", ""),
+    # skidding: the friction eats energy, T' = …
+    (r":\s+(?:the\s+)?[a-z]+(?:\s+[a-z]{2,}){1,6},\s+(?=\S+\s*=)", ": "),
+    (r",?\s+(?:the whole time|all the time|throughout)\s*\Z", ""),
+    (r"\}\s*\\[;,:!]\s*(?=\d)", r"} \\cdot "),  # \frac{m}{M}\;2k
     # v_B has no part along PB, so …
     (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?=[^:\n]*=)", ""),
     # right after the impact \dot\theta = …
     (
-        r"\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on|when|once|while)\s+(?:[A-Za-z-]+\s+){0,6}[a-z-]{3,})\s+"
-        r"(?=\$?\s*(?:\\(?!text|and\b|or\b)|[α-ωΑ-Ω]|[A-Za-z](?![a-z]))[^:\n]*=[^:\n]*\Z)",
-        r"\1: ",
+        r"(?i:\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on|when|once|while))\s+)((?:[A-Za-z-]+\s+){0,6}[a-z-]{3,})\s+"
+        r"(?=\$?\s*(?:\\(?!text|and\b|or\b)|[α-ωΑ-Ω½⅓¼⅔\d(]|[A-Za-z](?![a-z]))[^:\n]*=[^:\n]*\Z)",
+        lambda found: f"{found[1].lower()} {found[2]}: ",
     ),
     # N = 0 where cos θ = 2/3: a function alone gets no name
     (r"\bwhere\s+(?=\$?\s*\\?(?:sin|cos|tan)(?![a-z])[^=:;\n]*=[^=:;\n]*\Z)", "when "),

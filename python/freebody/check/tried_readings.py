@@ -8,7 +8,9 @@ from copy import copy
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from freebody.symbolic.dimensions import NUMBER_ONLY
+import numpy as np
+
+from freebody.symbolic.dimensions import ANGLE, NUMBER_ONLY, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Add, Cross, Dot, Sym, walk
 
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from .api import Checker, Declared
 
 _TENSION = re.compile(r"`T` is .*\(N\)\Z|is a force .*`T` is")
+_RATE = ANGLE.times(TIME, -1)
 
 
 def stated(checker: Checker, text: str, letters: Declared | None) -> Verdict:
@@ -73,19 +76,20 @@ def _readings(checker: Checker, text: str, letters: Declared) -> Iterator[tuple[
     program = known.read(text)
     if sized := _sized(program, known):
         yield sized, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in sized)
-    if rooted := _rooted(program, known):
+    if rooted := _rooted(checker.case(text, letters), known):
         yield rooted, False, tuple(f"Here {name} is read as: the size of that, without a sign." for name in rooted)
     turned = {name: said for name, said in known.senses.items() if name in known.assumed}
     if turned and any(n.name in turned for n in symbols_in(program)):
         yield turned, False, tuple(f"Here {name} is read clockwise: {said}." for name, said in turned.items())
 
 
-def _rooted(program: Program, known: Symbols) -> dict[str, str]:
-    """The sizes of letters that are said to be a root: v = √(2 g h)."""
-    pairs = [pair for line in program.equations for pair in ((line.left, line.right), (line.right, line.left))]
+def _rooted(case: Case, known: Symbols) -> dict[str, str]:
+    """The sizes of letters that are said to be a root: v = √(2 g h); but no turn that goes on backwards."""
+    pairs = [pair for line in case.program.equations for pair in ((line.left, line.right), (line.right, line.left))]
     found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and is_root(other)]
     meanings = {name: known.meanings[name] for name in found if name in known.meanings}
-    return {name: f"abs({m.texts[0]})" for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")}
+    sized = {name: m for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")}
+    return {name: f"abs({m.texts[0]})" for name, m in sized.items() if m.dimension != _RATE or np.any(case.values()[name] > 0)}
 
 
 def _sized(program: Program, known: Symbols) -> dict[str, str]:
