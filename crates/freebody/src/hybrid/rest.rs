@@ -12,7 +12,7 @@ use crate::mode::{ContactMode, ContactState, Mode};
 const SHORTEST_FLIGHT: f64 = 1e-5;
 /// The same of flights and slides in a pile, of more contacts than this, where each sets off others and none is of
 /// consequence.
-const SHORTEST_IN_PILE: f64 = 1e-3;
+const SHORTEST_IN_PILE: f64 = 2e-2;
 const PILE: usize = 8;
 /// Change of a rate over the speeds that end beyond which they are not what it would end.
 const UNRELATED: f64 = 1e4;
