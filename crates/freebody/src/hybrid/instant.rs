@@ -5,14 +5,27 @@ use crate::dynamics::DynamicsError;
 use crate::mechanism::Mechanism;
 use crate::mode::{ContactMode, Mode};
 
+/// Part of the speed at which something came to rest below which it may do so again: what jams beside it sets it off ever more slowly.
+const SLOWER: f64 = 0.5;
+
 /// What takes part in the contacts of one instant.
 pub(super) struct Instant {
     /// What collided.
     pub impacting: Vec<usize>,
-    /// What came to rest, for good in this instant, and how it is held.
-    pub ended: Vec<(usize, ContactMode)>,
+    /// What came to rest in this instant.
+    pub ended: Vec<Ended>,
     /// The bodies that are concerned.
     bodies: Vec<bool>,
+}
+
+/// What came to rest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ended {
+    pub constraint: usize,
+    /// How it is held.
+    pub held: ContactMode,
+    /// How fast it was, m/s.
+    pub speed: f64,
 }
 
 impl Instant {
@@ -50,7 +63,12 @@ impl Instant {
     }
 
     pub fn has_ended(&self, constraint: usize) -> bool {
-        self.ended.iter().any(|&(l, _)| l == constraint)
+        self.ended.iter().any(|ended| ended.constraint == constraint)
+    }
+
+    /// Whether a unilateral constraint at a speed may come to rest: once, and again as long as it is ever slower.
+    pub fn may_end(&self, constraint: usize, speed: f64) -> bool {
+        self.ended.iter().all(|ended| ended.constraint != constraint || speed <= SLOWER * ended.speed)
     }
 
     fn is_part(&self, bodies: &[usize]) -> bool {

@@ -1,7 +1,7 @@
 //! The end of bounces without end, and in a pile of whatever is over within a moment.
 
 use super::guards::REST_SPEED;
-use super::instant::Instant;
+use super::instant::{Ended, Instant};
 use super::mode_changes::ModeChange;
 use super::HybridSystem;
 use crate::dynamics::{ClosedContacts, DynamicsError};
@@ -12,7 +12,7 @@ use crate::mode::{ContactMode, ContactState, Mode};
 const SHORTEST_FLIGHT: f64 = 1e-5;
 /// The same of flights and slides in a pile, of more contacts than this, where each sets off others and none is of
 /// consequence.
-const SHORTEST_IN_PILE: f64 = 1e-3;
+const SHORTEST_IN_PILE: f64 = 2e-2;
 const PILE: usize = 8;
 /// Change of a rate over the speeds that end beyond which they are not what it would end.
 const UNRELATED: f64 = 1e4;
@@ -60,7 +60,7 @@ impl HybridSystem<'_> {
             self.bounce_interval = next.lasts.is_finite().then_some((of, next.lasts));
         }
         over.extend(if is_pile { self.slides(mode, contacts) } else { vec![] });
-        over.retain(|each| each.lasts <= brief && !instant.has_ended(each.constraint));
+        over.retain(|each| each.lasts <= brief && instant.may_end(each.constraint, each.speed));
         if over.is_empty() {
             return Ok(None);
         }
@@ -71,9 +71,13 @@ impl HybridSystem<'_> {
         let part = same.map_or(0.0, |(_, before)| (lasts / before).min(SUMMABLE));
         let rates = || parting.iter().map(|&i| (contacts.constraints[i], contacts.rates[i]));
         let fastest = rates().map(|(_, rate)| rate).fold(0.0, f64::max);
-        instant.ended.retain(|(l, _)| contacts.constraints.contains(l));
-        instant.ended.extend(over.iter().map(|each| (each.constraint, self.held(each, fastest))));
-        let at_rest = |mode: Mode, &(l, held): &(usize, ContactMode)| mode.with_contacts(&[l], held);
+        instant
+            .ended
+            .retain(|ended| contacts.constraints.contains(&ended.constraint) && !of.contains(&ended.constraint));
+        let held =
+            |each: &Passing| Ended { constraint: each.constraint, held: self.held(each, fastest), speed: each.speed };
+        instant.ended.extend(over.iter().map(held));
+        let at_rest = |mode: Mode, ended: &Ended| mode.with_contacts(&[ended.constraint], ended.held);
         let (mode, earlier) = (instant.ended.iter().fold(mode.clone(), at_rest), y.to_vec());
         let ends = over.iter().filter(|each| each.slides).map(|each| each.speed);
         let most = rates().map(|(l, rate)| rate * self.workspace.lever(l)).chain(ends).fold(0.0, f64::max);

@@ -24,14 +24,13 @@ const OPPOSED: f64 = 1e-8;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// What pivoting makes of a block.
+#[derive(PartialEq)]
 pub(super) enum Proposal {
     /// The modes of a complementary basis.
     Modes(Vec<Mode>),
     /// Normal forces in balance with themselves whose work on the free acceleration is negative: no
     /// motion opens or closes all contacts.
     Impossible,
-    /// Nothing.
-    None,
 }
 
 /// A variable of the complementarity problem, of a contact.
@@ -45,16 +44,16 @@ enum Variable {
     Speed(usize),
 }
 
-/// Follows one of Lemke's paths, with `apart` added to the free normal accelerations.
-pub(super) fn propose(block: &LcpBlock, apart: f64, path: usize) -> Proposal {
+/// Follows one of Lemke's paths, with `apart` added to the free normal accelerations; None where it ends without a proposal.
+pub(super) fn propose(block: &LcpBlock, apart: f64, path: usize) -> Option<Proposal> {
     let variables = variables(block);
     let (m, mut q) = assemble(block, &variables);
     let normals = q.iter_mut().zip(&variables).filter(|(_, v)| matches!(v, Variable::Normal(_)));
     normals.for_each(|(q, _)| *q += apart);
     match lemke(&m, &q, &cover(path, q.len())) {
-        End::Solution { basic, slack } => Proposal::Modes(modes(block, &variables, &basic, &slack)),
-        End::Ray(z) if self_stressed(block, &variables, &z) => Proposal::Impossible,
-        End::Ray(_) | End::Lost => Proposal::None,
+        End::Solution { basic, slack } => Some(Proposal::Modes(modes(block, &variables, &basic, &slack))),
+        End::Ray(z) if self_stressed(block, &variables, &z) => Some(Proposal::Impossible),
+        End::Ray(_) | End::Lost => None,
     }
 }
 

@@ -93,8 +93,9 @@ fn most_at_rest(block: &LcpBlock) -> Outcome {
 fn bounded(block: &LcpBlock) -> Outcome {
     let unique = block.friction.iter().all(|h| *h == BlockFriction::Law(FrictionLaw::Frictionless));
     let few = block.len() <= ALWAYS && !unique;
+    let mut proposals = Proposals::new(block);
     for tolerance in block.tolerances.iter().filter(|_| !few) {
-        match pivot(block, *tolerance) {
+        match proposals.first(*tolerance) {
             Outcome::Unknown => {}
             decided => return decided,
         }
@@ -103,7 +104,7 @@ fn bounded(block: &LcpBlock) -> Outcome {
         return Outcome::Unknown;
     }
     for &tolerance in block.tolerances {
-        let pivoted = match pivot(block, tolerance) {
+        let pivoted = match proposals.first(tolerance) {
             Outcome::Found(found) => found,
             Outcome::Nothing => return Outcome::Nothing,
             Outcome::Unknown => Vec::new(),
@@ -116,22 +117,44 @@ fn bounded(block: &LcpBlock) -> Outcome {
     Outcome::Nothing
 }
 
-/// What pivoting finds, and relaxation where it finds nothing; not all modes are tried.
-pub(super) fn pivot(block: &LcpBlock, tolerance: f64) -> Outcome {
-    for (path, apart) in (0..PATHS).flat_map(|path| APART.map(|apart| (path, apart))) {
-        match propose(block, apart, path) {
-            Proposal::Modes(modes) => {
-                if let Some(found) = vertex(block, &modes, tolerance) {
-                    return Outcome::Found(vec![found]);
-                }
-            }
-            Proposal::Impossible => return Outcome::Nothing,
-            Proposal::None => {}
-        }
+/// What is proposed for a block, in the order in which it is tried: by pivoting, then by relaxation. Each proposal is made once, when it is
+/// first asked for, and judged to one tolerance after the other.
+pub(super) struct Proposals<'a> {
+    block: &'a LcpBlock,
+    known: Vec<Proposal>,
+    coming: Box<dyn Iterator<Item = Proposal> + 'a>,
+}
+
+impl<'a> Proposals<'a> {
+    pub fn new(block: &'a LcpBlock) -> Self {
+        let paths = (0..PATHS).flat_map(|path| APART.map(|apart| (path, apart)));
+        let pivoted = paths.filter_map(|(path, apart)| propose(block, apart, path));
+        Proposals { block, known: vec![], coming: Box::new(pivoted.chain(relaxed(block).map(Proposal::Modes))) }
     }
-    relaxed(block)
-        .find_map(|modes| vertex(block, &modes, tolerance))
-        .map_or(Outcome::Unknown, |found| Outcome::Found(vec![found]))
+
+    /// The first that holds to a tolerance; not all modes are tried.
+    pub fn first(&mut self, tolerance: f64) -> Outcome {
+        let (block, mut i) = (self.block, 0);
+        while let Some(proposal) = self.get(i) {
+            let Proposal::Modes(modes) = proposal else { return Outcome::Nothing };
+            if let Some(found) = vertex(block, modes, tolerance) {
+                return Outcome::Found(vec![found]);
+            }
+            i += 1;
+        }
+        Outcome::Unknown
+    }
+
+    /// Proposal `i` of those that differ.
+    fn get(&mut self, i: usize) -> Option<&Proposal> {
+        while i >= self.known.len() {
+            let next = self.coming.next()?;
+            if !self.known.contains(&next) {
+                self.known.push(next);
+            }
+        }
+        Some(&self.known[i])
+    }
 }
 
 /// What all modes add to the findings.

@@ -33,7 +33,6 @@ impl EventDetector {
             return Ok(nodes);
         }
         let coefficients = chebyshev(values);
-        let swing = swing(&coefficients);
         let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);
         let (mut past, mut dip) = (None, 0.0_f64);
         for x in extrema(&polynomial, 1.0 + PAST) {
@@ -57,9 +56,7 @@ impl EventDetector {
         nodes.iter_mut().filter(|node| (dip..0.0).contains(&node.value)).for_each(|node| node.value = 0.0);
         let (t0, later) = (probe.segment.t0, probe.ahead());
         nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
-        let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
-        let nearest = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.value.abs()));
-        if !(tail <= CONVERGED * swing || tail <= FAR_FROM_ZERO * nearest) {
+        if !is_trusted(&coefficients, nodes.iter().map(|node| node.value)) {
             nodes = self.between(i, &nodes, values, probe)?;
             if !memory.is_guard {
                 nodes = turns(i, &nodes, probe)?;
@@ -106,11 +103,19 @@ impl EventDetector {
     }
 }
 
-/// Whether the polynomial through samples cannot reach zero.
+/// Whether the polynomial through samples cannot reach zero, and is trusted.
 pub(super) fn is_clear_of_zero(values: &[f64; SAMPLES]) -> bool {
     let is_constant = || values.iter().all(|value| *value == values[0]);
-    let is_far = |of: [f64; SAMPLES]| of[0].abs() > CLEAR_OF_ZERO * swing(&of);
+    let is_far =
+        |of: [f64; SAMPLES]| of[0].abs() > CLEAR_OF_ZERO * swing(&of) && is_trusted(&of, values.iter().copied());
     is_constant() || is_far(chebyshev(values))
+}
+
+/// Whether a function of which these are values follows its polynomial.
+fn is_trusted(coefficients: &[f64; SAMPLES], values: impl Iterator<Item = f64>) -> bool {
+    let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
+    let nearest = values.fold(f64::INFINITY, |least, value| least.min(value.abs()));
+    tail <= CONVERGED * swing(coefficients) || tail <= FAR_FROM_ZERO * nearest
 }
 
 /// How far a polynomial is from its mean at most.

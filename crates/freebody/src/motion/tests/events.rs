@@ -71,6 +71,21 @@ fn no_double_crossing_of_a_cubic_is_missed() {
     }
 }
 
+/// What passes by is near for a part of a step only: where its distance, a V, reaches zero between two looks, that is found.
+#[test]
+fn no_dip_of_what_passes_by_is_missed() {
+    let mut seed = 2;
+    for _ in 0..1_000 {
+        let (a, depth) = (0.3 + 0.4 * random(&mut seed), 10.0_f64.powf(-1.5 - 1.5 * random(&mut seed)));
+        let mut system = clock().watching(&[0], |_, y, g| g[0] = (4.5 * (y[0] - a).abs()).min(1.0) - depth);
+        let options = Options { first_step: Some(1.0), ..rtol(1e-14) };
+        let found = times(&system.run("dop853", (0.0, &[0.0]), 1.0, &options));
+        let truth = [a - depth / 4.5, a + depth / 4.5];
+        let is_found = found.len() == 2 && found.iter().zip(truth).all(|(t, truth)| (t - truth).abs() < 1e-12);
+        assert!(is_found, "{a} {depth} {found:?}");
+    }
+}
+
 /// sin grazes 1: once, whatever the tolerance makes of its height, and wherever steps end.
 #[test]
 fn a_graze_is_one_touch_at_every_tolerance() {

@@ -1,7 +1,7 @@
 //! Random problems: pivoting against enumeration, and what theory promises.
 
 use super::super::lcp_block::Found;
-use super::super::mode_search::{enumerate, pivot, Outcome};
+use super::super::mode_search::{enumerate, Outcome, Proposals};
 use super::*;
 
 fn task(c: &Case) -> LcpBlock {
@@ -19,7 +19,7 @@ fn pivoting_agrees_with_enumeration() {
         let c = case(&mut r, k, any_grip);
         let block = task(&c);
         let all = enumerate(&block, Vec::new(), 1e-12);
-        match pivot(&block, 1e-12) {
+        match Proposals::new(&block).first(1e-12) {
             Outcome::Found(found) => {
                 let same = |f: &Found| agree(&f.acceleration, &found[0].acceleration, 1e-9);
                 assert!(all.iter().any(same), "case {n}: {:?}\n{found:?}\n{all:?}", c.problem());
@@ -55,7 +55,7 @@ fn touches_at_rest_always_have_a_motion() {
             }
         });
         if c.consistent {
-            assert!(matches!(pivot(&task(&c), 1e-12), Outcome::Found(_)), "case {n}: {:?}", c.problem());
+            assert!(matches!(Proposals::new(&task(&c)).first(1e-12), Outcome::Found(_)), "case {n}: {:?}", c.problem());
             assert!(matches!(verified(&c.problem(), 1e-9), Verdict::Solved(_) | Verdict::Indeterminate(_)));
         }
     }
