@@ -26,6 +26,12 @@ PUT = {
     "right after the impact \\dot x = v": "right after the impact: \\dot x = v",
     "bolt in flight, ΣF_r: F = m a": "while bolt is in flight, ΣF_r: F = m a",
     "cord still whole, left leg: F = m g": "before the cord is cut, left leg: F = m g",
+    "at the highest point after the jerk: x = y": "after the jerk, at the highest point: x = y",
+    "Special case m_1 = m_2: a = b": "if m_1 = m_2: a = b",
+    "Solving both equations, after the blow: v = u": "after the blow: v = u",
+    "skidding: the friction eats energy, T' = P": "skidding: T' = P",
+    "While they move together $N = k x$": "while they move together: $N = k x$",
+    "natural frequencies for $c = 0$: m ω² = k": "if $c = 0$: natural frequencies: m ω² = k",
     "d²u/dθ² + u = p": "((u'' θ' − u' θ'')/(θ')^3) + u = p",
 }
 AS_WRITTEN = ("(N_1 - N_2) b = mu N h", "(M + m) a = F", "d²x/dt² = −g", "at the top (θ' = 0): N = m g", "sin θ = 0")
