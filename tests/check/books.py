@@ -66,11 +66,16 @@ NOT_FOUND = {
     ("despin_cords", "length that stops the spin"): "comes only on motions through other assemblies of its loops",
     ("door_closer", "when it stops opening"): "calls the only coordinate by what the door does",
     ("dragster", "about to lift the nose"): "gives a force that is 0, and limits in brackets",
+    ("driveline_shuffle", "shaft torque when the surge is over"): "is of when a vibration has died out while something moves on",
     ("escalator", "speed over time"): "gives a letter behind the equation, and one with an index of ∞",
     ("grip_car", "heat when it holds"): "takes longer to arrange than there is time",
     ("inerter", "undamped steady state"): "takes about as long as there is time",
     ("locomotive_cylinder", "one stroke"): "begins at another angle of what rolls in a loop than the model",
     ("loudspeaker_on_foam", "frequencies with the coil open"): "is of a model with a state of its own",
+    (
+        "macpherson_strut",
+        "speed of the hub from the instant centre",
+    ): "calls a length by two points of which one is none of the model",
     ("mass_with_play", "whole period"): "is the period of a motion that is no small vibration",
     ("record_tone_arm", "steady amplitude"): "is of the steady state of small motions",
     ("snap_through", "small swings about the relaxed place"): "is of a place of rest that other numbers do not have",
@@ -78,6 +83,7 @@ NOT_FOUND = {
     ("sounding_rocket", "coasting"): "is of so late a time that few random motions have come to it",
     ("sounding_rocket", "growing acceleration"): "is of the rate of an acceleration",
     ("square_wheel", "coasting to a corner"): "begins at another place than the model",
+    ("tug_of_war", "mass centre of both"): "asks for the acceleration of a mass centre by its coordinate",
     ("thrown_baton", "no spin up"): "is of the model's own motion by its figure alone",
     ("trampoline", "take-off at rim level"): "says of what it is in another sentence",
     ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",
@@ -86,12 +92,17 @@ NOT_FOUND = {
 """What is right of the half for mending and not found to be, with the reason."""
 CALLED_WRONG = {
     ("ball_in_lift", "relative acceleration"): "calls by B and C what are bodies there, and points of the model",
+    ("chairlift_stops", "energy after the stop"): "is of a stretch that only a law of time tells from others",
+    ("chairlift_stops", "swing while braked"): "is of a stretch that only a law of time tells from others",
+    ("chairlift_stops", "first integral while braked"): "is of a stretch that only a law of time tells from others",
     ("chemists_balance", "small swings"): "is of an equilibrium at which unequal weights do not rest",
     ("drum_with_free_core", "thick oil"): "comes to its limit only some time after the start",
     ("loudspeaker_on_foam", "damping by the coil"): "lets a state follow at once, which stiffens the model",
     ("snakeboard", "turning circle"): "is of going forward: a curvature has a sign",
+    ("sluice_gate", "impulse on the sill"): "is of an impulse, written as an integral of a force over time",
     ("tailgate_on_chain", "at rest in the chain"): "is of where the motion ends",
     ("tailgate_on_chain", "impulse of the chain"): "is of an impulse, written as an integral of a force over time",
+    ("torsion_pendulum_catches_ring", "turning point after the catch"): "comes back where a coordinate is not greatest",
     ("trampoline", "energy after the landing"): "starts at rest with the model's own numbers alone",
 }
 """What is right of it and called wrong: faults that are known, with the reason."""

@@ -24,6 +24,8 @@ _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
 _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\$([A-Za-z])\$(?=\s+[a-z]{3,})", r"\1"),  # at the moment $B$ begins to slip
+    (r"(?<==)([^=→\n:]*[^=→\n:\s])\s+→\s+(?=[^=→:\n]+=)", r"\1 ⇒ "),  # v = r ω → v² = r² ω²
     # let go at rest from y₀, θ = 0: …
     (
         r"\b(?:let\s+go|released|dropped|set\s+free)\s+(?:at|from)\s+rest\s+(?:from|at|in|where)\s+(?:\$?\\?[^\W\d]\w*\$?,\s*)?(?=[^:]*=[^:]*:(?!=))",
@@ -148,8 +150,16 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r":\s+(?:the\s+)?[a-z]+(?:\s+[a-z]{2,}){1,6},\s+(?=\S+\s*=)", ": "),
     (r",?\s+(?:the whole time|all the time|throughout)\s*\Z", ""),
     (r"\}\s*\\[;,:!]\s*(?=\d)", r"} \\cdot "),  # \frac{m}{M}\;2k
+    # hand off, gate coming down: …
+    (
+        r"\A([^:=]*,\s*)?(?:the\s+)?([a-z]+)\s+(?:sliding|coming|going|moving|falling|sinking|climbing|rising)\s+(?:back\s+)?"
+        r"(up|down|to\s+the\s+left|to\s+the\s+right)(?:wards?|hill)?\s*(?=[,:](?!=))",
+        r"\1while \2 moves \3",
+    ),
+    # first turning point after the catch: …
+    (r"\A\s*(?:at\s+)?(?:the\s+)?(?:first\s+)?turning\s+point\s+(after\s+[^:,=]+?)\s*(?=[,:](?!=))", r"\1, at the turning point"),
     # v_B has no part along PB, so …
-    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?=[^:\n]*=)", ""),
+    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?:along\s+the\s+[a-z]+\s+)?(?=[^:\n]*=)", ""),
     # right after the impact \dot\theta = …
     (
         r"(?i:\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on|when|once|while))\s+)((?:[A-Za-z-]+\s+){0,6}[a-z-]{3,})\s+"

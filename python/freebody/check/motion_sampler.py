@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -59,6 +59,7 @@ _STAGES = tuple(0.3 * 2.0**k for k in range(10))  # of the same time, one after 
 _FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _PARTS = 4  # stretches of a motion that goes on through what switches
+_ROUND_OFF = 1e-12  # of what an expression typically changes by
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 
 
@@ -159,9 +160,15 @@ class MotionSampler(FollowedModel):
         lost = [text for text in asked if found and not self.vanishes(self.of_now(text, start), found)]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
-        if lost or not found or any(value <= 0 for value in self._read(family.above, found, start)):
+        if lost or not found or not self._is_above(family, found, start):
             return None
         return found, start
+
+    def _is_above(self, family: Family, found: State, start: State | None) -> bool:
+        """Whether what is above 0 in a family is so by more than round-off."""
+        texts = [self.of_now(text, start) for text in family.above]
+        values = self.core.evaluate(texts, found).tolist() if texts else []
+        return all(value > _ROUND_OFF * self.size_of(text, found) for text, value in zip(texts, values, strict=True))
 
     def _tied(self, values: dict[str, float], family: Family) -> dict[str, float]:
         """Parameters with other values of those that are not held, so that what vanishes does so. Raises ``NoMotion``."""
@@ -174,10 +181,6 @@ class MotionSampler(FollowedModel):
             raise NoMotion(f"`{stated(family.vanishing[0])}` cannot be arranged by parameters in the steady state")
         numbers = dict(zip((p["name"] for p in self.metadata["parameters"]), found.p.tolist(), strict=True))
         return {name: numbers.get(name, value) for name, value in values.items()}
-
-    def _read(self, texts: Sequence[str], state: State, start: State | None) -> list[float]:
-        """Expressions in a state, with what is asked of the start of its motion."""
-        return self.core.evaluate([self.of_now(text, start) for text in texts], state).tolist()
 
     def _parameters(self, rng: np.random.Generator, family: Family, reach: float = 1.0) -> dict[str, float]:
         """Random numbers, within ``reach`` of the farthest from the model's."""

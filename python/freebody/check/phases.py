@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
 _OVER = r"\s+(?:has\s+|is\s+|have\s+)?(?:stop|cease|end|over)\w*"
 _KINDS = {
-    "stick": rf"(?:end|stop)\s+of\s+(?:the\s+)?(?:slip|slid|skid)\w*|{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
+    "stick": rf"(?:end|stop)\s+of\s+(?:the\s+)?(?:slip|slid|skid)\w*|{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|neither\s+(?:\w+\s+)?(?:slip|slid|skid)\w*|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
     r"|(?:moves?|goes|turns?)\s+with|(?:is|are)\s+carried",
     "slip": rf"{_STOPS}(?:roll|stick|rid)\w*|(?:roll|stick|rid)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?"
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
@@ -57,6 +57,7 @@ NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
 _ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4}
 _NUMBERED = re.compile(rf"\b({'|'.join(_ORDINALS)})\s+([A-Za-z]\w*)")
+_IS_ON = re.compile(r"\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -91,6 +92,8 @@ def kind_of(words: str) -> str | None:
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
     words = with_names(words, checker.sampler.core.instant(checker.sampler.own).limits)
+    if joins := _joining(checker, words):
+        return Phase(False, (joins,), False)
     kind = kind_of(words)
     place = _ON.match(words)
     lasts, on_body = LASTS.match(words) is not None or place is not None, place and place[1] in checker.symbols().bodies
@@ -127,6 +130,14 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return None
     is_moment = not lasts and not _LASTED.search(words) and (kind not in _STATES or _MOMENT.search(words) is not None)
     return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
+
+
+def _joining(checker: Checker, words: str) -> str | None:
+    """The only event that puts a part on another, where words say of a body that it is on: ``with the ring on it``."""
+    events = checker.sampler.spec["events"]
+    joining = [event["name"] for event in events if any("engage" in each for each in event["then"] if isinstance(each, dict))]
+    said = {*checker.symbols().bodies} & {*re.findall(r"\w+", words)} if _IS_ON.search(words) else set()
+    return joining[0] if said and len(joining) == 1 and not events[0]["opening"] else None
 
 
 def _begun(run: Any, state: str) -> list[tuple[float, str, str]]:
