@@ -165,7 +165,7 @@ class Checker:
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
         condition, colon, said = with_condition_first(plainly(text)[0]).rpartition(":")
-        if PERIOD.match(said) and not OMEGA.search(said):
+        if self.vibration.count > 1 and PERIOD.match(said) and not OMEGA.search(said):
             said = PERIOD.sub(r"ω = 2*pi/(\1)", said)
             text = f"{condition}{colon} {said}"
         if "frequencies:" in text or not OMEGA.search(said):
