@@ -57,7 +57,7 @@ NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
 _ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4}
 _NUMBERED = re.compile(rf"\b({'|'.join(_ORDINALS)})\s+([A-Za-z]\w*)")
-_IS_ON = re.compile(r"\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
+_IS_ON = re.compile(r"(?<!\bis )(?<!\bare )\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -136,7 +136,8 @@ def _joining(checker: Checker, words: str) -> str | None:
     """The only event that puts a part on another, where words say of a body that it is on: ``with the ring on it``."""
     events = checker.sampler.spec["events"]
     joining = [event["name"] for event in events if any("engage" in each for each in event["then"] if isinstance(each, dict))]
-    said = {*checker.symbols().bodies} & {*re.findall(r"\w+", words)} if _IS_ON.search(words) else set()
+    is_on = _IS_ON.search(words) and not LASTS.match(words)  # while it is on may be at first
+    said = {*checker.symbols().bodies} & {*re.findall(r"\w+", words)} if is_on else set()
     return joining[0] if said and len(joining) == 1 and not events[0]["opening"] else None
 
 
