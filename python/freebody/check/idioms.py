@@ -159,7 +159,10 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # first turning point after the catch: …
     (r"\A\s*(?:at\s+)?(?:the\s+)?(?:first\s+)?turning\s+point\s+(after\s+[^:,=]+?)\s*(?=[,:](?!=))", r"\1, at the turning point"),
     # v_B has no part along PB, so …
-    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?:along\s+the\s+[a-z]+\s+)?(?=[^:\n]*=)", ""),
+    (
+        r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n]*,\s+(?:so|hence|thus|therefore)\s+(?:that\s+)?(?:along\s+the\s+[a-z]+\s+)?(?=[^:\n]*=)",
+        "",
+    ),
     # right after the impact \dot\theta = …
     (
         r"(?i:\A\s*((?:(?:just|right|immediately)\s+)?(?:after|before|at|on|when|once|while))\s+)((?:[A-Za-z-]+\s+){0,6}[a-z-]{3,})\s+"
