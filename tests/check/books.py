@@ -83,7 +83,6 @@ NOT_FOUND = {
     ("sounding_rocket", "coasting"): "is of so late a time that few random motions have come to it",
     ("sounding_rocket", "growing acceleration"): "is of the rate of an acceleration",
     ("square_wheel", "coasting to a corner"): "begins at another place than the model",
-    ("tug_of_war", "mass centre of both"): "asks for the acceleration of a mass centre by its coordinate",
     ("thrown_baton", "no spin up"): "is of the model's own motion by its figure alone",
     ("trampoline", "take-off at rim level"): "says of what it is in another sentence",
     ("trapeze_catch", "hanging straight"): "takes longer to arrange than there is time",

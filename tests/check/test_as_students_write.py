@@ -215,6 +215,8 @@ SAID = {
         ("x = d cos(sqrt(k/m) t)", T),
     ],
     "two": [
+        ("2 m s'' = O_y − 2 m g where s = centre_y()", T),
+        ("2 m s'' = O_y − m g where s = centre_y()", W),
         ("ω_AB = θ'", T),
         (r"v_C = v_B + b (ω_AB + φ') (-sin(θ + φ) i + cos(θ + φ) j)", T),
         ("α = θ''", None),  # of which rod?

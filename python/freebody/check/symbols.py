@@ -13,6 +13,7 @@ from freebody.model import meanings
 from freebody.model.errors import ModelProblem
 from freebody.model.names import nearest, replace_names, spell
 from freebody.model.writer import Writer
+from freebody.run.records import quote
 from freebody.symbolic.dimensions import ANGLE, LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
@@ -42,6 +43,8 @@ _WITHOUT = {
 }
 """Readings of every limit that say nothing of one kind."""
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
+_NONE = (0, 0.0, "0", "0.0")
+_CENTRE = re.compile(r"\bcentre_([xy])\(\)")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
 _OF_ANGLE = re.compile(r"\b(?:sin|cos)\(s\)")
@@ -314,7 +317,20 @@ class Symbols:
 
     def measure(self, said: str) -> tuple[str, Dimension | None]:
         """An expression in SI with its dimension; symbols declared before, and Greek ones, are written out."""
-        return self.writer.measured(replace_names(said, self._written_out))
+        return self.writer.measured(replace_names(_CENTRE.sub(self._centre, said), self._written_out))
+
+    def _centre(self, found: re.Match[str]) -> str:
+        """The place of the mass centre of all bodies, by those of each: that has an acceleration, too."""
+        bodies = {quote(body["name"]): [piece.get("mass") for piece in body["pieces"]] for body in self.spec["bodies"]}
+        if any(mass is None for masses in bodies.values() for mass in masses):
+            return found[0]
+        heavy = {
+            body: " + ".join(map(_in_kg, some))
+            for body, masses in bodies.items()
+            if (some := [m for m in masses if m not in _NONE])
+        }
+        sums = " + ".join(f"({mass})*{found[1]}({body}.G)" for body, mass in heavy.items())
+        return f"(({sums})/({' + '.join(heavy.values())}))" if heavy else found[0]
 
     def measured(self, said: str) -> tuple[str, Dimension | None]:
         """The same; what is none of the model language, like ``m g/k``, is read as in a statement."""
@@ -365,3 +381,11 @@ def declarations(lines: Iterable[str]) -> dict[str, str]:
             raise ModelProblem(f"`{line}` declares no symbol", "write it like `phi = theta - alpha`")
         out[found[1]] = found[2].strip()
     return out
+
+
+def _in_kg(mass: str | float) -> str:
+    """A mass of a model that is written in SI."""
+    try:
+        return f"{float(mass)!r} kg"
+    except ValueError:
+        return f"({mass})"
