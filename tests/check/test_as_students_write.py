@@ -149,8 +149,19 @@ contacts: {road: {of: [tyre, ground.slope], friction: μ}}
 initial: {x: 0, y: r, φ: 0, rates: {x: 0, y: 0, φ: w}}
 run: {until: 2.2 s}
 """
-MODELS = {"rod": ROD, "block": BLOCK, "two": TWO, "level": LEVEL, "collar": COLLAR, "gears": GEARS, "struck": STRUCK}
-MODELS |= {"car": CAR, "wiper": WIPER, "ladder": LADDER, "tyre": TYRE}
+MODELS = {
+    "rod": ROD,
+    "block": BLOCK,
+    "two": TWO,
+    "level": LEVEL,
+    "collar": COLLAR,
+    "gears": GEARS,
+    "struck": STRUCK,
+    "car": CAR,
+    "wiper": WIPER,
+    "ladder": LADDER,
+    "tyre": TYRE,
+}
 
 SAID = {
     "rod": [

@@ -241,3 +241,10 @@ initial: {phi: 0, at_rest: true}
         assert checker.check(mend.equation).ok, mend.equation
         lost.append(mend.edits[0][2])
     assert lost == ["I*phidot^2/2", "-m*g*x", "k*x^2/2"]
+
+
+def test_what_is_constant_by_parameters_alone_says_so():
+    """T is a couple here, and no kinetic energy."""
+    verdict = checker("bead on a turning rod").check("constant: 2 T")
+    assert verdict.ok and any("parameters alone" in note for note in verdict.notes)
+    assert not checker("double pendulum").check("constant: energy()").notes

@@ -19,6 +19,7 @@ from freebody.model.start import quantity
 from freebody.run.moments import PATIENT, Unreached
 from freebody.symbolic.errors import StatementError
 
+from .asked_model import does
 from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
@@ -310,7 +311,7 @@ class Checker:
     def happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""
         events = {e["name"]: None for e in self.sampler.spec["events"]}
-        kinds = {e["name"]: "released" if _cuts(e) else kind_of(e["name"]) for e in self.sampler.spec["events"]}
+        kinds = {e["name"]: "released" if does(e, "release") else kind_of(e["name"]) for e in self.sampler.spec["events"]}
         said = _ARTICLE.sub("", event)
         if said in events:
             return said
@@ -400,8 +401,3 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
-
-
-def _cuts(event: Mapping[str, Any]) -> bool:
-    """Whether an event cuts or releases a part."""
-    return any({"cut", "release"} & {*action} for action in event["then"] if isinstance(action, Mapping))

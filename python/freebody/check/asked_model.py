@@ -44,6 +44,11 @@ _DEPENDENT = (
 )
 
 
+def does(event: Mapping[str, Any], what: str) -> bool:
+    """Whether an event has an action, ``engage`` or ``release``: welds are engaged, and what is cut is released."""
+    return any(what in action for action in event["then"] if isinstance(action, Mapping))
+
+
 def _with_words(item: Any, change: Callable[[str], str]) -> Any:
     """Data with each text in it changed, but for units."""
     if isinstance(item, Mapping):
@@ -155,7 +160,7 @@ class AskedModel:
     @cached_property
     def _puts_in_place(self) -> bool:
         """Whether events fasten parts where they are: with other parameters these are elsewhere."""
-        return any("engage" in action for event in self.spec["events"] for action in event["then"] if isinstance(action, Mapping))
+        return any(does(event, "engage") for event in self.spec["events"])
 
     def run(self, state: State, until: float, rtol: float = _RTOL) -> Trajectory:
         return self.core.simulate(state, state.t + until, rtol=rtol, max_steps=_STEPS)

@@ -348,7 +348,8 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
             names = [names[i] for i in independent(checker.sampler.free_rates)]
         still = (f"accel({spell(name)})" for name in names)
         rests = part == IN_EQUILIBRIUM
-        return replace(given, at_rest=given.at_rest or rests, near=rests, vanishing=(*given.vanishing, *still))
+        vanishing = (*given.vanishing, *still)
+        return replace(given, at_rest=given.at_rest or rests, near=given.near or rests, vanishing=vanishing)
     if part in WORDS:
         return replace(given, **WORDS[part])
     if lost := {"without damping": checker.sampler.dampings, "without friction": checker.sampler.frictions}.get(part):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import takewhile
@@ -13,12 +13,14 @@ import numpy as np
 from freebody.core import MotionError, State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import sampled
+from freebody.symbolic.evaluate import Array, sampled
+from freebody.symbolic.tree import Node
 
 from .assumptions import FROM_START
 from .case import Case
 from .constants import constant_corrections
 from .families import ALL, SINCE_START, Samples
+from .language.statements import symbols_in
 from .motion_sampler import touching
 from .residual import magnitude
 from .verdict import Evidence, Kind, Verdict
@@ -64,13 +66,25 @@ def constant(checker: Checker, declared: Declared, expression: str) -> Verdict:
     if broken and not runs:
         raise broken
     if worst < _STEADY:
-        return Verdict(Kind.TRUE, expression, f"constant along {_RUNS} random motions, to {worst:.0e}", evidence=seen)
+        reason = f"constant along {_RUNS} random motions, to {worst:.0e}"
+        notes = (
+            ()
+            if _may_change(case, node, runs)
+            else ("It is of parameters alone, or of what is 0: that says nothing of the motion.",)
+        )
+        return Verdict(Kind.TRUE, expression, reason, evidence=seen, notes=notes)
     if case.hypothesis == ALL and case.sampler.starts_to_move:  # a momentum that is 0 keeps mass centres where they are
         from_start = checker.check(f"constant: {expression}", declared, SINCE_START, correcting=False)
         if from_start.ok:
             return replace(from_start, assumption=FROM_START)
     mends = constant_corrections(case, node, runs) if case.correcting else ()
     return Verdict(Kind.WRONG, expression, f"not constant: it changes along a motion{lost}", mends=mends, evidence=seen)
+
+
+def _may_change(case: Case, node: Node, runs: Sequence[Mapping[str, Array]]) -> bool:
+    """Whether something stands in an expression that is no parameter, and not 0 all along."""
+    moving = [n.key for n in symbols_in(node) if n.name not in case.meaning.symbols.constants]
+    return any(np.any(values[key]) for values in runs for key in moving)
 
 
 def reading(checker: Checker, declared: Declared, expression: str) -> Case:

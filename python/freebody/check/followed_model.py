@@ -21,6 +21,7 @@ from .stretches import zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START, OF_TIME
 
 _EXACT = 1e-13  # tolerance of runs whose course matters
+_ROUND_OFF = 1e-12  # of what an expression typically changes by
 _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _LONG = 12.0  # of the time typical of the model: how long a run is followed at least
 _INSIDE = 0.5, 0.3, 0.8  # parts of a stretch
@@ -35,6 +36,11 @@ class FollowedModel(AskedModel):
     def vanishes(self, text: str, state: State) -> bool:
         """Whether an expression is 0 there."""
         return abs(float(Samples(self.core, [state]).values([text])[text][0])) <= NOTHING * self.size_of(text, state)
+
+    def are_above(self, texts: Sequence[str], state: State) -> bool:
+        """Whether expressions are above 0 there, by more than round-off."""
+        values = self.core.evaluate(list(texts), state).tolist() if texts else []
+        return all(value > _ROUND_OFF * self.size_of(text, state) for text, value in zip(texts, values, strict=True))
 
     def size_of(self, text: str, state: State) -> float:
         """What an expression changes by while coordinates, rates and parameters do by what is typical of the model."""
@@ -102,6 +108,6 @@ class FollowedModel(AskedModel):
                 continue
             for t in (*zeros(lambda times: motion.evaluate([text], times)[:, 0], begins, ends, _ZEROS if above else 1), ends):
                 it_has_not_jumped = self.vanishes(text, found := motion.state(t))
-                if it_has_not_jumped and np.all(self.core.evaluate(list(above), found) > 0):
+                if it_has_not_jumped and self.are_above(above, found):
                     return found
         return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -34,14 +35,9 @@ def held(checker: Checker, declared: Declared, what: str, place: str) -> Checker
         return None
     laws = {}
     for name in names:
-        value = place or repr(float(sampler.own.q[sampler.names.index(name)]))
-        laws[name] = value + _unit(checker, name) * (re.fullmatch(r"-?[\d.e-]+", value) is not None)
-
-    def hold(mechanism: Builder) -> None:
-        for name, law in laws.items():
-            _hold(mechanism, name, law)
-
-    return checker.of_model(("held", *laws.items()), hold)
+        is_number = re.fullmatch(r"-?[\d.e-]+", place) is not None
+        laws[name] = place + _unit(checker, name) * is_number if place else _at_start(checker, name)
+    return _with_laws(checker, laws)
 
 
 def without_others(checker: Checker, name: str) -> Checker | None:
@@ -52,9 +48,23 @@ def without_others(checker: Checker, name: str) -> Checker | None:
     parts = np.abs(slopes) * np.concatenate([sampler.sizes, sampler.rate * sampler.sizes])
     if sampler.loops or np.delete(parts, [k, k + n]).max() > _MOVED * parts.max() or _shares_inertia(checker, k):
         return None
-    others = {other: repr(float(q)) for other, q in zip(sampler.names, sampler.own.q, strict=True) if other != name}
-    laws = {other: q + _unit(checker, other) for other, q in others.items()}
-    return checker.of_model(("alone", name), lambda mechanism: [_hold(mechanism, *each) for each in laws.items()])
+    return _with_laws(checker, {other: _at_start(checker, other) for other in sampler.names if other != name})
+
+
+def _with_laws(checker: Checker, laws: Mapping[str, str]) -> Checker:
+    """The same of the model in which coordinates follow laws of time."""
+
+    def hold(mechanism: Builder) -> None:
+        for name, law in laws.items():
+            _hold(mechanism, name, law)
+
+    return checker.of_model(("held", *laws.items()), hold)
+
+
+def _at_start(checker: Checker, coordinate: str) -> str:
+    """Where a coordinate is at the start, as a law."""
+    q = checker.sampler.own.q[checker.sampler.names.index(coordinate)]
+    return repr(float(q)) + _unit(checker, coordinate)
 
 
 def _shares_inertia(checker: Checker, k: int) -> bool:
@@ -67,6 +77,7 @@ def _shares_inertia(checker: Checker, k: int) -> bool:
 
 
 def _unit(checker: Checker, coordinate: str) -> str:
+    """The unit of a coordinate, to stand behind a number."""
     is_angle = {each["name"]: each["dimension"] == "rad" for each in checker.sampler.coordinates}
     return " rad" if is_angle[coordinate] else " m"
 

@@ -59,7 +59,6 @@ _STAGES = tuple(0.3 * 2.0**k for k in range(10))  # of the same time, one after 
 _FURTHER = 2.0  # of the same time: how far what rolls in a loop is taken
 _LATER = 0.05, 0.8  # of the time typical of the model: how long runs from the start last
 _PARTS = 4  # stretches of a motion that goes on through what switches
-_ROUND_OFF = 1e-12  # of what an expression typically changes by
 _BALANCED = 1e-11  # largest relative residual of a state that may judge: below it is round-off, above it a bad condition
 
 
@@ -160,15 +159,9 @@ class MotionSampler(FollowedModel):
         lost = [text for text in asked if found and not self.vanishes(self.of_now(text, start), found)]
         if lost and (family.at_start or family.since):
             raise NoMotion(f"`{stated(lost[0])}` does not hold {'at' if family.at_start else 'from'} the start of this model")
-        if lost or not found or not self._is_above(family, found, start):
+        if lost or not found or not self.are_above([self.of_now(text, start) for text in family.above], found):
             return None
         return found, start
-
-    def _is_above(self, family: Family, found: State, start: State | None) -> bool:
-        """Whether what is above 0 in a family is so by more than round-off."""
-        texts = [self.of_now(text, start) for text in family.above]
-        values = self.core.evaluate(texts, found).tolist() if texts else []
-        return all(value > _ROUND_OFF * self.size_of(text, found) for text, value in zip(texts, values, strict=True))
 
     def _tied(self, values: dict[str, float], family: Family) -> dict[str, float]:
         """Parameters with other values of those that are not held, so that what vanishes does so. Raises ``NoMotion``."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from freebody.core import GROUND
 
+from .asked_model import does
 from .wording import LASTS
 
 if TYPE_CHECKING:
@@ -17,7 +18,8 @@ if TYPE_CHECKING:
 _STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
 _OVER = r"\s+(?:has\s+|is\s+|have\s+)?(?:stop|cease|end|over)\w*"
 _KINDS = {
-    "stick": rf"(?:end|stop)\s+of\s+(?:the\s+)?(?:slip|slid|skid)\w*|{_STOPS}(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}|neither\s+(?:\w+\s+)?(?:slip|slid|skid)\w*|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
+    "stick": rf"(?:(?:end|stop)\s+of\s+(?:the\s+)?|{_STOPS}|neither\s+(?:\w+\s+)?)(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}"
+    r"|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
     r"|(?:moves?|goes|turns?)\s+with|(?:is|are)\s+carried",
     "slip": rf"{_STOPS}(?:roll|stick|rid)\w*|(?:roll|stick|rid)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?"
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
@@ -134,11 +136,11 @@ def phase(checker: Checker, words: str) -> Phase | None:
 
 def _joining(checker: Checker, words: str) -> str | None:
     """The only event that puts a part on another, where words say of a body that it is on: ``with the ring on it``."""
-    events = checker.sampler.spec["events"]
-    joining = [event["name"] for event in events if any("engage" in each for each in event["then"] if isinstance(each, dict))]
+    events = (event for event in checker.sampler.spec["events"] if not event["opening"])
+    joining = [event["name"] for event in events if does(event, "engage")]
     is_on = _IS_ON.search(words) and not LASTS.match(words)  # while it is on may be at first
     said = {*checker.symbols().bodies} & {*re.findall(r"\w+", words)} if is_on else set()
-    return joining[0] if said and len(joining) == 1 and not events[0]["opening"] else None
+    return joining[0] if said and len(joining) == 1 else None
 
 
 def _begun(run: Any, state: str) -> list[tuple[float, str, str]]:

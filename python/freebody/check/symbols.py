@@ -43,7 +43,6 @@ _WITHOUT = {
 }
 """Readings of every limit that say nothing of one kind."""
 _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
-_NONE = (0, 0.0, "0", "0.0")
 _CENTRE = re.compile(r"\bcentre_([xy])\(\)")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
@@ -324,11 +323,7 @@ class Symbols:
         bodies = {quote(body["name"]): [piece.get("mass") for piece in body["pieces"]] for body in self.spec["bodies"]}
         if any(mass is None for masses in bodies.values() for mass in masses):
             return found[0]
-        heavy = {
-            body: " + ".join(map(_in_kg, some))
-            for body, masses in bodies.items()
-            if (some := [m for m in masses if m not in _NONE])
-        }
+        heavy = {body: " + ".join(some) for body, masses in bodies.items() if (some := [*filter(None, map(_in_kg, masses))])}
         sums = " + ".join(f"({mass})*{found[1]}({body}.G)" for body, mass in heavy.items())
         return f"(({sums})/({' + '.join(heavy.values())}))" if heavy else found[0]
 
@@ -384,8 +379,8 @@ def declarations(lines: Iterable[str]) -> dict[str, str]:
 
 
 def _in_kg(mass: str | float) -> str:
-    """A mass of a model that is written in SI."""
+    """A mass of a model that is written in SI; nothing of a body without one."""
     try:
-        return f"{float(mass)!r} kg"
+        return f"{mass} kg" if float(mass) else ""
     except ValueError:
         return f"({mass})"

@@ -138,7 +138,7 @@ def _described(checker: Checker, declared: Declared, given: Family, words: str, 
         verdict = later or on_later_stretch(checker, declared, words, statement) or verdict
     sampler = checker.sampler
     soon = sampler.run(sampler.own, _SOON / sampler.rate).end
-    begins_so = not given.since and np.all(sampler.core.evaluate(list(given.above), soon) > 0)
+    begins_so = not given.since and sampler.are_above(given.above, soon)
     if not verdict.ok and begins_so and checker.at_first().check(statement, declared, correcting=False).ok:
         return None
     return verdict
