@@ -6,7 +6,6 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from .families import Family
 from .user_symbols import AMPLITUDE
 from .usual_names import ENERGIES
 
@@ -53,7 +52,7 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
 def _judged(checker: Checker, declared: Declared, conditions: str, statement: str) -> Verdict:
     """Of the steady state where that is said or something drives the model; of amplitudes the size is judged: a sign says how they follow
     what drives."""
-    steady = _REPEATS in conditions or checker.sampler.has(Family(steady=True))
+    steady = _REPEATS in conditions or checker.sampler.is_driven
     under = ", ".join(filter(None, (_REPEATS if steady else "from the start", conditions.replace(_REPEATS, "").strip(" ,"))))
     verdict = checker.check(f"if {under}: {statement}", declared)
     said, *names = re.split(r"(?=\swhere\s)", statement, maxsplit=1)

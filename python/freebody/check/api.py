@@ -16,7 +16,7 @@ import numpy as np
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
-from freebody.run.moments import PATIENT, Unreached
+from freebody.run.moments import PATIENT, Unreached, time_of
 from freebody.symbolic.errors import StatementError
 
 from .asked_model import does
@@ -83,6 +83,7 @@ class Checker:
         self.no_place: frozenset[str] = frozenset()  # what is not of a balance of the bodies that are named
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
+        self.whole: Budget | None = None
         self._seed, self._asked = seed, asked
         self._runs: dict[float | None, Any] = {}  # the model's own, by when they end, once they are asked for
         self._vibrations: dict[tuple[tuple[str, float], ...], Vibration] = {}  # with parameters that are held
@@ -122,6 +123,10 @@ class Checker:
         Raises ``StatementError``, with the place, where it cannot be read or asks for what the model does not have.
         """
         how = (text, letters, hypothesis, correcting)
+        if self.whole is None:  # else it is a question of a claim that is asked already
+            asked = copy(self)
+            asked.whole = Budget(self.seconds, begins=thread_time())
+            return asked.check(*how)
         if (
             (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0])))
             and not self.vibration.alone
@@ -228,13 +233,15 @@ class Checker:
             raise StatementError("this is no character", broken.span(), "write it again", shown)
         checker = copy(self)
         checker.hypothesis, checker.correcting = hypothesis or self.hypothesis, correcting and self.correcting
-        checker.budget = Budget(self.seconds, begins=thread_time())
+        checker.budget = self.whole.part() if self.whole else Budget(self.seconds, begins=thread_time())
         names = {*self.mechanism.parameters, *self.sampler.names, *self.declared, *(letters or ())}
-        plain, passed = plainly(text, names, {*self.mechanism.parameters})
+        plain, passed = plainly(
+            text, names, {*self.mechanism.parameters}, [body["name"] for body in self.sampler.metadata["bodies"]]
+        )
         if any(name.startswith("Δ") for name in (*self.declared, *(letters or ()))):  # a letter, and no change
             plain = re.sub(r"\\Delta\s*(?=\w)", "Δ", plain)
         try:
-            label, colon, _ = plain.partition(":")
+            label, colon, _ = plain.rpartition(":")
             checker.no_place |= without_place(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else stated(checker, with_condition_first(plain), letters)
@@ -247,7 +254,7 @@ class Checker:
                     verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root"
                 )
             plainly_said = verdict.ok and not found and checker.hypothesis == ALL
-            if plainly_said and verdict.untested and not (self.is_at_first or self.sampler.moment):
+            if plainly_said and not (self.is_at_first or self.sampler.moment):
                 verdict = also_later(self, verdict, text, letters)
             as_said = not found and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment)
             if as_said and verdict.kind is Kind.WRONG and verdict.mends:
@@ -286,7 +293,7 @@ class Checker:
             asked = {word: given for word, given in {**self._asked, **held}.items() if word not in ("at", "before", "after")}
             self._beside[key] = type(self)(self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: name})
         other = copy(self._beside[key])
-        other.correcting = self.correcting
+        other.correcting, other.whole = self.correcting, self.whole
         return other
 
     def of_model(self, key: tuple[Any, ...], change: Callable[[Builder], None]) -> Checker:
@@ -296,7 +303,7 @@ class Checker:
             change(mechanism)
             self._beside[key] = type(self)(mechanism, self.declared, self._seed, self.seconds, **self._asked)
         other = copy(self._beside[key])
-        other.correcting = self.correcting
+        other.correcting, other.whole = self.correcting, self.whole
         return other
 
     def vibration_of(self, family: Family) -> Vibration:
@@ -320,7 +327,9 @@ class Checker:
         said = with_names(said, parts)
         if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
             return said
-        if found := NOT_FIRST.search(said):
+        if (found := NOT_FIRST.search(said)) and (often := self._again(found[0], said)):
+            return often
+        if found:
             raise ModelProblem(
                 f"of what happens several times only the first is judged, not the {found[0]}",
                 "write `at 0.3 s: …`, or say when it is",
@@ -343,6 +352,17 @@ class Checker:
             return next(iter(events))
         what = ", ".join({**events, **parts}) or "nothing does"
         raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
+
+    def _again(self, which: str, words: str) -> str | None:
+        """The name of the second impact, say, of all, or of the part that words name; None where there is none."""
+        kinds = ("impact", "contact") if kind_of(words) == "touch" else ()
+        parts = called(dict.fromkeys(part for change in self.own_motion.changes for part in change.of), re.findall(r"\w+", words))
+        for kind in kinds:
+            name = f"{which} {kind} {parts[0]}" if len(parts) == 1 else f"{which} {kind}"
+            with suppress(Unreached):
+                time_of(self.own_motion, name)
+                return name
+        return None
 
     @property
     def switches(self) -> tuple[str, ...]:

@@ -90,6 +90,8 @@ def _vanished(model: FollowedModel, text: str, state: State, free: Sequence[str]
     kinds = (_Rates, _Place) if by_rates else (_Place,)
     ways = [kind(model, state, (text, *kept), free) for kind in kinds]
     way = next((way for way in ways if way.change(state) is not None), None)
+    if way is None and ways[-1].left(state) <= NOTHING:  # it is so, whatever is free
+        return state
     if way is None:
         why = "it depends on nothing that is free in" if model.free_rates.size else "no freedom is left in"
         raise NoMotion(f"`{stated(text)}` cannot be arranged: {why} this mechanism")

@@ -58,6 +58,12 @@ def _with_words(item: Any, change: Callable[[str], str]) -> Any:
     return [_with_words(each, change) for each in item] if isinstance(item, list | tuple) else item
 
 
+def with_gravity(text: str, pull: float, name: str) -> str:
+    """An expression with the name of gravity for its number, which is no other one unless it has the unit of something else."""
+    number = rf"(?<![\w.]){re.escape(f'{pull:g}')}(?:\s*m/s(?:\^2|\*\*2|²))?"
+    return re.sub(rf"{number}(?![\w.])(?!\s+[A-Za-zµ°])", name, text)
+
+
 class AskedModel:
     """A model at a moment: by default the start, after the events there.
 
@@ -99,9 +105,8 @@ class AskedModel:
         name = next(name for name in ("g", "gravity", "gravity2") if name not in taken)
         self.spec["parameters"] += [{"name": name, "value": -given[1], "unit": "m/s^2"}]
         self.spec["gravity"] = [0.0, f"-{name}"]
-        literal = re.compile(rf"(?<![\w.]){re.escape(f'{-given[1]:g}')}(?![\w.])")  # the same number in laws is no other one
         for kind in ("forces", "motions", "states", "parameters"):
-            self.spec[kind] = [_with_words(item, lambda text: literal.sub(name, text)) for item in self.spec[kind]]
+            self.spec[kind] = [_with_words(item, lambda text: with_gravity(text, -given[1], name)) for item in self.spec[kind]]
         self.start = replace(self.start, parameters=self.start.parameters | {name: Dimension(length=1, time=-2)})
         return name
 
@@ -337,8 +342,12 @@ class AskedModel:
     def free_rates(self) -> Array:
         """Rates over ``sizes`` that can be given at will, (n, f), one a column: those by which loops stay closed, what touches goes on
         touching, and what is locked or driven stays so."""
+        return self.rates_free_in(self._loads)
+
+    def rates_free_in(self, loads: FreeBodies) -> Array:
+        """The same in a state with such loads."""
         free = [motion["name"] for motion in self.spec["motions"] if motion["level"] == "acceleration"]
-        rows = [[row.coefficients[name] for name in self.names] for row in self._loads.rows if row.name not in free]
+        rows = [[row.coefficients[name] for name in self.names] for row in loads.rows if row.name not in free]
         held = np.array(rows).reshape(len(rows), len(self.names)) * self.sizes
         return np.linalg.svd(held)[2][len(independent(held)) :].T
 

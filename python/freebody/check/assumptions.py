@@ -54,6 +54,8 @@ _MORE = (">", "≥", ">=")
 _ABOVE = re.compile(r"([^=<>≤≥]+)(>=?|<=?|[≤≥])([^=<>≤≥]+)")
 _SQUARE = re.compile(r"(\S+?)\s*(?:²|\^\{?2\}?)")
 _OTHER_THAN = re.compile(r"([^=<>≤≥≠]+)(?:≠|\\neq?(?![a-z])|!=)([^=<>≤≥≠]+)")
+_STILL = re.compile(r"(?:\\d?dot\s*\{?\s*\\?\w+\s*\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))\s*=\s*0")
+"""``x'' = 0``, which is so in equilibrium."""
 _NO_FORCE = re.compile(r"\(+([\w ]+)\.N\)+ - \(?0\)?")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
@@ -324,6 +326,8 @@ def family(text: str, checker: Checker, declared: Declared) -> Family:
         known = {*WORDS, SMALL_MOTIONS, IN_EQUILIBRIUM, AT_CONSTANT_SPEED}
         parts = [part for part in parts if part in known or not _WORDS_ALONE.fullmatch(part)]
     each = [one for part in parts for one in _each(part)]
+    if IN_EQUILIBRIUM in each:  # at the place that is said
+        each = [*(one for one in each if one != IN_EQUILIBRIUM and not _STILL.fullmatch(one)), IN_EQUILIBRIUM]
     return reduce(lambda given, part: _also(given, part, checker, declared), each, checker.hypothesis)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 
 T = TypeVar("T")
 _CORRECTIONS = 0.8  # of the budget, so that there is time for assumptions
+_GONE = 0.7  # of the budget, as which counts what is gone at most where a claim asks again
 _SECONDS = (10, 20), (2.0, 10.0)
 """Bodies, and how long a statement about them may take."""
 
@@ -19,16 +20,21 @@ _SECONDS = (10, 20), (2.0, 10.0)
 @dataclass
 class Budget:
     """Seconds that the asking thread computes, from the first question on: those of the threads of linear algebra do not count.
-    ``spent``: something was left out for want of time."""
+    ``spent``: something was left out for want of time; ``whole``: that of the claim of which this is a part."""
 
     seconds: float
     spent: bool = False
     begins: float = math.nan
+    whole: Budget | None = None
 
     @staticmethod
     def seconds_for(bodies: int) -> float:
         """How many a statement about a model of so many bodies may take."""
         return float(np.interp(bodies, *_SECONDS))
+
+    def part(self) -> Budget:
+        """What is left of it for one question of a claim that asks several."""
+        return Budget(self.seconds, begins=max(self.begins, thread_time() - _GONE * self.seconds), whole=self)
 
     @property
     def words(self) -> str:
@@ -37,7 +43,10 @@ class Budget:
 
     def leaves_out_since(self, began: float) -> None:
         """What has been computed since then does not count: it is no search, and is done once for a model."""
-        self.begins += thread_time() - began
+        passed = thread_time() - began
+        self.begins += passed
+        if self.whole:
+            self.whole.begins += passed
 
     def within(self, found: Iterable[T], part: float = _CORRECTIONS) -> Iterator[T]:
         """What there is, as long as there is a ``part`` of the time left: by default so that assumptions can be tried after corrections."""

@@ -55,6 +55,7 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         return found
     if (found := _AT_BLOW.match(claim)) and (
         verdict := across_impact(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
+        or _after_blow(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
     ):
         return verdict
     forms = [form for form in _FORMS if form[1] is not changes or not _named_changes({**checker.declared, **declared}, claim)]
@@ -76,6 +77,17 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")
+    return None
+
+
+def _after_blow(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
+    """Behind ``impact:`` with letters of no moment, what is so just after it, or nearly so; else None."""
+    if checker.only_impact is None or _BESIDE_BLOW.match(words):
+        return None
+    with suppress(ModelProblem, StatementError):
+        after = checker.check(f"just after {checker.only_impact}: {statement}", declared, correcting=checker.correcting)
+        if (after.ok and not after.assumption) or after.mends:
+            return replace(after, notes=(*after.notes, f"`{words}` is read as just after it."))
     return None
 
 
@@ -170,13 +182,15 @@ def _is_of_start(checker: Checker, declared: Declared, statement: str) -> bool:
 
 
 def _letters_of(checker: Checker, declared: Declared, condition: str) -> tuple[dict[str, str], str]:
-    """The letters of the writer's own that a condition gives, ``u = x' cos ψ``, and what it says beside."""
+    """The letters of the writer's own that a condition gives, ``u = x' cos ψ``, ``φ' = Ω``, and what it says beside."""
     found, rest = {}, []
     for part in condition.split(","):
         said = _NAME.fullmatch(part)
-        is_new = said is not None and said[1].isidentifier() and not _has_meaning(checker, declared, said[1])
-        found |= {said[1]: said[2]} if said and is_new else {}
-        rest += [] if is_new else [part]
+        sides = [side.strip() for side in said.groups()] if said else []
+        ways = zip(sides, reversed(sides), strict=True)
+        new = next((way for way in ways if way[0].isidentifier() and not _has_meaning(checker, declared, way[0])), None)
+        found |= dict([new]) if new else {}
+        rest += [] if new else [part]
     return found, ",".join(rest).strip()
 
 
@@ -184,6 +198,8 @@ def _has_meaning(checker: Checker, declared: Declared, name: str) -> bool:
     """Whether a symbol has one in the model, or by what it usually is."""
     try:
         known = checker.symbols(declared)
+        if not isinstance(parse_expression(name, known.names), Sym):  # π is a number
+            return True
         return bool((program := known.read(f"{name} = 0")).equations and known.require(program))
     except StatementError:
         return False
@@ -311,6 +327,7 @@ _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(
 """Of what happens, where only one thing does."""
 _AT_BLOW = re.compile(rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*)\s*(?:,[^=<>:;\n]*)?:")
 """``impact:``, ``at the stroke:``."""
+_BESIDE_BLOW = re.compile(r"(?:\w+\s+)?(?:after|before|between|while|until|once|when|with|without|no|during)\b")
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")
 """What comes to 0 on a motion from the start, as a speed where something stops."""
 _PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, groupby
 
 from freebody.symbolic.dimensions import LENGTH, MASS, NUMBER_ONLY, Dimension
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, substitute, walk
@@ -42,6 +42,11 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         plain = Sym(name)
         if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _UNSIGNED:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
+    loads = [n for n in dict.fromkeys(found) if vocabulary.is_load(n) and n not in vocabulary.parameters]
+    for _, alike in groupby(sorted(loads, key=_stem), _stem):
+        if len(together := [*alike]) > 1:
+            names = " and ".join(f"`{n.name}`" for n in together)
+            yield _convention(equation, {n: Negative(n) for n in together}, f"{names} taken in the other sense")
     moving = [n for n in dict.fromkeys(found) if n.dots and Sym(n.name) in vocabulary.coordinates]
     for a, b in (
         (a, b) for a, b in combinations(moving, 2) if a.dots == b.dots and vocabulary.dimension(a) == vocabulary.dimension(b)
@@ -53,6 +58,11 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     for one, two in pairs:
         swapped = dict(zip(_with_rates(one) + _with_rates(two), _with_rates(two) + _with_rates(one), strict=True))
         yield _convention(equation, swapped, f"`{one}` and `{two}` exchanged")
+
+
+def _stem(symbol: Sym) -> str:
+    """A letter without its index: of F1 and F_B it is F."""
+    return symbol.name.partition("_")[0].rstrip("0123456789")
 
 
 def _convention(equation: Equation, changes: Mapping[Sym, Node], words: str) -> Edit:

@@ -162,11 +162,15 @@ def _of_row(
 
 
 def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], part: float) -> list[Correction]:
-    """The single edits after which an equation holds of the motions from the start of the model, if it may be said of them."""
+    """The single edits after which an equation holds of the motions from the start of the model, if it may be said of them: also through
+    what switches on them, where it holds before that."""
     ((given, words), *_) = families
     if given.since or given.at_rest or given.at_start or given.small or given.scaled:
         return []
     since, case = replace(given, since="start"), replace(case, meaning=case.meaning.of_start(), known={})
+    with suppress(NoMotion, StatementError):
+        if residual(row, case.values(since)).worst < HOLDS:
+            since = replace(since, through=True)
     return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.together), part))
 
 

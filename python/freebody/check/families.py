@@ -31,7 +31,7 @@ class Family:
     expressions of configuration and, linearly, rates that are 0, ``above`` such that are more; ``small`` are expressions of configuration with the size that
     they and their rates have at most. ``since``: motions that begin where the model does, with its rates (``start``) or without
     (``rest``), or at its moment, while what is asked of the start is of the model's own (``before``), and last so many times the time typical of the model if it is to be ``late``; they end where something switches, or go
-    on ``through`` that, and at an event that is named, ``until``. ``steady``: they repeat with what drives them. ``near``: they are no
+    on ``through`` that, and at an event that is named, ``until``. ``steady``: they repeat with what drives them, or what dies away has done so. ``near``: they are no
     farther from the start than what is next to it."""
 
     held: tuple[tuple[str, float | str], ...] = ()

@@ -30,12 +30,17 @@ _SWITCHES = 2  # of these, after which corrections are tried
 
 
 def also_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
-    """The verdict about what holds as the model is at first, where some of it is 0: wrong where it does not hold after something switches."""
-    for name in checker.switches:
+    """The verdict about what holds as the model is at first: wrong where it does not hold after something switches, and some of it is 0 at
+    first; else that is told."""
+    said = ", ".join(f"`{term}`" for term in verdict.untested)
+    for name in checker.switches if verdict.untested else checker.switches[:_SWITCHES]:
         with suppress(ModelProblem, StatementError):
-            later = checker.beside("after", name, {}).check(text, letters)
-            if later.kind is Kind.WRONG and _stays_zero(checker, verdict, text, letters):
-                said = ", ".join(f"`{term}`" for term in verdict.untested)
+            later = checker.beside("after", name, {}).check(text, letters, correcting=bool(verdict.untested))
+            if later.kind is not Kind.WRONG:
+                continue
+            if not verdict.untested:
+                return replace(verdict, notes=(*verdict.notes, f"It holds as the model is at first, not after {name}."))
+            if _stays_zero(checker, verdict, text, letters):
                 return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
     return verdict
 

@@ -47,6 +47,7 @@ _RATIOS = (2.0, 4.0)
 """By which numbers are mistaken for each other: ½ forgotten or twice, an inertia of 1/12 for 1/3."""
 _OF_BODIES = (1 / 12, 1 / 4, 1 / 3, 2 / 5, 2 / 3)
 """Factors of moments of inertia, any of which is taken for another."""
+_MOST_TIMES = 2  # that a term is lacking: one that stands with the wrong sign
 _OF_RODS = (1 / 12, 1 / 6, 1 / 3, 2 / 3)
 _FOURFOLD = 0.2  # for a number that is another four times, and not 1/12 for 1/3
 _ODD = 0.5
@@ -253,6 +254,7 @@ class Likelihood:
         answered = kind == "missing term" and not term.symbols.isdisjoint(self._sides)
         size = _NEW * strange + _ODD * (again + answered) + self._mixture(term)
         size += _NEW_RATE * any(self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self._said)
+        size += _ODD * (kind == "missing term" and abs(powers_of(term)[0]) > _MOST_TIMES)
         size += _TAKEN_OUT * (self._moves_as_one and any(map(self._is_reaction, term.symbols - self._said)))
         return size - PARTNER * self._is_centripetal(term)
 

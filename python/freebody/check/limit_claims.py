@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 _TIME = "(t) - 0"
 """What is small where it is the time since the start."""
 _SOON = (0.05, 0.005)  # of the time typical of the model
+_REACHED = 1e-8  # share of its terms that may be left at a moment, which is found to that
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
 
 
@@ -60,6 +61,9 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         verdict = limit(checker.of_model(("without", *ends), partial(_without, ends)), declared, statement, limits)
         return replace(verdict, notes=(*verdict.notes, f"The motion is followed on past {', '.join(ends)}."))
     case = checker.case(statement, declared, given)
+    if given.scaled and not given.since and any(map(case.meaning.speaks_of_start, case.equations)):
+        given = replace(given, since="start")
+        case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
         return checker.check(statement, declared, replace(given, small=()))
     if given.small:
@@ -81,7 +85,7 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
                 return Verdict(Kind.UNDECIDABLE, statement, what)
             rest = 0.0
         shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier
-        if np.isnan(rest) or (rest > HOLDS and not shrinks):
+        if np.isnan(rest) or (rest > (_REACHED if case.sampler.moment else HOLDS) and not shrinks):
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)

@@ -26,7 +26,7 @@ from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
 from .followed_model import FollowedModel
 from .sides import changes_side
-from .steady import steady_state
+from .steady import period_of, steady_state
 from .stretches import first_zero, stretches
 
 if TYPE_CHECKING:
@@ -42,6 +42,7 @@ _ENOUGH = 8  # samples to judge by
 _LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
 _STILL_SMALL = 10.0  # times as large as it was to be: round-off of what else was arranged
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
+_FULL_SPEED = 1000  # the same where a speed is asked for at which something vanishes
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
@@ -214,7 +215,7 @@ class MotionSampler(FollowedModel):
         state = self.moved(near, place, rates, t=t, p=self.core.bind(values))
         free = self._adjustable(family)
         made = arranged(self, self._conditions(rng, family), state, rates, family, values, free)
-        return self._judging(made) if self._is_small(family, made) else None
+        return self._judging(made, family) if self._is_small(family, made) else None
 
     def _is_small(self, family: Family, state: State) -> bool:
         """Whether what is small is so with its rate: what was arranged later may have moved it. What vanishes besides goes before."""
@@ -258,6 +259,8 @@ class MotionSampler(FollowedModel):
         def given_rates(state: State) -> State:
             return self.core.assemble(start.p, state.t, guess=self._named(state.q), rates=rates)[0]
 
+        if family.near and (found := with_parameters(self, conditions, given_rates(start), values, self._sizeless)):
+            return self._judging(found, family), start
         there = start if places and self.vanishes(places[0], given_rates(start)) else None
         for motion, _ in self.followed(start, _STAGES if places else (rng.uniform(_STAGES[0], _FURTHER),)):
             if places and family.at_rest:
@@ -274,19 +277,29 @@ class MotionSampler(FollowedModel):
         if there is None:
             return None, start
         state = given_rates(there)
-        sizes = [name for name, its in self.start.parameters.items() if its == LENGTH]
-        made = arranged(self, conditions, state, rates, family, values, [name for name in values if name not in sizes])
+        made = arranged(self, conditions, state, rates, family, values, self._sizeless)
         rolled_away = np.abs(made.q - state.q).max() > NOTHING * self.length  # to where what rolls is at another angle
-        return None if rolled_away else self._judging(made), start
+        return None if rolled_away else self._judging(made, family), start
 
-    def _judging(self, state: State) -> State | None:
+    @cached_property
+    def is_driven(self) -> bool:
+        """Whether forces or motions that repeat act on it."""
+        return period_of(self, self.first) is not None
+
+    @cached_property
+    def _sizeless(self) -> list[str]:
+        """The free parameters that are no lengths, with which nothing has to be put together anew."""
+        return [name for name in self.free_parameters if self.start.parameters.get(name) != LENGTH]
+
+    def _judging(self, state: State, family: Family) -> State | None:
         """A state of the start's side and freedom, none of whose limits is closed, if it may judge."""
         solved = self.core.instant(state)
         singular = solved.rank.freedom > self._freedom or solved.residual >= _BALANCED
         if singular or not np.isfinite(solved.accelerations).all() or changes_side(self.core, self._squares, self.first.q, state):
             return None
         apart = all(limit.is_open and limit.gap >= 0 for limit in solved.limits.values())
-        return state if apart and np.all(np.abs(state.u) < _FAST * self.rate * self.sizes) else None
+        fastest = (_FULL_SPEED if family.vanishing else _FAST) * self.rate * self.sizes
+        return state if apart and np.all(np.abs(state.u) < fastest) else None
 
     @cached_property
     def _freedom(self) -> int:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from freebody.core import GROUND
+from freebody.run.moments import ORDINALS
 
 from .asked_model import does
 from .wording import LASTS
@@ -27,13 +28,14 @@ _KINDS = {
     "slack": "slack|loose",
     "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
     r"|blow|impact|collision|shock"
-    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on the (?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged"
+    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on (?:the|its|his|her) (?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
-    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off",
+    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|open(?:s|ed|ing)?|blows\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
+    "rest": r"(?:comes?|came)\s+to\s+(?:rest|a\s+(?:stop|halt|standstill))|(?:has|have)\s+stopped|stands?\s+still",
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
@@ -41,7 +43,7 @@ _CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("imp
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
 _OF_STRINGS = ("taut", "slack", "off")
-_ON = re.compile(r"(?:(?:the\s+)?\w+\s+)?on the (?:\w+ )?(\w+)\Z")
+_ON = re.compile(r"(?:(?:the\s+)?\w+\s+)?on (?:the|its|his|her) (?:\w+ )?(\w+)\Z")
 """``on the floor:``, ``foot on the ground:``."""
 _BEFORE = {"stick": "sliding", "slip": "stuck"}
 """What a joint with friction was in before its first change."""
@@ -57,8 +59,7 @@ _TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|togethe
 _ALL = re.compile(r"\b(?:both|all|they)\b")
 NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
-_ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4}
-_NUMBERED = re.compile(rf"\b({'|'.join(_ORDINALS)})\s+([A-Za-z]\w*)")
+_NUMBERED = re.compile(rf"\b({'|'.join(ORDINALS)})\s+([A-Za-z]\w*)")
 _IS_ON = re.compile(r"(?<!\bis )(?<!\bare )\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
 _STEM = 3  # letters that words of one meaning begin with
 
@@ -77,7 +78,7 @@ def with_names(words: str, names: Iterable[str]) -> str:
     """Words in which parts that are numbered have their names: the second coupling is ``coupling_2``."""
 
     def named(found: re.Match[str]) -> str:
-        number, noun = _ORDINALS[found[1]], re.escape(found[2])
+        number, noun = ORDINALS[found[1]], re.escape(found[2])
         own = [name for name in names if re.fullmatch(rf"{noun}[ _]?{number}", name, re.IGNORECASE)]
         return own[0] if len(own) == 1 else found[0]
 
@@ -103,6 +104,10 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return None
     run = checker.own_motion
     happened = {change.kind for change in run.changes if change.t > run.t[0]}
+    if kind == "rest":  # what slides comes to it by sticking
+        kind = "stick"
+        if kind not in happened:
+            return None
     kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
     begun = _begun(run, _STATES[kind]) if kind in _BEFORE else []

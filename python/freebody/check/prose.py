@@ -11,14 +11,16 @@ from freebody.symbolic.symbols import folded
 from ..model.errors import ModelProblem
 from ..model.names import nearest
 from ..model.units import unit
+from .clauses import arranged
 from .idioms import usual
 from .language.glyphs import CONDITION
 from .language.tokens import CALLS
+from .wording import OF_WHAT
 
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
 _FROM_REST = re.compile(
     rf"(?:\b(?:if|when|after)\s+)?(?:\b(?:it|they|(?:the )?\w+)\s+(?:is|was|are|were)\s+|\b(?:it|they)\s+|\bbeing\s+)?"
-    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\(from rest\)|\bfrom rest(?=\s*\Z)"
+    rf"\b{_MOVES}\s+(?:from|at)\s+rest\b(?!\s*=)|(?:\A|(?<=[,:]\s))(?:if\s+)?from rest\b|\(from rest\)|(?<!release )\bfrom rest(?=\s*(?:[,:]|at\b|\Z))"
     r"|(?:\b(?:after|for|with|on)\s+)?\ba\s+start\s+from\s+rest\b",
     re.IGNORECASE,
 )
@@ -49,8 +51,17 @@ _SENSE = {
 _REMARK = re.compile(
     r"\s*\((?:i\.?\s?e\b|e\.?\s?g\b|that is|because|since|so|as|hence|thus|note|acting|by|from|see)\b[^()=]*\)(?=\s*(?:[,;.]|$))"
 )
+_NOTE = re.compile(
+    r"(?<=\S)\s{2,}\((?![^()=]*\)|start|released|from|with|if|when|while|after|before|for|at\b|in\b)(?=[^()]*\b[a-z]{3,}\s+[a-z]{2,})[^()]*\)\s*\Z"
+)
+"""``… = I α   (AD = x; the friction goes through A)``: a note behind an equation, apart from it."""
+_GOES_ON = r"taut|slack|touch\w*|slid\w*|slip\w*|roll\w*|stick\w*|flight|air|contact|mesh|closed|open|locked|held|rest|steady|equilibrium|small"
+_STRETCH_BEHIND = re.compile(rf"(.*\S)\s{{2,}}\(((?=[^()]*\b(?:{_GOES_ON})\b)[a-z][^()=<>:]*)\)\s*", re.S)
+"""``… = m s''   (belt taut, sliding forward)``."""
+_STANDS_FOR = re.compile(r"(?<=\S)\s{2,}\((\\?[^\W\d]\w*\s*=\s*[^()=:;]{1,30})\)\s*\Z")
+"""``J α = M   (α = θ'')``."""
 _IN_LATEX = re.compile(
-    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([A-Za-z]+(?:[\s,'-]+[A-Za-z]+)*\s*[,.:]?\s*)\}(?!\s*[_^'])"
+    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([,;]?\s*[A-Za-z]+(?:[\s,'-]+[A-Za-z]+)*\s*[,.:]?\s*)\}(?!\s*[_^'])"
 )
 _OF_WHOM = re.compile(r"(?:\s*,|[\s~$\\,;(]*(?:\\Sigma|\\sum|[Σ∑]))[^=:\n]*:(?!=)|\s*:(?!=)")
 """What stands behind the name of a part in a label, ``\\text{vane}, \\Sigma F_r:``."""
@@ -151,9 +162,12 @@ _COMMENT = re.compile(
 """Words behind an equation, after a comma or in brackets."""
 
 
-def plainly(text: str, known: Collection[str] = (), fixed: Collection[str] = ()) -> tuple[str, tuple[str, ...]]:
+def plainly(
+    text: str, known: Collection[str] = (), fixed: Collection[str] = (), bodies: Collection[str] = ()
+) -> tuple[str, tuple[str, ...]]:
     """A statement without words that say nothing of it, and with the conditions among them in the words of claims; names that are
-    ``known`` are no words, and those that are ``fixed`` have no place at the start. And what is to be said of what was passed over."""
+    ``known`` are no words, those that are ``fixed`` have no place at the start, and ``bodies`` are what an equation may be of. And what is
+    to be said of what was passed over."""
     passed: list[str] = []
     if (read := usual(text)) != text:
         passed.append(f"It is read as: {read.strip()}")
@@ -164,7 +178,7 @@ def plainly(text: str, known: Collection[str] = (), fixed: Collection[str] = ())
 
     def at_start(found: re.Match[str]) -> str:
         chains = [re.split(r"\s*=\s*", place) for place in re.findall(_PLACE, found[2])]
-        said = [(name if name in fixed else f"{name}_0", value) for *names, value in chains for name in names]
+        said = [(name if name in fixed else f"{name}_0", value) for *names, value in chains for name in names if name != "t"]
         return ", ".join([found[1], *(f"{name} = {value}" for name, value in said if folded(name) != folded(value))])
 
     def comment(found: re.Match[str]) -> str:
@@ -182,6 +196,8 @@ def plainly(text: str, known: Collection[str] = (), fixed: Collection[str] = ())
     said = _AT_ONCE.sub(r"\1: ", _WAY.sub(lambda found: told(found, "a remark, and not judged"), said))
     said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _AND_THERE.sub(lambda found: f"\n{told(found, 'a remark, and not judged')}", said)
+    said = _STRETCH_BEHIND.sub(r"\2: \1", _STANDS_FOR.sub(r" with \1", said))
+    said = _NOTE.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _REST_AT.sub(at_start, _REST_THERE.sub(r"\1", _FROM_REST.sub("if the start is at rest", said)))
     said = _THESE_NUMBERS.sub("if with these numbers", said)
@@ -191,12 +207,14 @@ def plainly(text: str, known: Collection[str] = (), fixed: Collection[str] = ())
     said = _ALWAYS.sub(" ", _STOP.sub("", _FOLLOWS.sub(r"\1 ⇒", said)))
     said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
     said = _STOP.sub("", _COMMENT.sub(comment, said))
-    said = _SAYING.sub(lambda found: told(found, "a remark, and not judged"), said)
+    said = _SAYING.sub(
+        lambda found: f"{found[1]}: " if re.match(CONDITION, found[1]) else told(found, "a remark, and not judged"), said
+    )
     said = _REASON.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _LETTER.sub(lambda found: told(found, "the letter of a question"), said)
     said = _THUS.sub(lambda found: found[0] if {*re.findall(r"\w+", found[0])} & {*known} else " ", said)
     said = _CALLED.sub(lambda found: found[0] if {*found[2].split()} & {*known} else "initially: " * bool(found[1]), said)
-    return said, tuple(passed)
+    return arranged(said, known, OF_WHAT, bodies), tuple(passed)
 
 
 def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:

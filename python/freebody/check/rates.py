@@ -37,7 +37,12 @@ def derivative(text: str, dots: int) -> str:
 
 def _moves(tree: Node) -> bool:
     """Whether a rate or acceleration is read in a tree."""
-    return any(isinstance(node, Fn) and node.name in _MOVING for node in walk(tree))
+    return any((isinstance(node, Fn) and node.name in _MOVING) or _is_slip(node) for node in walk(tree))
+
+
+def _is_slip(node: Node) -> bool:
+    """Whether it is with which speed a contact slips."""
+    return isinstance(node, Sym) and node.name.endswith(".slip")
 
 
 def _in_readings(expression: syntax.Expression) -> tuple[Node, dict[Sym, Node]]:
@@ -48,7 +53,7 @@ def _in_readings(expression: syntax.Expression) -> tuple[Node, dict[Sym, Node]]:
         if isinstance(node, Fn) and node.name in _NEXT:
             text = f"({expression.show(node.args[0])})"
             reading, rate = Sym(node.name + text), Sym(_NEXT[node.name] + text)
-        elif not _moves(node) and not isinstance(node, Num):
+        elif _is_slip(node) or (not _moves(node) and not isinstance(node, Num)):
             text = f"({expression.show(node)})"
             reading, rate = Sym(text), Sym("rate" + text)
         elif isinstance(node, Fn) and node.name == "speed":  # v² = v · v, so v̇ = v · a/v

@@ -39,6 +39,8 @@ def seen_from_elsewhere(equation: Equation, vocabulary: Vocabulary) -> Iterator[
             if turns or any(n.name == other.name for n in found):
                 pairs = dict(zip(_with_rates(name), _with_rates(other.name), strict=True))
                 yield from _other_frames(equation, name, other.name, pairs)
+                if turns and plain in found:  # its angle may be the relative one, though its rates are not
+                    yield from _other_frames(equation, name, other.name, {n: by for n, by in pairs.items() if n.dots})
     yield from _of_one_alone(equation)
     stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == _SPEED)
     speeds = {stem: [Sym(stem + index) for index in _MOMENTS] for stem in stems}

@@ -83,9 +83,10 @@ class Residual:
 
     @property
     def holds_but_for_few(self) -> bool:
-        """Whether an equation holds, badly conditioned states aside if they are few."""
+        """Whether an equation holds where it has a value, as it has at most states, badly conditioned ones aside if they are few."""
         worst = np.abs(self.ratio).max(axis=1)
-        return bool(np.mean(~(worst < HOLDS)) <= _FEW and worst.max() < _BLURRED)
+        there = worst[np.isfinite(worst)]
+        return bool(2 * len(there) > len(worst) and np.mean(there >= HOLDS) <= _FEW and there.max() < _BLURRED)
 
     @property
     def worst(self) -> float:

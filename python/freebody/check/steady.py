@@ -1,13 +1,14 @@
-"""Steady states of what is driven: motions that repeat with the drive."""
+"""Steady states: motions that repeat with what drives a model, and those that are left where nothing of it changes with time."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array, State, quote
+from freebody.core import Array, MotionError, State, quote
 from freebody.solve.perturbed_states import independent
 
 if TYPE_CHECKING:
@@ -16,15 +17,17 @@ if TYPE_CHECKING:
 _NEWTON = 4  # steps by which the motion that repeats is found; of a linear model one would do
 _STEP = 1e-3  # of sizes and rates, by which slopes are taken
 _REPEATS = 1e-10  # by how much, of the same, a period later it may be off
+_SETTLES, _RESTS, _FELT = 30, 1e-12, 1e-9
+"""Steps by which a state is found where what dies away has done so, what may be left of it, and of what something depends on."""
 _SAME = 1e-9  # of accelerations, that they are the same a period later
 
 
 def steady_state(model: AskedModel, rng: np.random.Generator, values: Mapping[str, float], rtol: float) -> State | None:
-    """A state on the motion that repeats with the period of what drives a model with such parameters; None where none is found, or
-    nothing drives it."""
+    """A state on the motion that repeats with the period of what drives a model with such parameters; where nothing does, one in which
+    what dies away has done so. None where none is found."""
     start = model.started(values)
-    if (period := _period(model, start)) is None:
-        return None
+    if (period := period_of(model, start)) is None:
+        return None if start.t and model.spec["events"] else _settled(model, start)
     places = [model.names[i] for i in independent(model.free_rates)]
     which = [model.names.index(name) for name in places]
     sizes = np.concatenate([model.sizes[which], model.rate * model.sizes[which]])
@@ -48,7 +51,55 @@ def steady_state(model: AskedModel, rng: np.random.Generator, values: Mapping[st
     return None
 
 
-def _period(model: AskedModel, state: State) -> float | None:
+def _settled(model: AskedModel, state: State) -> State | None:
+    """The state near one in which directions on which accelerations depend by the place have neither a rate nor an acceleration, and those
+    on which they depend by the rate have none; None where there is none."""
+    which = independent(model.free_rates)
+    names, n = [model.names[i] for i in which], len(model.names)
+    if not names:
+        return state
+    falls, sizes = [f"accel({quote(name)})" for name in names], model.sizes[which]
+
+    def parts(state: State) -> tuple[Array, Array, Array, Array]:
+        """How all coordinates move with those, accelerations, and by which places and rates of those they change, in units."""
+        free = model.rates_free_in(model.core.free_bodies(state))
+        carried, units = free @ np.linalg.pinv(free[which]), model.rate**2 * sizes
+        read = model.core.derivatives(falls, state)[:, 1 : 1 + 2 * n] * np.tile(model.sizes, 2) / units[:, None]
+        return carried, model.core.evaluate(falls, state) / units, read[:, :n] @ carried, model.rate * read[:, n:] @ carried
+
+    def at(q: Array, change: Array) -> State:
+        """The state at a place with rates that are changed by so much of those; strings stay taut where all have theirs."""
+        rates = dict(zip(model.names, (state.u + model.rate * model.sizes * (carried @ change)).tolist(), strict=True))
+        with suppress(MotionError):
+            return model.moved(state, q, rates)
+        return model.moved(state, q, {name: rates[name] for name in names})
+
+    for step in range(_SETTLES):
+        carried, falling, by_place, by_rate = parts(state)
+        held = _rows(by_place)
+        v = state.u[which] / (model.rate * sizes)
+        if step == 0:  # what resists as a square of a rate has to have one
+            push = falling - held.T @ (held @ falling)
+            state = at(state.q, push / max(np.abs(push).max(), _RESTS))
+            continue
+        slowed = _rows(by_rate - by_rate @ held.T @ held)
+        wanted = np.vstack([held, slowed])
+        off = np.concatenate([wanted @ falling, held @ v])
+        if np.abs(off).max(initial=0.0) < _RESTS:
+            return state
+        slopes = np.block([[wanted @ by_place, wanted @ by_rate], [np.zeros_like(held), held]])
+        change = -np.linalg.lstsq(slopes, off, rcond=None)[0]
+        state = at(state.q + model.sizes * (carried @ change[: len(which)]), change[len(which) :])
+    return None
+
+
+def _rows(slopes: Array) -> Array:
+    """Directions, in rows, on which something depends."""
+    _, sizes, rows = np.linalg.svd(slopes)
+    return rows[: int(np.sum(sizes > _FELT * max(1.0, sizes.max(initial=0.0))))]
+
+
+def period_of(model: AskedModel, state: State) -> float | None:
     """The longest time 2π/Ω, Ω a parameter, after which the same forces act at the same place; None where that is so at all times."""
     falls = [f"accel({quote(name)})" for name in model.names]
     frequencies = [x for x in np.abs(state.p).tolist() if x > 0]

@@ -19,6 +19,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 from freebody.symbolic.tree import Num, Sym, Unit, exchange, substitute, walk
 
+from .asked_model import with_gravity
 from .language.dimensions import misfit
 from .language.elimination import Elimination
 from .language.parser import parse_expression
@@ -113,7 +114,7 @@ class Symbols:
         pull = self.spec.get("gravity")
         if gravity is None or not isinstance(said, str) or not pull:
             return said
-        return re.sub(rf"(?<![\w.]){re.escape(f'{-pull[1]:g}')}(?![\w.])", gravity, said)
+        return with_gravity(said, -pull[1], gravity)
 
     # --- what there is -------------------------------------------------------------------------
 

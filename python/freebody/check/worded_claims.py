@@ -51,6 +51,8 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
 def labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
     that is the ``problem``. Raises it."""
+    if _is_launch(checker, words):
+        return checker.check(f"at the start: {statement}", declared, correcting=checker.correcting)
     lasts, said = LASTS.match(words) is not None, _is_plain(words)
     if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
@@ -68,8 +70,20 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     return _label_or_stretch(checker, declared, words, statement, problem)
 
 
+def _is_launch(checker: Checker, words: str) -> bool:
+    """Whether words are of how something comes to fly that does so from the start."""
+    named = any({*re.findall(r"\w+", event["name"])} <= {*re.findall(r"\w+", words)} for event in checker.sampler.spec["events"])
+    return (
+        _LAUNCH.fullmatch(words) is not None and not named and all(one.kind != "lift-off" for one in checker.own_motion.changes)
+    )
+
+
 def _of_moment(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
-    """At a moment that words call by what goes on, or after it; None where they call none."""
+    """At a moment that words call by what goes on, or by the name of an event, or after it; None where they call none."""
+    said = {*re.findall(r"\w+", words)}
+    named = [event["name"] for event in checker.sampler.spec["events"] if {*re.findall(r"\w+", event["name"])} <= said]
+    if len(named) == 1 and len(named[0].split()) > 1:
+        return in_phase(checker, declared, Phase(False, (named[0],), True), words, statement)
     if kind_of(words) == "reversal" and not NOT_FIRST.search(words):
         if len(checker.sampler.names) == 1:
             return checker.check(f"if {checker.sampler.names[0]}' = 0, from the start: {statement}", declared)
@@ -177,7 +191,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
             before = beside_event(checker, declared, "", "before", name, statement)
             if before.ok and not _says_nothing(before):
                 return replace(before, notes=(*before.notes, f"`{words}` is read as before {name}."))
-    if not found.ok and ("constant:" in statement or found.kind not in (Kind.WRONG, Kind.DIMENSIONS)):
+    if not found.ok and ("constant:" in statement or found.kind not in (*_WRONG, Kind.TRUE_IF)):
         raise problem
     if found.ok or at_first.mends or not checker.correcting:
         return found
@@ -280,6 +294,8 @@ def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
 def beside_words(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
     """The same of something in words; where nothing that happens is called so, true where it holds after one thing that does, wrong where after none.
     Raises the problem of the words for what should stay the same."""
+    if just and side == "after" and _is_launch(checker, event):
+        return checker.check(f"at the start: {statement}", declared, correcting=checker.correcting)
     try:
         return beside_event(checker, declared, just, side, event, statement)
     except ModelProblem:
@@ -306,13 +322,21 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
     verdict = there.check(statement, declared, given)
     verdict = replace(verdict, moment=verdict.moment or f"{just}{side} {event}")
-    if not verdict.ok and any(INITIAL in note for note in verdict.notes):  # v₀ is that of the start before
+    if not verdict.ok and (any(INITIAL in note for note in verdict.notes) or _speaks_of_time(there, declared, statement)):
+        # v₀ is that of the start before
         verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
         return verdict
     up_to = replace(SINCE_START, until=checker.happening(event))  # what is before it may be the motion up to it
     until = checker.check(statement, declared, up_to)
     return until if until.ok or (until.mends and not verdict.mends) else verdict
+
+
+def _speaks_of_time(checker: Checker, declared: Declared, statement: str) -> bool:
+    """Whether something of a statement is asked of the time since the start."""
+    with suppress(ModelProblem, StatementError):
+        return any(n.name == "t" for n in symbols_in(checker.case(statement, declared).program))
+    return False
 
 
 Place = tuple[str, str, str]
@@ -322,6 +346,7 @@ _SOON = 0.01  # of the time typical of a model
 IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
+_LAUNCH = re.compile(r"(?:the\s+)?(?:take-?off|launch|throw|push-off|kick-off|kick|shot)")
 _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
 _PLACED = re.compile(r"(?:with|once)\b|.+\b(?:on|in|against) the\b")

@@ -28,26 +28,13 @@ LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at re
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)"
-_HELD = r"(?:is\s+|are\s+)?(?:held|fixed|locked|clamped|blocked)(?:\s+(?:still|fixed|fast|in place))?"
-_LISTED = (
-    (re.compile(rf"(?:with\s+)?(?:the\s+)?([\w\s'-]+?)\s+{_HELD}\s*(?:\(|at\s+)\s*(\S+?)\s*=\s*([^()]+?)\)?"), r"\2 held at \3"),
-    (re.compile(rf"(?:with\s+)?(?:the\s+)?([\w\s'-]+?)\s+{_HELD}"), r"\1 held"),
-    (re.compile(r"([^\W\d]\S{0,5}) (?:is )?small"), r"small \1"),
-    (re.compile(r"([^\W\d]\S{0,5}) (?:is )?(?:negligible|neglected)|negligible ([^\W\d]\S{0,5})"), r"\1\2 -> 0"),
-    (re.compile(r"(?:[A-Za-z]+\s+)+\(([^()=]+=[^()]+)\)"), r"\1"),
-    (re.compile(rf"(?:for\s+)?{_SMALL_MOTIONS}(?: about \S+)?"), "small motions"),
-    (re.compile(r"(?:if\s+)?the start is at rest"), "the start is at rest"),
-)
-"""Conditions in a list without a word before it, ``block held at x = 0, shaker off (h = 0), θ small:``."""
-_PLAIN_ONE = re.compile(r"small\s+\S+|\S+('|\u0307)*\s*=\s*[^=]+")
-"""What may stand beside these."""
 _WORDS = re.compile(r"[\w\s'-]+")
 _LOWER_WORDS = re.compile(r"[a-z]{2,}(?:\s+[a-z]{2,})+")
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
 )
-_LAWS = "momentum|energy|impulse|moments?|forces?|work|power|equations?|balance|component|direction|radial(?:ly)?|tangential(?:ly)?|normal"
+_LAWS = "rule|law|momentum|energy|impulse|moments?|forces?|work|power|equations?|balance|component|direction|radial(?:ly)?|tangential(?:ly)?|normal"
 _THINGS = (
     "(?:rod|bar|beam|wheel|disk|disc|cylinder|drum|pulley|roller|gear|ring|hoop|ball|sphere|block|crate|cart|car|mass|weight|bob|arm"
     "|link|crank|slider|piston|plate|pendulum|particle|frame|body|system)(?:e?s)?|bodies|pulleys"
@@ -66,10 +53,6 @@ _SMALL = re.compile(
     rf"(?:\A\s*|(?<=,)\s*)(?:(?:for|with|at)\s+)?small\s+({_SYMBOL}(?:(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*|(?:\s*=\s*[-+−]?\s*{_SYMBOL})+))\s*(?=:(?!=)|,\s*(?:{CONDITION})\b)"
 )
 """``small θ:``, ``for small φ and s, if φ = 0:``, ``small y_1 = y_2:``; a small block is no angle."""
-_SMALL_BEHIND = re.compile(
-    rf"\b(for|with)\s+({_SYMBOL}(?:(?:\s*,\s*(?:and\s+)?|\s+and\s+){_SYMBOL})*)\s+small\b|\b(small) values of\b"
-)
-"""``for x, y small:``, ``for small values of x:``."""
 _WHICH_MODE = re.compile(
     r"\s*(?:the\s+)?(?:(first|lower|lowest|fundamental)|(second|upper|higher))\s+(?:(?:natural|normal|circular)\s+)*(?:mode|frequency)(?:\s+of\s+vibration)?\s*"
 )
@@ -78,23 +61,13 @@ _GIVEN_IN_WORDS = re.compile(
 )
 """``engine off, no damping (Q = 0, c = 0):``."""
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
-_OF_WHAT = re.compile(
-    rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'-]*"
+OF_WHAT = re.compile(
+    rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'–-]*"
 )
 """``momentum along x``, ``both rods``: behind a condition a label."""
-_QUANTITY = re.compile(r"\s*\$?\\?[A-Za-z]_\{?\w+\}?\$?\s*")
-"""``H_D``: behind a condition what the equation is of."""
 _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
-_STATE_FIRST = re.compile(
-    r"\A\s*(?:the\s+)?(?:(steady[\s-]+state)|(?:static\s+)?(equilibrium))(?=\s*[:,](?!=)|\s+(?:with|for|if|when|where)\s[^:;\n]*:(?!=))"
-)
-"""``steady state with c = 0:``."""
-_GIVEN_SMALL = re.compile(
-    rf"\A(?!\s*(?:{CONDITION}|small|for|with)\b)(?=[^:;,\n]*=[^:;,\n]*,\s*(?:for\s+)?small\s[^:;=\n]*:(?!=))"
-)
-"""``m_1 a = m_2 b, small θ:``."""
 _SAID_OF_MOMENT = re.compile(rf"\A\s*([^\s=:;,]+)\s+({_INSTANT}[^=:;\n]+?)\s*(=[^:;\n]+)\Z")
 """``E just after the impact = …``."""
 _STILL_FIRST = re.compile(
@@ -103,12 +76,9 @@ _STILL_FIRST = re.compile(
     r"(?:\s+(?:it|still|steady|at\s+rest|in\s+equilibrium|in\s+balance|there|at\s+any\s+\S+|in\s+any\s+(?:place|position)))*)(?=\s*[:,])"
 )
 """``held still:``, ``to stay at rest:``, ``to hang still at any θ:``."""
-_BEFORE_COMMA = re.compile(rf"({_STARTS}|while|during|until)\b([^:;,\n]*?)\s*,\s*(?:then\s+)?([^:\n]+)", re.S)
-"""``when r = R, a = 0``."""
 _BEHIND = re.compile(
     rf"([^:;\n]+?(?:[=<>≈≤≥→]|\\(?:to|approx|rightarrow)\b)[^:;\n]+?)[,.]?\s+((?:{_STARTS}|while|during|until)(?:\s[^:;\n]+)?)"
 )
-_AT_LAST = re.compile(r"\A\s*(?:in the end|eventually|finally|at last)\s*,\s*(?=[^:;\n]*:(?!=))")
 _HAPPENS_WHEN = re.compile(
     rf"(?!(?:{_STARTS})\b)((?:(?:the|an?)\s+)?(?:\w+\s+){{1,3}}?\w{{3,}}s(?:\s+(?:to\s+)?[a-z]+){{0,4}})\s+(?:when|where|if|at|as soon as)\s+([^:;\n]+=[^:;\n]+)"
 )
@@ -118,9 +88,7 @@ _EXTREME_WHERE = re.compile(
 )
 """``fastest where c/s² = m g sin β``."""
 _PARTS = re.compile(r",|\band\b")
-_WHEN = re.compile(r"\s+(?:when|where|while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
-_ABOUT = re.compile(r"\s*about\s[^=]*=")
-"""Of a vibration: ``about x = m g/k``."""
+_WHEN = re.compile(r"\s+(?:when|where|(?<![,\s]\s)while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
 _SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
 _BESIDE = re.compile(rf"(?:{_INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))\S.*")
 _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
@@ -145,8 +113,6 @@ _CONSTANT_WHEN = re.compile(
     re.S,
 )
 """``constant after the catch: …``, ``energy, constant: …``."""
-_LABEL = re.compile(rf"\A(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
-"""``Energy: T + V = const``."""
 _DISPLAYED = re.compile(r"\\(?:begin|end)\s*\{(?:equation|displaymath)\*?\}|\\notag\b|\$\$|(?<!\{)\$(?!\})|(?<!\\)\\[\[\]()]")
 """What sets one formula apart in LaTeX and Markdown."""
 _GIVEN = re.compile(r"((?:[^\W\d][\w{}\\]*\s*=\s*[\d.]+[^=,:;\n]*(?:,\s*|\s+and\s+|(?=:)))+):(?!=)\s*(.+)", re.S)
@@ -213,17 +179,14 @@ def with_condition_first(text: str) -> str:
         return f"{found[2]}: {found[1]} {found[3]}"
     if found := _HAPPENS_WHEN.fullmatch(said):
         return f"when {found[1]}: {found[2]}"
-    if (found := _BEHIND.fullmatch(said)) and not _BEFORE_COMMA.fullmatch(said):
+    if (found := _BEHIND.fullmatch(said)) and not re.match(rf"(?:{_STARTS}|while|during|until)\b", said):
         said = f"{found[2]}: {found[1]}"
-    return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if _UNCHANGING.search(said) else said
+    return _CONSTANT.sub(r"constant: \1", said) if _UNCHANGING.search(said) else said
 
 
 def as_claim(text: str) -> str:
     """A claim with its condition in one of the forms ``if …: …``, ``limit: … as …`` and ``after …: …``; any other as it is."""
-    text = _listed(_AT_LAST.sub("", text))
-    text = _STATE_FIRST.sub(lambda found: f"in {'steady state' if found[1] else 'equilibrium'}", text)
-    text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", _GIVEN_SMALL.sub("if ", text)))
-    text = _SMALL_BEHIND.sub(lambda found: found[3] or f"{found[1]} small {found[2]}", text)
+    text = _LABELLED.sub("", _GIVEN_IN_WORDS.sub(r"if \1", text))
     text = _SMALL_FIRST.sub("for ", _SMALL.sub(_all_small, text))
     text = _STILL_FIRST.sub("in equilibrium", _TENDING.sub("as ", text))
     label, colon, rest = text.partition(":")
@@ -235,25 +198,11 @@ def as_claim(text: str) -> str:
     if colon and "=" in rest and (found := _FREQUENCIES.search(label)):
         before = f"{label[: found.start()]}{label[found.end() :]}".strip()
         return as_claim(f"{before}: frequencies: {rest}") if before else f"frequencies: {rest}"
-    found = _BEFORE.fullmatch(text) or (_BEFORE_COMMA.fullmatch(text) if ":" not in text else None)
+    found = _BEFORE.fullmatch(text)
     if not found:
         return text
     word, words = " ".join(found[1].split()), " ".join(_plainly(found[2]).split())
     return _conditional("while" if word == "as" and _GOES_ON.match(words) else word, words, found[3])
-
-
-def _listed(text: str) -> str:
-    """A claim with a list of conditions before it, with the word for that."""
-    label, colon, said = text.partition(":")
-    if not colon or said.startswith("=") or re.match(rf"\s*(?:{_STARTS}|{_WHILE})\b", label):
-        return text
-    parts = [part.strip(" $") for part in re.split(r",(?![^()]*\))|;", label)]
-    found = [next((pattern.sub(to, part) for pattern, to in _LISTED if pattern.fullmatch(part)), None) for part in parts]
-    each = [(part, new or (_PLAIN_ONE.fullmatch(part) and part)) for part, new in zip(parts, found, strict=True)]
-    if not any(found) or not all(new or _LOWER_WORDS.fullmatch(part) for part, new in each):
-        return text
-    words = "".join(f" {part}:" for part, new in each if not new)  # a label
-    return f"if {', '.join(new for _, new in each if new)}:{words}{said}"
 
 
 def _conditional(word: str, words: str, statement: str) -> str:
@@ -265,9 +214,9 @@ def _conditional(word: str, words: str, statement: str) -> str:
     said = _WHEN.sub(", ", _ASIDE.sub(r", \1", _NAMED_PLACE.sub(r"\1, \2" if named else r"\2", words)))
     if word == "at" and said == "start":
         return f"at start: {statement}"  # of the model's own run, as ``at end``
-    labels = _SUM.match, _ABOUT.match, _OF_WHAT.fullmatch, _QUANTITY.fullmatch
+    labels = _SUM.match, OF_WHAT.fullmatch
     whole, *rest = said.split(",")
-    rest = [part for part in rest if not _OF_WHAT.fullmatch(part)]
+    rest = [part for part in rest if not OF_WHAT.fullmatch(part)]
     first, *others = (part for each in (whole, *rest) for part in _PARTS.split(each))
     parts = [first, *(part for part in others if part.strip() and not any(is_label(part) for is_label in labels))]
     if (kept := [part for part in parts if part.strip() not in ("constant", "conserved")]) and len(kept) < len(parts):
@@ -336,7 +285,7 @@ def _condition(part: str) -> str:
         return "small motions"
     if found := re.fullmatch(r"(small|large)\s+(.+?)(?:\s+about\s[^=]*)?", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
-    if _START.fullmatch(said):
+    if _START.fullmatch(re.sub(rf"\A{_INSTANT}(?:after|at|upon)\s+", "", said)):
         return "at the start"
     if re.fullmatch(r"(?:in |at )?(?:static )?equilibrium", said):
         return "in equilibrium"

@@ -25,6 +25,10 @@ PATIENT = 10.0
 """s, for which something is waited for where the model does not say how long it runs."""
 
 
+ORDINALS = {"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5}
+"""How often something has happened, in words."""
+
+
 class Unreached(ValueError):
     """A moment to which a motion does not come."""
 
@@ -90,11 +94,16 @@ def _end(mechanism: Builder, start: State) -> float:
 
 def time_of(run: Run | Trajectory, name: str) -> float:
     """When an event, or a mode change of a part, of this name comes first, s; of a name like ``stick wheel`` a change of that kind, of one
-    like ``rail`` that of an end of it, ``rail.most``. Raises ``Unreached`` where it does not come."""
+    like ``rail`` that of an end of it, ``rail.most``; of ``second impact`` and ``second impact ball`` when one comes so often. Raises
+    ``Unreached`` where it does not come."""
     happened = [(event.t, event.name) for event in run.events]
     happened += [(change.t, part) for change in run.changes for part in change.of]
     kinds = [(change.t, f"{change.kind} {part}") for change in run.changes for part in change.of]
-    if times := [t for t, what in (*happened, *kinds) if name in (what, what.partition(".")[0])]:
-        return min(times)
+    kinds += [(change.t, change.kind) for change in run.changes]
+    which, _, said = name.partition(" ")
+    for often, what_comes in ((1, name), (ORDINALS.get(which, 0), said)):
+        times = sorted({t for t, what in (*happened, *kinds) if what_comes in (what, what.partition(".")[0])})
+        if 0 < often <= len(times):
+            return times[often - 1]
     known = ", ".join(dict.fromkeys(what for _, what in sorted(happened))) or "nothing does"
     raise Unreached(f"{name!r} does not happen until {run.outcome.t:g} s; what happens: {known}")

@@ -31,6 +31,11 @@ _UPRIGHT = re.compile(r"(?:\\[,;: ]|[~\s])*\\(?:mathrm|text|operatorname)\{\s*([
 _UNIT_PIECE = re.compile(r"(?:(?P<tie>[·*/])|\s*[·*/]?\s*)(?P<word>[^\W\d_²³]+|°)(?:\^-?\d|[²³])?")
 
 
+def _is_time(token: Token) -> bool:
+    """Whether it is the time, or one of several times."""
+    return token.kind == "symbol" and not token.dots and re.fullmatch(r"t(?:_?\d)?", token.text) is not None
+
+
 class Line:
     """One line of tokens; each method reads what its name says and leaves ``at`` behind it."""
 
@@ -292,7 +297,7 @@ class Line:
         return found
 
     def bare_argument(self, token: Token) -> Node:
-        """One symbol, a number before it, and behind it a ``t``, or directly behind what is constant what is not: sin pδ."""
+        """One symbol, a number before it, and behind it a ``t`` or ``t_1``, or directly behind what is constant what is not: sin pδ."""
         sign = self.accept("-")
         if self.now.kind not in ("number", "symbol", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
@@ -302,9 +307,11 @@ class Line:
                 factors.append(unit)
             elif self.now.kind == "symbol" and token.text != "sqrt":
                 factors.append(self.primary())
+        if isinstance(factors[-1], Num) and self.now.kind == "symbol" and _is_time(self.row[self.at + 1]):  # 2π f t
+            factors.append(self.primary())
         fixed = isinstance(factors[-1], Sym) and not factors[-1].dots and factors[-1].name in self.names.constants
         changing = fixed and self.now.attached and self.now.text not in self.names.constants
-        if self.now.kind == "symbol" and not self.now.dots and (self.now.text == "t" or changing):
+        if self.now.kind == "symbol" and not self.now.dots and (_is_time(self.now) or changing):
             factors.append(self.primary())
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found

@@ -1,0 +1,461 @@
+"""What stands around an equation, clause by clause: of which motions it is, ``just after the impact``, and of what, ``bar AB, ΣM_A``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from freebody.symbolic.alphabet import LATEX_WORDS
+
+from .language.glyphs import CONDITION
+from .language.tokens import CALLS
+
+_FEWEST = 2  # words of a clause that stands directly before an equation
+_LONG = 4  # letters from which on what stands behind an operator is a word, and no name
+_SHORT = {
+    *[
+        "a",
+        "an",
+        "as",
+        "at",
+        "be",
+        "by",
+        "do",
+        "he",
+        "if",
+        "in",
+        "is",
+        "it",
+        "its",
+        "no",
+        "of",
+        "off",
+        "on",
+        "or",
+        "so",
+        "to",
+        "up",
+        "we",
+        "and",
+        "she",
+        "her",
+        "his",
+    ]
+}
+"""Words of one or two letters, which are no symbols where they stand among others."""
+_COMMON = {
+    *[
+        "all",
+        "and",
+        "are",
+        "bar",
+        "end",
+        "for",
+        "has",
+        "its",
+        "let",
+        "not",
+        "off",
+        "one",
+        "out",
+        "rod",
+        "the",
+        "two",
+        "was",
+        "way",
+    ]
+}
+"""Words that are words, though letters of them may be symbols."""
+_NO_WORDS = {*CALLS, "const", "inf", "infinity", "lim", "min", "max", "deg", "rad", "rpm"}
+_WORD = re.compile(r"(?:\A|(?<=[\s,;:(]))[A-Za-z]+(?:-[a-z]+)*(?:(?<=[a-z]{3})['’]s?)?(?=[\s,;:)]|\Z)")
+_JOINED = "…"
+_BLANK = re.compile(r"(?<!\\)\\(?:q?quad\b|[,;:!> ])")
+_RATE = re.compile(r"d{0,2}dot\Z")
+"""Of the name of a rate, as programs have it."""
+_FIGURE = re.compile(r"(?<![^\W\d])(?<!_)[\d.]+\Z")
+"""A number, behind which a unit may stand."""
+_BOXED = re.compile(r"\\boxed\s*\{(.*)\}(?=\s*\Z)", re.S)
+_SENTENCE = re.compile(r"\A[^:\n]*?[\w)]\.\s+(?=[A-Z][a-z]+\b[^:\n]*:)")
+"""A sentence before that which says when something is so."""
+_SKIP = re.compile(r"\\[A-Za-z]+|\\.")
+_RELATION = re.compile(r"=|[<>≤≥≈→]|\\(?:leq?|geq?|approx|to|rightarrow|lt|gt)(?![A-Za-z])")
+_ARROW = re.compile(r"\A(?:→|\\rightarrow)(?=\s*(?:[A-Za-z]{2}|\Z))|(?:→|\\(?:to|rightarrow))\Z")
+"""A direction that is counted as positive."""
+_OPERATORS = "=+*/^·<>≤≥≈→"
+_INTRODUCES = re.compile(r"\b(?:if|when|where|at|for|with|from|until|once|while|as|given|assuming|provided|that|and|or|on|to)\Z")
+"""Words behind which an equation is a condition, and not what is said."""
+_AT_TIME = ("at", "instant", "time", "moment")
+_CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at|no [^:]* in)\b")
+
+# -- what a clause is
+
+_INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
+_HELD = r"(?:is |are )?(?:held|fixed|locked|clamped|blocked)(?: (?:still|fixed|fast|in place))?"
+_MOTION = (
+    r"(?:turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
+)
+_HEAD = re.compile(
+    rf"(?!in\s+(?!(?:the\s+)?(?:\w+\s+)?(?:equilibrium|steady|flight|air|limit|end)\b))(?:{CONDITION}|only|from(?=\s+t_?[1₁]))\b",
+    re.I,
+)
+"""With which a condition begins."""
+_BEHIND = re.compile(
+    rf"(?:{_INSTANT})?(?:after|before)\b|(?:at|when|once|if|for|while|during|until|initially|(?:as|so) long as|provided|assuming)\b"
+    rf"|in the {_MOTION}\b|in (?:the )?(?:free )?(?:flight|air)\b|(?:the whole time|all the time|throughout)\b"
+    r"|in\s+(?:the\s+)?(?:static\s+)?(?:steady|equilibrium)\b"
+)
+"""With which one begins behind an equation."""
+_WITHIN = re.compile(
+    rf"\s+(?={_INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\b|(?:at|in)\s+the\s+(?:moment|instant|start|end|{_MOTION})\b"
+    r"|for\s+small\b|(?:for|with)\s+\S+\s*=|released\b|from\s+rest\b)"
+)
+"""Where one begins in a clause that first says of what it is: ``energy just after the impact``."""
+_ASIDE = re.compile(r"([^()]*[A-Za-z\s])\s*\(([^()]+)\)")
+_WORDS: tuple[tuple[str, str], ...] = (
+    (rf"in (?:the|its|his|her) ({_MOTION})", r"during the \1"),
+    (
+        r"(?:the )?((?:recovery|coasting|rebound|(?:free )?flight|(?:second|next|later|last|final) (?:phase|stage|part|stretch|stroke))"
+        r"(?: (?:of|on|with|by) [a-z ]+)?)",
+        r"during \1",
+    ),
+    (rf"(?!(?:{CONDITION})\b)((?:the )?[A-Za-z]+) (in (?:the )?(?:flight|air)|off the [a-z]+|airborne)", r"while \1 is \2"),
+    (r"(?:with |while )?(?:the )?([a-z]+) (?:is )?(?:still )?(?:whole|intact|uncut|unbroken)", r"before the \1 is cut"),
+    (
+        r"(?:the )?([a-z]+) (?:sliding|coming|going|moving|falling|sinking|climbing|rising) (?:back )?"
+        r"(up|down|to the left|to the right)(?:wards?|hill)?",
+        r"while \1 moves \2",
+    ),
+    (r"(at the (?:top|highest point)) of the (?:first )?(?:rebound|bounce)", r"\1, after the impact"),
+    (r"(?:at )?(?:the )?(?:first )?turning point( after .*)?", r"at the turning point,\1"),
+    (r"(at (?:the|its) \S+ (?:point|position|place)) (after .*)", r"\1, \2"),
+    (r"(?:from )?(t_?[1₁]) to (t_?[2₂])", r"from \1 to \2"),
+    (r"(?:as a )?special case,? (.*=.*)", r"if \1"),
+    (r"(?:and )?before (?:the )?(?:second|next|third)\b.*", ""),
+    (r"after (?:a |the )?(?:time )?t (?:from rest|if the start is at rest)", "if the start is at rest"),
+    (r"after (?:a|an|one|half|two|three|\d+)\b[^()=]*\(([^()]*=[^()]*)\)", r"when \1"),
+    (r"(?:pure )?(rolling|rolls|sliding|slides|slipping|slips) \([^()=]+=[^()]+\)", r"while \1"),
+    (rf"({_INSTANT}(?:after|at)|at) ((?:the )?(?:release|start|beginning))(?: from rest)? ?\([^()1-9]*=[^()1-9]*\)", r"\1 \2"),
+    (rf"((?:{_INSTANT})?(?:after|before) .*[a-z]) \([^()=<>→]*\)", r"\1"),
+    (r".*\bfrom \S+ \(at rest\)", "if the start is at rest"),
+    (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?(?:\(|at )\s*(\S+?) ?= ?([^(),]+?)\)?", r"\2 held at \3"),
+    (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?\((\S+?) ?= ?([^(),]+?), ([^()]+)\)", r"\2 held at \3, \4"),
+    (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD}", r"\1 held"),
+    (r"(\S{1,6}) (?:is )?small", r"small \1"),
+    (r"(\S{1,6}) (?:is )?(?:negligible|neglected)|negligible (\S{1,6})", r"\1\2 -> 0"),
+    (r"(?:held|kept|hanging|standing|holding) still", "in equilibrium"),
+    (r"(?:the )?steady[ -]state|steady (?:motion|vibration|response)", "in the steady state"),
+    (r"(?:the )?(?:static )?equilibrium", "in equilibrium"),
+    (
+        r"(?:for )?small(?: (?:[a-z]+ing|oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)(?: about [^\s=]+)?)?",
+        "for small motions",
+    ),
+    (r"(?:without|neglecting|ignoring) [a-z ]*\(([^()=]+=[^()]+)\)", r"if \1"),
+    (r"(?:the )?natural (?:circular )?frequencies(?: of the \w+)?", "frequencies"),
+    (r"(?:the )?natural (?:circular )?frequency of the \w+", "natural frequency"),
+    (r"((?:in (?:the )?steady[ -]state|in (?:static )?equilibrium|at rest)) the .*", r"\1"),
+    (r"(?:if|where|for|with) (?!.*\b(?:kept|prevented)\b)[a-z'’ -]+ \(([^()]*(?:[=<>→]|->|\\to)[^()]*)\)", r"if \1"),
+    (r"((?:in (?:the )?(?:flight|air)|during (?:the )?(?:[a-z]+ )?flight)) (?:only|nothing|no|there|it|the) .*", r"\1"),
+    (r"(?:once|when|after) (?:the )?\S+ (?:is|has become) (?:steady|constant)", "in the steady state"),
+    (r"((?:the|an?|it|he|she) .*[a-z]{3}) at(?: the (?:instant|time|moment))?", r"when \1"),  # it blows off at t = …
+    (r"(?:the )?(.*[a-z]{3}) at(?: the (?:instant|time|moment))?", r"just before the \1"),  # first impact at t = …
+)
+"""Clauses in words of exercise books, and what is read for them."""
+_IDLE = re.compile(
+    r"(?:as\s+a\s+)?special\s+case|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
+    r"|for\s+an\s+observer\b.*|(?:solving|using|eliminating|substituting|combining|inserting)\b.*|1:?\s.*\bbefore|2:?\s.*\bafter"
+    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|in\s+the\s+end|eventually|finally|at\s+last|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
+    re.I,
+)
+"""Clauses that say nothing of it."""
+_SO = re.compile(r"(?:so|hence|thus|therefore|and\s+so)\b\s*(?:that\b)?\s*")
+"""Behind it what follows from the clauses before."""
+_SUM = re.compile(r"(?:[↺↻↑↓→←+()]\s*)*(?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)")
+_ENERGIES = re.compile(r"(?=.*[+12₁₂])[\sTVUEKWΔ+=_{}()\d₁₂→\\to-]+(?:const\.?)?")
+_LAW = re.compile(
+    r".*[A-Za-z]{2,}\s*=\s*(?:just\s+)?[a-z]{3,}.*|.*\bbefore\s*=.*\bafter\b.*|\S+\s*=\s*[a-z]{3,}\s+[a-z]{2,}.*|.*\bsince\s+t\s*=.*|.*\bfrom\s+t\s*=\s*0(?!\.).*|.*=.*\b(?:along|across)\b.*|with\s+(?:its\b|the\s+(?:inertia|term)\b).*"
+    r"|(?:everything|all)\s+that\s+moves|(?!.*\bsmall\b)(?:.*\s)?about\s+(?:[a-z]+\s+[a-z]+\s+at\s+)?\S+\s*=.*|(?:.*\W)?(?:and|along|across)\s+[A-Z]{1,2}|.*=.*(?:×|\\times).*"
+)
+"""``momentum before = momentum after``, ``a_B = a_A + a_{B/A} along AB``."""
+_DIRECTION = re.compile(r"(?:vertical|horizontal|tangential|radial|transverse)(?:ly)?|[xynrtθ]-(?:part|component|direction)")
+_ALONG = re.compile(r"along|across|throughout|again|always|at all times")
+_SMALL = re.compile(r"(?:for\s+|with\s+)?small\b")
+_VALUE = re.compile(
+    r"(?:\\?[^\W\d][\w'′″{}\u0307\u0308]*\s*=\s*)+(?:0|[\d.]+\s*°|[\d.]*\s*(?:π|\\pi)(?:/\d)?)|[^\W\d][\w'′″{}\u0307\u0308]*\s*[<>]\s*0|(?:\\d*dot\s*\{?\\?\w+\}?\s*=\s*)+0"
+)
+"""``φ' = φ'' = 0``, ``N = 0``."""
+_AT = re.compile(r"\A(?:at|when|where)\s+")
+_WORDY = re.compile(r"[A-Za-z][\w'-]*(?:\s+[\w'-]+)+")
+_NAME = re.compile(r"[A-Z][a-z]+(?<!ing)")
+_SYMBOL = re.compile(r"(?:\\[a-z]+|[^\W\d])(?:\d|_\w+|_\{\w+\})?[′']*")
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """Words, a formula, or a sign that parts clauses; ``relation``: whether a formula says that something is equal or tends to something."""
+
+    kind: str
+    start: int
+    stop: int
+    relation: bool = False
+
+
+def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
+    """A statement with the conditions among the clauses around its equation first, then what it is of, then the equation; any other as it
+    is. Names that are ``known`` are no words; ``of_what``: words that say of what an equation is, as the names of ``bodies`` do."""
+    if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and _RELATION.search(text.partition(";")[0])):
+        return text
+    plain = _SENTENCE.sub("", _BOXED.sub(r"\1", _BLANK.sub(" ", text.replace("$", ""))))
+    pieces = [*_pieces(plain, known)]
+    colon = _label_ends(plain, pieces)
+    before, body = pieces[: max(colon, 0)], pieces[colon + 1 :]
+    begins = _core(plain, body)
+    if (
+        begins is None
+        or not (before or any(piece.kind == "words" for piece in pieces))
+        or _RELATION.match(plain[body[begins].start :].lstrip())
+    ):
+        return text
+    if begins and sum(piece.kind == "words" for piece in body[:begins]) < _FEWEST and not _HEAD.match(plain[body[0].start :]):
+        return text  # a word among symbols is one of them
+    core = body[begins:]
+    ends = _suffix(plain, core)
+    around = [[*_clauses(plain, some)] for some in (before, body[:begins], core[ends:])]
+    is_label = re.compile(f"{of_what.pattern}|{_called(bodies)}") if bodies else of_what
+    said = [part for clause in _conclusion(_explained([*around[0], *around[1]], is_label)) for part in _parts(clause, is_label)]
+    labels = [part for part in said if _is_of_what(part, is_label)]
+    conditions = [part for part in said if part not in labels]
+    if (
+        begins and conditions and conditions[-1] == said[-1] and not _is_condition(said[-1])
+    ):  # whose value it is that an equation gives
+        conditions.pop()
+    behind = [part for clause in around[2] for part in _parts(clause, is_label)]
+    changed = [*said, *behind] != [*around[0], *around[1], *around[2]]
+    is_law = any(_relates(label) or _LAW.fullmatch(label) for label in labels)
+    at_once = bool(before) and _is_list(conditions)
+    if not (begins or changed or is_law or at_once or behind or (labels and any(map(_is_condition, conditions)))):
+        return text
+    labels = [label for label in labels if not (_relates(label) or _LAW.fullmatch(label))]
+    if not any(map(_is_condition, [*conditions, *behind])):
+        labels, conditions = [*conditions, *labels], []
+    equation = plain[core[0].start : core[ends - 1].stop].strip(" ,")
+    return ": ".join(filter(None, (", ".join(_headed([*conditions, *behind])), ", ".join(labels), equation)))
+
+
+def _is_list(conditions: Sequence[str]) -> bool:
+    """Whether conditions are values, or relations beside others, without a word for that."""
+    if not conditions or any(map(_HEAD.match, conditions[:1])):
+        return False
+    return all(map(_VALUE.fullmatch, conditions)) or (len(conditions) > 1 and any(map(_relates, conditions)))
+
+
+def _label_ends(text: str, pieces: Sequence[_Piece]) -> int:
+    """Where among the pieces the colon is behind which the statement begins; -1 where none is."""
+    ends = -1
+    for i in (i for i, piece in enumerate(pieces) if piece.kind == ":"):
+        inner = pieces[ends + 1 : i]
+        begins = _core(text, inner) if ends >= 0 else None
+        if begins is not None and not _VALUE.fullmatch(text[inner[begins].start : inner[begins].stop].strip()):
+            break  # an equation from which another follows
+        ends = i
+    return ends
+
+
+def _called(bodies: Collection[str]) -> str:
+    """A pattern for what is called by a body: ``the left wheel``."""
+    one = rf"(?:(?:the|an?|both|whole)\s+)?(?:(?!no\b)[a-z]+\s+)?(?:{'|'.join(map(re.escape, bodies))})"
+    return rf"{one}(?:\s*(?:\+|and)\s*{one})*"
+
+
+def _explained(clauses: Sequence[str], is_label: re.Pattern[str]) -> list[str]:
+    """The clauses without those for which relations stand behind them: ``engine off, no damping (Q = 0, c = 0)``, ``about to lift, N = 0``."""
+    out: list[str] = []
+    for clause in clauses:
+        aside = _ASIDE.fullmatch(clause)
+        is_value = _VALUE.fullmatch(_AT.sub("", clause)) is not None and not _SUM.match(clause)
+        stand = aside[2].count(",") if aside and _relates(aside[2]) else int(is_value)
+        for _ in range(stand):
+            before = out[-1] if out else ""
+            tells = (
+                _is_condition(before)
+                or _SMALL.match(before)
+                or _read(before)
+                or _is_of_what(before, is_label)
+                or _WITHIN.search(before)
+            )
+            if _WORDY.fullmatch(before) and not tells:
+                out.pop()
+        out.append(clause)
+    return out
+
+
+def _conclusion(clauses: Sequence[str]) -> list[str]:
+    """The clauses from the last on that follows from others: ``D is at rest, so along the strut``."""
+    last = max((i for i, clause in enumerate(clauses) if _SO.match(clause)), default=0)
+    so = _SO.match(clauses[last]) if clauses else None
+    first = clauses[last][so.end() :] if so else "".join(clauses[last : last + 1])
+    return [clause for clause in (first, *clauses[last + 1 :]) if clause]
+
+
+def _parts(clause: str, is_label: re.Pattern[str]) -> Iterator[str]:
+    """What a clause says, in the words that are read: what it is of, and of which motions, each for itself."""
+    if clause.startswith(_JOINED):
+        clause = clause.removeprefix(_JOINED)
+        if not (_is_condition(clause) or _read(clause) or _is_of_what(clause, is_label)):
+            return  # if R → ∞ nothing is lost: …
+    within = _WITHIN.search(clause.partition("(")[0])
+    first = clause[: within.start()] if within else ""
+    if within and not _HEAD.match(clause) and (_is_of_what(first, is_label) or _read(first)):
+        yield from (part for each in (first, clause[within.end() :]) for part in _parts(each, is_label))
+        return
+    if (read := _read(clause)) is not None:
+        yield from filter(None, map(str.strip, read.split(",")))
+        return
+    aside = _ASIDE.fullmatch(clause)
+    if aside and (_read(aside[1]) or all(_IDLE.fullmatch(each.strip()) for each in aside[2].split(","))):
+        yield from _parts(aside[1].strip(), is_label)
+    elif aside and not (_HEAD.match(clause) or _is_of_what(aside[2], is_label)) and _is_condition(aside[2]):
+        what = (
+            [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or _read(aside[1]) else []
+        )  # else in brackets is what the words mean
+        yield from (part for each in (*what, *aside[2].split(",")) for part in _parts(each.strip(), is_label))
+    elif clause and not _IDLE.fullmatch(clause):
+        yield clause
+
+
+def _read(clause: str) -> str | None:
+    """What is read for a clause in words of exercise books; None where it is none of these."""
+    said = " ".join(clause.split())
+    found = next((found for written, read in _WORDS if (found := re.fullmatch(written, said, re.I))), None)
+    return found.expand(dict(_WORDS)[found.re.pattern]) if found else None
+
+
+def _headed(conditions: Iterable[str]) -> list[str]:
+    """The conditions with one first that begins with a word for that."""
+    ranked = sorted(conditions, key=lambda clause: _SMALL.match(clause) is not None)
+    first = next((clause for clause in ranked if _HEAD.match(clause) and not _SMALL.match(clause)), None)
+    ranked = [*([first] if first else []), *(clause for clause in ranked if clause is not first)]
+    is_bare = bool(ranked) and not (_HEAD.match(ranked[0]) or _SMALL.match(ranked[0])) and any(map(_is_condition, ranked))
+    if is_bare:
+        ranked.sort(key=lambda clause: not _is_condition(clause))
+    return [f"if {ranked[0]}", *ranked[1:]] if is_bare else ranked
+
+
+def _is_condition(clause: str) -> bool:
+    return bool(_HEAD.match(clause)) or _relates(clause) or " held" in clause
+
+
+def _relates(clause: str) -> bool:
+    """Whether a clause says that something is equal, or tends to something."""
+    return _RELATION.search(_ARROW.sub("", clause.strip())) is not None
+
+
+def _is_of_what(clause: str, is_label: re.Pattern[str]) -> bool:
+    """Whether a clause says of what an equation is: a sum, a law in letters, the name of a part."""
+    if _LAW.fullmatch(clause) or " held" in clause:
+        return " held" not in clause
+    whole = _ENERGIES.fullmatch, _DIRECTION.fullmatch, is_label.fullmatch, _SYMBOL.fullmatch, _NAME.fullmatch
+    return clause in ("frequencies", "natural frequency") or (
+        not _HEAD.match(clause) and (_SUM.match(clause) is not None or any(match(clause) for match in whole))
+    )
+
+
+# -- pieces
+
+
+def _pieces(text: str, known: Collection[str]) -> Iterator[_Piece]:
+    """Words, formulas, and the signs that part clauses, in their order."""
+    at, depth, start, relation = 0, 0, 0, False
+
+    def formula(stop: int) -> Iterator[_Piece]:
+        if said := text[start:stop].strip(" ~"):
+            yield _Piece("formula", start, stop, relation and _relates(said))
+
+    while at < len(text):
+        char, stop = text[at], at + 1
+        if depth == 0 and (word := _WORD.match(text, at)) and _is_word(word[0], text[:at].rstrip(), text[word.end() :], known):
+            yield from formula(at)
+            yield _Piece("words", at, word.end())
+            start, relation, stop = word.end(), False, word.end()
+        elif depth == 0 and char in ",;:" and text[at : at + 2] != ":=":
+            yield from formula(at)
+            yield _Piece(char, at, stop)
+            start, relation = stop, False
+        elif found := _SKIP.match(text, at):
+            relation |= depth == 0 and _RELATION.match(found[0]) is not None
+            stop = found.end()
+        else:
+            depth += (char in "([{") - (char in ")]}" and depth > 0)
+            relation |= depth == 0 and _RELATION.match(char) is not None
+        at = stop
+    yield from formula(len(text))
+
+
+def _is_word(word: str, before: str, after: str, known: Collection[str]) -> bool:
+    """Whether letters in a row between others are a word, and no symbol, function or unit."""
+    if len(word) == 1:
+        return word in "aA" and word not in known and re.match(r"\s+[a-z]{3}", after) is not None
+    if word.lower() in _COMMON and word not in known:
+        return before[-1:] not in [*_OPERATORS]
+    measures = (_FIGURE.search(before) is not None and len(word) <= _LONG) or (
+        before[-1:] in [*_OPERATORS] and (len(word) < _LONG or word.startswith("const"))
+    )
+    if word in known or word.lower() in _NO_WORDS or measures:
+        return False
+    if len(word) < 3:
+        return word.lower() in _SHORT
+    named = _RATE.sub("", word) in {*known, *LATEX_WORDS}
+    return re.search("[aeiouyAEIOUY]", word) is not None and not named and not {*word} <= {*known, "'", "’"}
+
+
+def _core(text: str, body: Sequence[_Piece]) -> int | None:
+    """Where among the pieces behind the label the equation begins; None where they state none."""
+    said = ""
+    for i, piece in enumerate(body):
+        if piece.kind == "words":
+            said = text[piece.start : piece.stop]
+        elif piece.kind in ",;:":
+            said = ""
+        elif piece.relation and said not in _AT_TIME and not _INTRODUCES.search(said):
+            return i
+        elif piece.relation and said in _AT_TIME and i == len(body) - 1 and text[piece.start :].lstrip().startswith("t "):
+            return i  # the first impact at t = …
+        else:
+            said = "" if piece.relation else said
+    return None
+
+
+def _suffix(text: str, core: Sequence[_Piece]) -> int:
+    """Where among the pieces from the equation on a condition begins behind it; their number where none does."""
+    for i, piece in enumerate(core[1:], 1):
+        if piece.kind == "words":
+            return i if _BEHIND.match(text, piece.start) else len(core)
+    return len(core)
+
+
+def _clauses(text: str, pieces: Sequence[_Piece]) -> Iterator[str]:
+    """The clauses of some pieces: what stands between signs that part them, and an equation that is a condition for itself; with a mark
+    what stands behind that without a sign between."""
+    at, closed, joined = 0, False, False
+    for i, piece in enumerate(pieces):
+        parts = piece.kind in ",;:" and not _goes_on(text, pieces, at, i)
+        if parts or (closed and piece.kind == "words" and not _ALONG.match(text, piece.start)):
+            if at < i:
+                yield _JOINED * joined + text[pieces[at].start : pieces[i - 1].stop].strip()
+            joined = closed and not parts
+            at = i + (parts or text[piece.start : piece.stop] == "and")
+            closed = False
+        said = text[piece.start : piece.stop].strip()
+        in_words = any(map(_RELATION.match, (said[:1], said[-1:])))  # words are what is equal
+        closed |= piece.relation and not in_words
+    if at < len(pieces):
+        yield _JOINED * joined + text[pieces[at].start : pieces[-1].stop].strip()
+
+
+def _goes_on(text: str, pieces: Sequence[_Piece], at: int, i: int) -> bool:
+    """Whether behind a comma the list of what is small goes on."""
+    after = [p.kind for p in pieces[i + 1 : i + 3]]
+    small = re.search(r"\bsmall\b", text[pieces[at].start : pieces[i].start])
+    return (
+        small is not None and after[:1] == ["formula"] and not pieces[i + 1].relation and after[1:] in ([], [","], [":"], [";"])
+    )
