@@ -3,7 +3,7 @@
 use super::machine_code::{Assembler, Code, Instruction, Operand};
 use super::program::{Product, Program, Sum};
 use super::tape::{Op, Row, Term};
-use crate::scalar::{real, Block};
+use crate::scalar::{block, real, Block};
 use std::collections::VecDeque;
 
 /// A change of what a row holds, or a need of it by the operation with this number.
@@ -30,14 +30,18 @@ struct Writer {
     registers: [Register; 16],
     /// What is still to come, of each row.
     ahead: Vec<VecDeque<Event>>,
+    /// Rows beside each other where angles stand, each to become its sine, with a row for the cosine.
+    angles: Vec<Row>,
 }
 
 /// The operations of a program on inputs that move; None where the system lets no code be made.
 pub(super) fn code(program: &Program) -> Option<Code> {
-    let mut writer = Writer { code: Assembler::new(), registers: [Register::Free; 16], ahead: events(program) };
+    let registers = [Register::Free; 16];
+    let mut writer = Writer { code: Assembler::new(), registers, ahead: events(program), angles: vec![] };
     for (to, op, terms, products) in program.moving.steps() {
         writer.write(to, op, terms, products);
     }
+    writer.turn();
     writer.flush();
     writer.code.finish()
 }
@@ -58,6 +62,10 @@ fn events(program: &Program) -> Vec<VecDeque<Event>> {
 
 impl Writer {
     fn write(&mut self, to: Row, op: &Op<(), Sum>, terms: &[Term<f64>], products: &[Product]) {
+        if let Op::SinCos(x) = *op {
+            return self.angle(x, to);
+        }
+        self.turn();
         let made = match *op {
             Op::Sum { terms: Sum { start, .. }, .. } => self.sum(start, terms, products),
             Op::Product(a, b) => self.product(a, b),
@@ -75,7 +83,7 @@ impl Writer {
                 self.code.push(Instruction::Sqrt, made, Operand::Register(made));
                 made
             }
-            Op::SinCos(x) => return self.call(sin_cos as *const (), &[x], &[to, Row(to.0 + 1)]),
+            Op::SinCos(_) => unreachable!("angles are gathered"),
             Op::Exp(x) => return self.call(exp as *const (), &[x], &[to]),
             Op::Ln(x) => return self.call(ln as *const (), &[x], &[to]),
             Op::Atan2 { y, x, .. } => return self.call(atan2 as *const (), &[y, x], &[to]),
@@ -123,6 +131,31 @@ impl Writer {
         let of = self.read(of);
         self.code.push(instruction, register, of);
         register
+    }
+
+    /// Puts an angle beside others.
+    fn angle(&mut self, x: Row, to: Row) {
+        let is_beside = self.angles.last().is_none_or(|last| last.0 + 2 == to.0);
+        let is_known = self.angles.iter().all(|angle| x != *angle && x.0 != angle.0 + 1);
+        if !(is_beside && is_known) || self.angles.len() == SIN_COS.len() {
+            self.turn();
+        }
+        let angle = self.own(x);
+        self.code.push(Instruction::Store, angle, Operand::Memory(to));
+        self.registers[usize::from(angle)] = Register::Free;
+        self.angles.push(to);
+    }
+
+    /// Makes sines and cosines of the angles that are beside each other.
+    fn turn(&mut self) {
+        let angles = std::mem::take(&mut self.angles);
+        if let Some(&first) = angles.first() {
+            self.flush();
+            self.code.call(SIN_COS[angles.len() - 1], first);
+        }
+        for row in angles.into_iter().flat_map(|sin| [sin, Row(sin.0 + 1)]) {
+            self.ahead[row.at()].pop_front();
+        }
     }
 
     /// Calls a function, which writes its values where they stand in memory.
@@ -220,9 +253,13 @@ impl Writer {
     }
 }
 
-extern "sysv64" fn sin_cos(to: &mut [Block<1>; 2], x: f64) {
-    let (sin, cos) = real::sin_cos(x);
-    *to = [sin, cos].map(Block::of);
+/// Of one angle, of two, …
+const SIN_COS: [*const (); 4] =
+    [sin_cos::<1> as *const (), sin_cos::<2> as *const (), sin_cos::<3> as *const (), sin_cos::<4> as *const ()];
+
+extern "sysv64" fn sin_cos<const N: usize>(rows: &mut [[Block<1>; 2]; N]) {
+    let made = block::sin_cos(&rows.map(|[angle, _]| angle.0[0]));
+    *rows = std::array::from_fn(|i| made.map(|made| Block::of(made[i])));
 }
 
 extern "sysv64" fn exp(to: &mut Block<1>, x: f64) {
