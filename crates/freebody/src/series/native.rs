@@ -223,14 +223,14 @@ impl Writer {
     /// A register to work in; where none is free, that of the value that is needed last (Belady 1966, *IBM Systems Journal* 5, 78).
     fn take(&mut self) -> u8 {
         let wait = |register: &Register| match *register {
-            Register::Free => Some(usize::MAX),
-            Register::Taken => None,
-            Register::Holds { row, .. } => self.next(row).map(|when| when.min(usize::MAX - 1)),
+            Register::Holds { row, .. } => self.next(row),
+            _ => None,
         };
-        let last = (0..16).max_by_key(|&i| wait(&self.registers[i])).expect("there are registers");
-        self.leave(last);
-        self.registers[last] = Register::Taken;
-        last as u8
+        let free = self.registers.iter().position(|register| *register == Register::Free);
+        let taken = free.or_else(|| (0..16).max_by_key(|&i| wait(&self.registers[i]))).expect("there are registers");
+        self.leave(taken);
+        self.registers[taken] = Register::Taken;
+        taken as u8
     }
 
     /// Sees to it that what a register holds stands in memory.
