@@ -84,7 +84,8 @@ fn what_cancels_is_not_computed() {
     assert!(tape.ops.iter().all(|(_, op)| matches!(op, tape::Op::Sum { terms, .. } if terms.is_empty())), "{tape:?}");
 }
 
-/// Every operation; products that only a sum needs; parts that do not move; more values at a time than there are registers.
+/// Every operation; products that only a sum needs; parts that do not move; sines of each other, and many; more values at a time than
+/// there are registers.
 fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
     let (t, y, p) = (x[0], x[1], x[2]);
     let (sin, cos) = (y * p).sin_cos();
@@ -102,6 +103,8 @@ fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
         S::of(4.0),
         turned(3) * (many[7] * y).exp(),
         turned(8),
+        sin.sin_cos().1 * cos.sin_cos().0.sin_cos().0,
+        (2..8).fold(t, |sum, i| sum + y.scale(f64::from(i)).sin_cos().0),
     ]
 }
 
@@ -109,7 +112,7 @@ fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
 fn a_program_gives_the_formula_to_the_same_bits_alone_and_side_by_side() {
     let tape = recorded([0.4, 0.3, 0.9], |x| Ok::<_, ()>(every_operation(x))).unwrap();
     let program = Arc::new(Program::new(tape.rounded(), 2));
-    let (mut beside, mut all) = (program.memory::<64>(), vec![Block::of(0.0); 10]);
+    let (mut beside, mut all) = (program.memory::<64>(), vec![Block::of(0.0); 12]);
     let [y, p] = [0.3, 0.7].map(|from| Block(std::array::from_fn(|i| from + 0.11 * i as f64)));
     program.fix(&mut beside, &[p]);
     for t in [0.4, 1.7] {
