@@ -94,16 +94,7 @@ fn sines_first(mut steps: Vec<Step>, rows: usize) -> Vec<Step> {
             step.operands().iter().for_each(|row| leads[row.at()] = true);
         }
     }
-    steps.sort_by_key(|step| match is_first(step) {
-        true => 1,
-        false => {
-            if leads[step.to.at()] {
-                0
-            } else {
-                2
-            }
-        }
-    });
+    steps.sort_by_key(|step| (!leads[step.to.at()], !is_first(step)));
     steps
 }
 

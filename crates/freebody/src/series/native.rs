@@ -46,14 +46,13 @@ pub(super) fn code(program: &Program) -> Option<Code> {
     writer.code.finish()
 }
 
+/// What comes of each row, in its order.
 fn events(program: &Program) -> Vec<VecDeque<Event>> {
     let mut ahead = vec![VecDeque::new(); program.rows];
     for (i, (to, op, terms, products)) in program.moving.steps().enumerate() {
-        let more = terms.iter().map(|term| term.row).chain(products.iter().flat_map(|product| product.of));
-        op.operands_with(|sum| vec![sum.start])
-            .into_iter()
-            .chain(more)
-            .for_each(|row| ahead[row.at()].push_back(Event::Read(i)));
+        let own = op.operands_with(|sum| vec![sum.start]);
+        let added = terms.iter().map(|term| term.row).chain(products.iter().flat_map(|product| product.of));
+        own.into_iter().chain(added).for_each(|row| ahead[row.at()].push_back(Event::Read(i)));
         op.values(to).for_each(|row| ahead[row.at()].push_back(Event::Write));
     }
     program.results.iter().for_each(|(row, _)| ahead[row.at()].push_back(Event::Read(usize::MAX)));
