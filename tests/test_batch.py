@@ -7,6 +7,7 @@ import pytest
 import freebody as fb
 from freebody.core import MotionError
 from freebody.model.errors import ModelFileError
+from store import MODELS, every, mechanism
 
 STEP = {"until": 0.3, "method": "rk4", "step": 0.01}
 PENDULUMS = """
@@ -315,6 +316,20 @@ def test_side_by_side_all_has_the_bits_that_one_alone_has(text, p):
     )
     assert all(ends["ok"])
     np.testing.assert_array_equal(made, alone)
+
+
+@every(MODELS)
+def test_every_model_moves_among_others_as_alone_to_the_last_bit(model):
+    """By `rk4` many trees are carried by a list of operations, one by the machine code that is made of it."""
+    m = mechanism(model)
+    core, (state, _) = m.compile(), m.start()
+    rows, end = [np.tile(row, (3, 1)) for row in (state.p, state.q, state.u)], state.t + STEP["until"]
+    settings = {"method": "rk4", "step": STEP["step"], "rtol": 1e-9, "max_step": None, "route": "auto", "reactions": False}
+    settings |= {"impacts": "stop", "painleve": "stop"}
+    made, _ = core.batch(*rows, state.t, end, np.array([end]), 1, **settings)
+    run = m.simulate(**STEP | {"until": end}, t_eval=[end])
+    reached = np.hstack([run.q, run.u]) if len(run.t) else np.nan
+    np.testing.assert_array_equal(made[:, 0], np.broadcast_to(reached, made[:, 0].shape))
 
 
 @pytest.mark.parametrize("text, p", [(PENDULUMS, ("L", "m2")), (CART, ("L", "k"))])

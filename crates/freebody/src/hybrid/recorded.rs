@@ -15,8 +15,9 @@ const ASIDE: f64 = 0.618_033_988_749_894_9;
 pub(super) const NEAR_SINGULAR: f64 = 0.1;
 /// Part of what was left of an inertia or a row at the start, where it is eliminated, below which digits may be lost.
 const FIRM: f64 = 1e-2;
-/// Freedom of trees up to which a program is less work than a sweep.
-const FEW: usize = 3;
+/// Freedom of trees up to which a program is a third less work than a sweep, as machine code, so that it soon makes up for being written;
+/// the same where there is none, for the same bits.
+const FEW: usize = 5;
 
 /// Whether a pivot says that digits are kept, beside what it was at the start.
 #[inline(always)]

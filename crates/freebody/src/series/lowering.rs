@@ -19,6 +19,7 @@ impl Program {
             Places { of: (0..tape.rows).map(Row).collect(), count: given, free: vec![], constants: vec![] };
         let results = tape.results.clone();
         let (moving, fixed): (Vec<_>, Vec<_>) = fused(tape, &moves).into_iter().partition(|step| moves[step.to.at()]);
+        let moving = sines_first(moving, moves.len());
         let mut last: Vec<_> = moves.iter().map(|&moves| if moves { 0 } else { usize::MAX }).collect();
         for (i, step) in moving.iter().enumerate() {
             let rows = step.operands().into_iter().chain(step.values());
@@ -80,7 +81,28 @@ fn fused(tape: Tape<f64>, moves: &[bool]) -> Vec<Step> {
     steps
 }
 
+/// The steps, with those sines that follow from no other one beside each other, before all that does not lead to them.
+fn sines_first(mut steps: Vec<Step>, rows: usize) -> Vec<Step> {
+    let (mut by_sines, mut leads) = (vec![false; rows], vec![false; rows]);
+    for step in &steps {
+        let is_by_sines = step.is_sine() || step.operands().iter().any(|row| by_sines[row.at()]);
+        step.values().for_each(|row| by_sines[row.at()] = is_by_sines);
+    }
+    let is_first = |step: &Step| step.is_sine() && step.operands().iter().all(|row| !by_sines[row.at()]);
+    for step in steps.iter().rev() {
+        if is_first(step) || step.values().any(|row| leads[row.at()]) {
+            step.operands().iter().for_each(|row| leads[row.at()] = true);
+        }
+    }
+    steps.sort_by_key(|step| (!leads[step.to.at()], !is_first(step)));
+    steps
+}
+
 impl Step {
+    fn is_sine(&self) -> bool {
+        matches!(self.op, Op::SinCos(_))
+    }
+
     fn operands(&self) -> Vec<Row> {
         let mut operands = self.op.operands();
         operands.extend(self.start);

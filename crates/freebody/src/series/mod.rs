@@ -3,11 +3,16 @@
 //!
 //! It knows no mechanics. A formula over [`Scalar`](crate::scalar::Scalar) is [`recorded`] by calling it with [`Traced`] numbers;
 //! what comes out is a [`Tape`], valid as long as the formula would be the same operations. [`Solution`] runs it as series, over doubles or
-//! [`DoubleDouble`](crate::scalar::DoubleDouble)s, [`Program`] for its values, of many states side by side, [`Alone`] of one.
+//! [`DoubleDouble`](crate::scalar::DoubleDouble)s, [`Program`] for its values, of many states side by side, [`Alone`] of one, as
+//! machine code.
 
 mod alone;
 mod lowering;
+#[cfg(target_arch = "x86_64")]
+mod machine_code;
 mod memo;
+#[cfg(target_arch = "x86_64")]
+mod native;
 mod program;
 mod recorder;
 mod solution;

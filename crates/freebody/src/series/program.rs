@@ -3,6 +3,8 @@
 use super::tape::{Op, Row, Term};
 use crate::scalar::block::{self, PART};
 use crate::scalar::{real, Block};
+#[cfg(target_arch = "x86_64")]
+use {super::machine_code::Code, std::sync::OnceLock};
 
 /// A multiple of a product that nothing else needs.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +30,7 @@ pub(super) struct List {
 }
 
 /// The operations of a tape.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Program {
     /// Those on inputs that do not move, done once for many states.
     pub(super) fixed: List,
@@ -39,6 +41,9 @@ pub struct Program {
     pub(super) constants: Vec<(Row, f64)>,
     /// Where each result stands, and how many of the steps are made then.
     pub(super) results: Vec<(Row, usize)>,
+    /// Those on inputs that move as machine code, once it was needed.
+    #[cfg(target_arch = "x86_64")]
+    pub(super) code: OnceLock<Option<Code>>,
 }
 
 impl Program {
@@ -69,29 +74,35 @@ impl Program {
     }
 }
 
+/// An operation, where its value goes, and what it adds.
+pub(super) type Step<'a> = (Row, &'a Op<(), Sum>, &'a [Term<f64>], &'a [Product]);
+
 impl List {
-    /// Makes the first steps, in parts of N values, each read before it is written: values may stand where others stood.
+    /// The operations.
     #[inline(always)]
-    fn run<const B: usize, const N: usize>(&self, steps: usize, memory: &mut [Block<B>]) {
+    pub fn steps(&self) -> impl Iterator<Item = Step<'_>> {
         let (mut terms, mut products) = (&self.terms[..], &self.products[..]);
-        for (to, op) in &self.steps[..steps] {
+        self.steps.iter().map(move |(to, op)| {
             let mut own = (&terms[..0], &products[..0]);
             if let Op::Sum { terms: next, .. } = op {
                 (own.0, terms) = terms.split_at(next.terms as usize);
                 (own.1, products) = products.split_at(next.products as usize);
             }
-            step::<B, N>(memory, *to, op, own);
+            (*to, op, own.0, own.1)
+        })
+    }
+
+    /// Makes the first steps, in parts of N values, each read before it is written: values may stand where others stood.
+    #[inline(always)]
+    pub fn run<const B: usize, const N: usize>(&self, steps: usize, memory: &mut [Block<B>]) {
+        for next in self.steps().take(steps) {
+            step::<B, N>(memory, next);
         }
     }
 }
 
 #[inline(always)]
-fn step<const B: usize, const N: usize>(
-    memory: &mut [Block<B>],
-    to: Row,
-    op: &Op<(), Sum>,
-    (terms, products): (&[Term<f64>], &[Product]),
-) {
+fn step<const B: usize, const N: usize>(memory: &mut [Block<B>], (to, op, terms, products): Step<'_>) {
     match *op {
         Op::Sum { terms: Sum { start, .. }, .. } => {
             for part in 0..B / N {

@@ -3,6 +3,7 @@
 use super::tape::{Op, Row, Tape, Term};
 use crate::scalar::{DoubleDouble, Scalar};
 use rustc_hash::FxHashMap;
+use smallvec::{smallvec, SmallVec};
 
 /// The position of a number of the formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,8 +26,11 @@ pub(super) enum Function {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Form {
     constant: DoubleDouble,
-    terms: Vec<(AtomId, DoubleDouble)>,
+    terms: Terms,
 }
+
+/// Few in most forms.
+type Terms = SmallVec<[(AtomId, DoubleDouble); 4]>;
 
 /// What is not a sum of others; one operation has one atom.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -63,17 +67,17 @@ const FACTORS: usize = 4;
 
 impl Form {
     pub fn constant(constant: DoubleDouble) -> Self {
-        Form { constant, terms: vec![] }
+        Form { constant, terms: Terms::new() }
     }
     fn atom(atom: AtomId) -> Self {
-        Form { terms: vec![(atom, DoubleDouble::one())], ..Form::default() }
+        Form { terms: smallvec![(atom, DoubleDouble::one())], ..Form::default() }
     }
     fn scaled(&self, factor: DoubleDouble) -> Self {
         let terms = self.terms.iter().filter(|_| factor.hi != 0.0).map(|&(atom, x)| (atom, x * factor)).collect();
         Form { constant: self.constant * factor, terms }
     }
     fn plus(&self, o: &Form, factor: DoubleDouble) -> Self {
-        let mut terms = Vec::with_capacity(self.terms.len() + o.terms.len());
+        let mut terms = Terms::with_capacity(self.terms.len() + o.terms.len());
         let (mut a, mut b) = (self.terms.iter().peekable(), o.terms.iter().peekable());
         loop {
             let (x, y) = (a.peek().copied(), b.peek().copied());
@@ -147,7 +151,7 @@ impl Recorder {
     }
 
     fn product(&mut self, a: &Form, b: &Form) -> Form {
-        let outer = Form { constant: a.constant * b.constant, terms: vec![] };
+        let outer = Form { constant: a.constant * b.constant, terms: Terms::new() };
         let (left, right) =
             (Form { terms: a.terms.clone(), ..Form::default() }, Form { terms: b.terms.clone(), ..Form::default() });
         let mut sum = outer.plus(&left, b.constant).plus(&right, a.constant);

@@ -53,13 +53,13 @@ pub struct Tape<S> {
     pub(super) results: Vec<Row>,
 }
 
-impl<S> Op<S> {
-    /// The numbers that its value follows from.
-    pub fn operands(&self) -> Vec<Row> {
-        match *self {
-            Op::Sum { ref terms, .. } => terms.iter().map(|term| term.row).collect(),
-            Op::Product(a, b) | Op::Quotient(a, b) | Op::Atan2 { y: a, x: b, .. } => vec![a, b],
-            Op::Inverse(x) | Op::SinCos(x) | Op::Sqrt(x) | Op::Exp(x) | Op::Ln(x) => vec![x],
+impl<S, T> Op<S, T> {
+    /// The numbers that its value follows from; those of a sum are asked for.
+    pub fn operands_with(&self, of_sum: impl FnOnce(&T) -> Vec<Row>) -> Vec<Row> {
+        match self {
+            Op::Sum { terms, .. } => of_sum(terms),
+            Op::Product(a, b) | Op::Quotient(a, b) | Op::Atan2 { y: a, x: b, .. } => vec![*a, *b],
+            Op::Inverse(x) | Op::SinCos(x) | Op::Sqrt(x) | Op::Exp(x) | Op::Ln(x) => vec![*x],
         }
     }
 
@@ -67,6 +67,13 @@ impl<S> Op<S> {
     pub fn values(&self, first: Row) -> impl Iterator<Item = Row> {
         let count = if matches!(self, Op::SinCos(_)) { 2 } else { 1 };
         (first.0..first.0 + count).map(Row)
+    }
+}
+
+impl<S> Op<S> {
+    /// The numbers that its value follows from.
+    pub fn operands(&self) -> Vec<Row> {
+        self.operands_with(|terms| terms.iter().map(|term| term.row).collect())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::scalar::{Block, DoubleDouble, Scalar};
+use std::sync::Arc;
 
 const ORDER: usize = 20;
 
@@ -83,11 +84,14 @@ fn what_cancels_is_not_computed() {
     assert!(tape.ops.iter().all(|(_, op)| matches!(op, tape::Op::Sum { terms, .. } if terms.is_empty())), "{tape:?}");
 }
 
-/// Every operation; products that only a sum needs; parts that do not move.
+/// Every operation; products that only a sum needs; parts that do not move; sines of each other, and many; more values at a time than
+/// there are registers.
 fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
     let (t, y, p) = (x[0], x[1], x[2]);
     let (sin, cos) = (y * p).sin_cos();
     let (still, open) = ((p * p + S::of(2.0)).sqrt(), y * y + t);
+    let many: Vec<S> = (0..20).map(|i| (t + S::of(f64::from(i))).sqrt()).collect();
+    let turned = |by: usize| (0..20).fold(S::of(0.3), |sum, i| sum - many[i] * many[(i + by) % 20].scale(0.1));
     vec![
         (t * y).scale(3.0) - still * sin * (y + S::of(0.5)) + cos.scale(0.1) + S::of(0.7),
         t + y.scale(1.1) + sin.scale(0.2) + cos.scale(1.3) + t * sin + t * cos + (y * sin).scale(0.3) + y * cos,
@@ -97,14 +101,18 @@ fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
         sin.atan2(cos + still),
         p * still,
         S::of(4.0),
+        turned(3) * (many[7] * y).exp(),
+        turned(8),
+        sin.sin_cos().1 * cos.sin_cos().0.sin_cos().0,
+        (2..8).fold(t, |sum, i| sum + y.scale(f64::from(i)).sin_cos().0),
     ]
 }
 
 #[test]
 fn a_program_gives_the_formula_to_the_same_bits_alone_and_side_by_side() {
     let tape = recorded([0.4, 0.3, 0.9], |x| Ok::<_, ()>(every_operation(x))).unwrap();
-    let program = Program::new(tape.rounded(), 2);
-    let (mut beside, mut all) = (program.memory::<64>(), vec![Block::of(0.0); 8]);
+    let program = Arc::new(Program::new(tape.rounded(), 2));
+    let (mut beside, mut all) = (program.memory::<64>(), vec![Block::of(0.0); 12]);
     let [y, p] = [0.3, 0.7].map(|from| Block(std::array::from_fn(|i| from + 0.11 * i as f64)));
     program.fix(&mut beside, &[p]);
     for t in [0.4, 1.7] {

@@ -9,6 +9,7 @@ use freebody::dynamics::{reaction_names, Route, Workspace};
 use freebody::hybrid::Recorded;
 use freebody::mechanism::Recording;
 use freebody::mode::Mode;
+use freebody::scalar::Block;
 use freebody::series::Alone;
 
 /// How far a state is off the loops, rad, and what is left then by one correction: its square, by levers of less than ten lengths.
@@ -20,6 +21,16 @@ fn read(recorded: &Recorded, workspace: &Workspace, count: usize) -> Vec<f64> {
     let (mut alone, at) = (Alone::new(&recorded.program, &recorded.numbers(workspace)), workspace.at());
     alone.run(at.t, [at.q, at.u]);
     alone.results(0).take(count).collect()
+}
+
+/// The same, in the middle of many side by side.
+fn read_beside(recorded: &Recorded, workspace: &Workspace, count: usize) -> Vec<f64> {
+    let (program, at) = (&recorded.program, workspace.at());
+    let (mut memory, mut found) = (program.memory::<64>(), vec![Block::of(0.0); count]);
+    let each = |x: &[f64]| x.iter().map(|&x| Block::of(x)).collect::<Vec<_>>();
+    program.fix(&mut memory, &each(&recorded.numbers(workspace)));
+    program.run(&mut memory, Block::of(at.t), &each(&[at.q, at.u].concat()), &mut found);
+    found.iter().map(|x| x.0[37]).collect()
 }
 
 /// Visits states on the loops of frames of one to three windows with what is recorded of each frame.
@@ -41,6 +52,17 @@ fn every_state(what: Recording, mut visit: impl FnMut(&Recorded, &mut Workspace,
         }
     }
     assert!(visited > 60, "{visited}");
+}
+
+#[test]
+fn machine_code_gives_the_bits_of_the_list() {
+    for what in [Recording::Rates, Recording::Corrections, Recording::Solution] {
+        every_state(what, |recorded, workspace, label, _| {
+            let alone = read(recorded, workspace, usize::MAX);
+            let beside = read_beside(recorded, workspace, alone.len());
+            assert!(alone.iter().zip(beside).all(|(a, b)| a.to_bits() == b.to_bits()), "{label}");
+        });
+    }
 }
 
 #[test]
