@@ -107,6 +107,15 @@ def test_a_letter_names_what_is_at_a_moment_of_the_motion(statement: str, kind: 
     assert verdict.kind is kind, str(verdict)
 
 
+@pytest.mark.parametrize(("speed", "kind"), [("e^2 √(2 g h)", T), ("e √(2 g h)", W), ("e^3 √(2 g h)", W)])
+def test_the_second_impact_is_the_second(speed: str, kind: Kind) -> None:
+    mechanism = Mechanism.loads(f"freebody: 1\n{BALL}run: {{until: 2 s}}\n")
+    assert Checker(mechanism).check(f"just after the second impact: y' = {speed}", correcting=False).kind is kind
+    assert mechanism.solve(after="second impact").state.t > mechanism.solve(after="impact").state.t
+    with pytest.raises(StatementError, match="does not come to a fourth"):
+        Checker(mechanism).check("just after the fourth impact: y' = 0")
+
+
 def test_a_letter_of_a_moment_that_there_is_not_is_refused() -> None:
     mechanism = Mechanism.loads(f"freebody: 1\n{BALL}run: {{until: 1.2 s}}\n")
     with pytest.raises(StatementError, match="nothing that happens"):

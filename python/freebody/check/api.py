@@ -331,7 +331,7 @@ class Checker:
             return often
         if found:
             raise ModelProblem(
-                f"of what happens several times only the first is judged, not the {found[0]}",
+                f"the motion of this model does not come to a {found[0]} of these",
                 "write `at 0.3 s: …`, or say when it is",
             )
         alike_in_kind = [name for name, its in kinds.items() if (kind := kind_of(said)) and kind == its]
