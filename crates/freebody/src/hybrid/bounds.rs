@@ -14,6 +14,11 @@ fn is_one_formula(law: &ModelExpr) -> bool {
     is_measured(law) && law.is_without_choice()
 }
 
+/// Whether a function with this bound is far from zero.
+fn is_far(&[value, most]: &[f64; 2]) -> bool {
+    value.abs() > 2.0 * most
+}
+
 impl SwitchingFunction {
     /// Whether it can have a bound as long as nothing touches or rubs.
     pub(super) fn may_have_bound(self, m: &Mechanism) -> bool {
@@ -30,26 +35,36 @@ impl SwitchingFunction {
 }
 
 impl HybridSystem<'_> {
-    /// Writes of every switching function its value in the middle of a step, and how far it goes from there at most; false
-    /// where one has no bound.
+    /// Writes of every switching function its value at a state, and how far it goes from there at most in a step; false where one has no
+    /// bound. The state is that where the mechanism happens to be, as long as all are far from zero by that; else in the middle of the step.
     pub(super) fn bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> bool {
         let idle = |mode: ContactMode| matches!(mode, ContactMode::Open | ContactMode::Off);
         if !(self.may_have_bounds && self.mode.contacts.iter().all(|contact| idle(contact.mode))) {
             return false;
         }
-        let (middle, half) = (0.5 * (on.t0 + on.t1), 0.5 * (on.t1 - on.t0).abs());
+        self.note_roundoff(on.end());
+        self.workspace.enter(&self.mode);
+        if self.workspace.is_placed() && self.write_bounds(on, out).is_some() && out.iter().all(is_far) {
+            return true;
+        }
         let mut y = std::mem::take(&mut self.middle);
         y.resize(self.scales.len(), 0.0);
-        on.at(middle, &mut y);
-        self.note_roundoff(&y);
-        self.place(middle, &y);
+        on.at(0.5 * (on.t0 + on.t1), &mut y);
+        self.place(0.5 * (on.t0 + on.t1), &y);
         self.middle = y;
-        self.travel.follow(self.workspace.at(), on.parts(), |k, i| on.part(k, i), half);
-        self.write_bounds(out).is_some()
+        self.write_bounds(on, out).is_some()
     }
 
-    fn write_bounds(&self, out: &mut [[f64; 2]]) -> Option<()> {
+    fn write_bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> Option<()> {
         let (m, at) = (self.workspace.m, self.workspace.at());
+        // From here to the middle of the step, and from there along it.
+        let along = on.parts();
+        let write_parts = |i: usize, out: &mut [f64]| {
+            on.write_parts(i, &mut out[..along]);
+            out[along] = on.start()[i] + out[..along].iter().sum::<f64>() - at.q[i];
+        };
+        let time = (0.5 * (on.t0 + on.t1) - at.t).abs() + 0.5 * (on.t1 - on.t0).abs();
+        self.travel.follow(at, along + 1, write_parts, time);
         let view = TravelView { at, travel: &self.travel };
         let (events, guards) = out.split_at_mut(m.events.len());
         for (bound, event) in events.iter_mut().zip(&m.events) {

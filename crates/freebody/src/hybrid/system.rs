@@ -275,7 +275,10 @@ impl System for HybridSystem<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         let (n, states) = (self.workspace.m.freedom(), self.first_state());
-        if !self.near_singular && self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy)) {
+        if !self.near_singular
+            && self.mode.is_free()
+            && self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy))
+        {
             return Ok(());
         }
         if self.mode.resting {

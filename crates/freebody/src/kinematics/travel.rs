@@ -16,6 +16,8 @@ pub struct Travel {
     turn: Vec<f64>,
     /// How far it turns in each part of the motion, rad.
     turns: Vec<f64>,
+    /// How far a coordinate goes in each part.
+    own: Vec<f64>,
     /// How far each coordinate goes at most.
     change: Vec<f64>,
     /// How far time goes, s.
@@ -23,40 +25,44 @@ pub struct Travel {
 }
 
 impl Travel {
-    /// Takes the changes dₖ of the coordinates in each of `parts` parts of a motion that lasts from `time` before the state
-    /// to `time` after it. What hangs on a joint along a curve may go anywhere.
-    pub fn follow(&mut self, at: StateView<'_>, parts: usize, part: impl Fn(usize, usize) -> f64, time: f64) {
+    /// Takes a motion of so many parts that is never more than `time` from the state; `write_parts` writes the changes dₖ of a
+    /// coordinate in them. What hangs on a joint along a curve may go anywhere.
+    pub fn follow(&mut self, at: StateView<'_>, parts: usize, write_parts: impl Fn(usize, &mut [f64]), time: f64) {
         let bodies = at.m.bodies.len();
         self.time = time;
         for (list, size) in [
             (&mut self.way, bodies),
             (&mut self.turn, bodies),
             (&mut self.turns, bodies * parts),
+            (&mut self.own, parts),
             (&mut self.change, at.q.len()),
         ] {
-            list.clear();
             list.resize(size, 0.0);
         }
+        self.turns[..parts].fill(0.0); // of ground
         for body in 1..bodies {
             let Some(b) = at.m.bodies[body].tree_joint else { continue };
             let joint = &at.m.joints[b.joint];
             let (before, own) = self.turns.split_at_mut(body * parts);
             let (carried, turned) = (&before[b.parent * parts..][..parts], &mut own[..parts]);
-            if !at.m.bodies[body].particle {
-                turned.copy_from_slice(carried);
+            match at.m.bodies[body].particle {
+                true => turned.fill(0.0),
+                false => turned.copy_from_slice(carried),
             }
             let (mut shift, mut spin, mut relative) = (0.0, 0.0, 0.0);
             for (j, coordinate) in joint.coordinates.iter().enumerate() {
                 let (i, reading) = (b.start + j, coordinate.reading(&at.n.values));
-                let (column, is_shift) = (at.k.motion_subspace[body][j].w, coordinate.dimension == "m");
-                for k in 0..parts {
-                    let change = part(k, i);
-                    self.change[i] += change.abs();
-                    let own = reading.to_joint(0.0, change, 0.0, carried[k]).1;
-                    *(if is_shift { &mut shift } else { &mut spin }) += own.abs();
-                    turned[k] += column * own;
-                    relative += (column * own).abs();
+                let (column, is_shift) = (at.k.motion_subspace[body][j].w, !b.hinge && coordinate.dimension == "m");
+                write_parts(i, &mut self.own);
+                self.change[i] = self.own.iter().map(|change| change.abs()).sum();
+                let mut sum = 0.0;
+                for ((&change, carried), turned) in self.own.iter().zip(carried).zip(&mut *turned) {
+                    let own = reading.to_joint(0.0, change, 0.0, *carried).1;
+                    *turned += column * own;
+                    sum += own.abs();
                 }
+                *(if is_shift { &mut shift } else { &mut spin }) += sum;
+                relative += column.abs() * sum;
             }
             if joint.curve.is_some() {
                 turned.fill(f64::INFINITY);

@@ -55,17 +55,21 @@ impl Segment {
         }
     }
 
-    /// In how many parts [`Segment::part`] splits the motion about the middle of the step.
+    /// In how many parts [`Segment::write_parts`] splits the motion about the middle of the step.
     pub fn parts(&self) -> usize {
         (self.values.len() / self.n.max(1)).max(2) - 1
     }
 
-    /// Part `k` of how far component `i` goes from the middle of the step at most: it goes there by the sum of all parts, each
-    /// times a factor from −1 to 1 that is the same for all components. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to
-    /// below twice its value 2⁻ᵃ⁻ᵇ at the middle.
-    pub fn part(&self, k: usize, i: usize) -> f64 {
-        let full = if k == 0 { self.end()[i] - self.start()[i] } else { self.values[(k + 1) * self.n + i] };
-        full * (1.0 / f64::from(2_u32 << k))
+    /// Writes the parts of how far component `i` goes from the middle of the step at most, which are also those by which the middle is
+    /// off the start: it goes there by the sum of all parts, each times a factor from −1 to 1 that is the same for all components. For
+    /// θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to below twice its value 2⁻ᵃ⁻ᵇ at the middle.
+    pub fn write_parts(&self, i: usize, out: &mut [f64]) {
+        let (mut half, mut at) = (0.5, self.n + i);
+        out[0] = half * (self.values[at] - self.values[i]);
+        for out in &mut out[1..] {
+            (half, at) = (0.5 * half, at + self.n);
+            *out = half * self.values[at];
+        }
     }
 
     /// State at the start of the step.

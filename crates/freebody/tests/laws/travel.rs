@@ -24,7 +24,8 @@ fn nothing_leaves_its_bound() {
         let parts: Vec<Vec<f64>> = (0..PARTS).map(|_| rng.vector(n, size)).collect();
         workspace.move_to(0.0, &bench.q, &at_rest);
         let mut travel = Travel::default();
-        travel.follow(workspace.at(), PARTS, |k, i| parts[k][i], 0.0);
+        let write_parts = |i: usize, out: &mut [f64]| (0..PARTS).for_each(|k| out[k] = parts[k][i]);
+        travel.follow(workspace.at(), PARTS, write_parts, 0.0);
         let numbers = |Pose { at, turn }: Pose<Ball>| [at.x, at.y, turn.angle, turn.cos, turn.sin];
         let bounds: Vec<[Ball; 5]> =
             (0..bodies).map(|body| numbers(TravelView { at: workspace.at(), travel: &travel }.pose(body))).collect();
