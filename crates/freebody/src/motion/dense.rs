@@ -55,21 +55,18 @@ impl Segment {
         }
     }
 
-    /// In how many parts [`Segment::write_parts`] splits the motion about the middle of the step.
-    pub fn parts(&self) -> usize {
-        (self.values.len() / self.n.max(1)).max(2) - 1
-    }
-
-    /// Writes the parts of how far component `i` goes from the middle of the step at most, which are also those by which the middle is
-    /// off the start: it goes there by the sum of all parts, each times a factor from −1 to 1 that is the same for all components. For
-    /// θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to below twice its value 2⁻ᵃ⁻ᵇ at the middle.
-    pub fn write_parts(&self, i: usize, out: &mut [f64]) {
-        let (mut half, mut at) = (0.5, self.n + i);
-        out[0] = half * (self.values[at] - self.values[i]);
-        for out in &mut out[1..] {
-            (half, at) = (0.5 * half, at + self.n);
-            *out = half * self.values[at];
+    /// Component `i` in the middle of the step, and how far it goes from there at most: by the first two of three parts, each times a
+    /// factor from −1 to 1 that is the same for all components, and by no more than the third. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is
+    /// from 0 to below twice its value 2⁻ᵃ⁻ᵇ at the middle.
+    pub fn about_middle(&self, i: usize) -> (f64, [f64; 3]) {
+        let [first, second] = [0.5 * (self.end()[i] - self.start()[i]), 0.25 * self.values[2 * self.n + i]];
+        let (mut middle, mut rest, mut half) = (self.start()[i] + first + second, 0.0, 0.25);
+        for bend in self.values[3 * self.n + i..].iter().step_by(self.n) {
+            half *= 0.5;
+            middle += half * bend;
+            rest += (half * bend).abs();
         }
+        (middle, [first, second, rest])
     }
 
     /// State at the start of the step.
