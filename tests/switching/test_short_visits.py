@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq, minimize_scalar
 from seen import changes, model
 
 BALL = """
@@ -75,3 +76,31 @@ events: {zero: {when: (t - a)*(t - b)*(t - c)}}
         # Between roots so near the extremum is zero to 1e-12 of the function's size: that may be recorded as a touch.
         crossings = [event.t for event in run.events if event.kind == "crossing"]
         assert crossings == pytest.approx([a, b], abs=1e-9), (a, gap, c)
+
+
+PENDULUM = """
+parameters: {depth: 10 m}
+bodies: {upper: {shape: rod, length: 1 m, mass: 1 kg}, lower: {shape: rod, length: 1 m, mass: 1 kg}}
+ground: {points: {F: [0, -depth]}, lines: {floor: {through: F, angle: 0}}}
+joints:
+  pivot: {type: hinge, of: [ground.O, upper.start], coordinate: a}
+  elbow: {type: hinge, of: [upper.end, lower.start], coordinate: b}
+contacts: {floor: {of: [lower.end, ground.floor], friction: 0.3}}
+initial: {a: 0.3, b: -1.1, rates: {a: 0, b: 0}}
+"""
+
+
+@pytest.mark.parametrize("within", [1e-3, 1e-5, 1e-8])
+def test_a_floor_is_struck_just_within_the_lowest_place(within):
+    """The tip of a double pendulum comes to its lowest place, for a while far shorter than a step, and passes it where there is no floor."""
+    m = model(PENDULUM)
+    free = m.simulate(until=10, rtol=1e-11)
+    height = lambda t: float(free.evaluate("y(lower.end)", t))
+    times = np.linspace(0, 10, 20001)
+    near = times[np.argmin(free.evaluate("y(lower.end)", times))]
+    lowest = minimize_scalar(height, bounds=(near - 1e-3, near + 1e-3), method="bounded", options={"xatol": 1e-10})
+    m.parameters["depth"] = -lowest.fun + within
+    assert not changes(m.simulate(until=10, rtol=1e-11))
+    m.parameters["depth"] = -lowest.fun - within
+    first = changes(m.simulate(until=10, rtol=1e-11))[0]
+    assert first.t == pytest.approx(brentq(lambda t: height(t) + m.parameters["depth"], near - 0.05, lowest.x), abs=1e-6)

@@ -131,6 +131,13 @@ impl Mode {
             spent: vec![],
         }
     }
+    /// Whether nothing touches, sticks or rests, and all parts are in place: then it moves as if nothing could happen to it.
+    pub fn is_free(&self) -> bool {
+        !self.resting
+            && self.off.is_empty()
+            && self.contacts.iter().all(|contact| !contact.mode.touches())
+            && self.joint_friction.is_empty()
+    }
     /// Whether it is a mode of this mechanism.
     pub fn fits(&self, m: &Mechanism) -> bool {
         self.branches.len() <= m.switches

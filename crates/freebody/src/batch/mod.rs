@@ -69,8 +69,9 @@ impl Batch<'_> {
     pub fn run(&self, rows: &mut [f64], go_on: &mut dyn FnMut() -> bool) -> Option<Vec<Ending>> {
         let width = self.times.len() * self.width();
         let mut endings = vec![Ending::default(); self.members];
-        let recorded = self.is_march().then(|| self.record()).flatten();
-        let recordings = self.has_own_steps().then(|| self.recordings()).flatten();
+        let fits = SmoothMotion::<Traced>::fits(self.m);
+        let recorded = (fits && self.is_march()).then(|| self.record()).flatten();
+        let recordings = (fits && self.has_own_steps()).then(|| self.recordings()).flatten();
         let block = if recorded.is_some() || recordings.is_some() { SIDE_BY_SIDE } else { 1 };
         let todo = rows.chunks_mut((block * width).max(1)).zip(endings.chunks_mut(block)).enumerate();
         let begin = || {

@@ -122,12 +122,10 @@ impl Workspace<'_> {
         let gaps: Vec<Row> = constraints.iter().map(|&l| gap_row(at, l, None).scaled(self.lever(l))).collect();
         let slides: Vec<Option<Row>> =
             constraints.iter().map(|&l| self.m.unilateral[l].friction.and_then(|_| slide_row(at, l, None))).collect();
-        self.rows = closing_rows(at, None);
-        let mut arms = std::mem::take(&mut self.arms);
-        super::loads::centre_arms(self.at(), &mut arms);
-        self.arms = arms;
-        self.factor(Force::ActuatorDirection)?;
         let k = constraints.len();
+        if k > 0 {
+            self.factor_closing_rows()?;
+        }
         let rates = gaps.iter().map(|r| r.rate.unwrap_or(0.0));
         let rates = rates.chain(slides.iter().map(|s| s.as_ref().and_then(|r| r.rate).unwrap_or(0.0))).collect();
         let mut contacts = ClosedContacts {
@@ -147,6 +145,13 @@ impl Workspace<'_> {
         let moved = |i: usize, by: &[f64]| felt[i].iter().map(|&(k, x)| x * by[k]).sum::<f64>();
         contacts.g = Matrix::from_fn(2 * k, 2 * k, |i, j| moved(i, &contacts.responses[j]));
         Ok(contacts)
+    }
+
+    /// Factors the masses with the rows of all that is closed in the present mode.
+    pub(super) fn factor_closing_rows(&mut self) -> Result<(), DynamicsError> {
+        self.rows = closing_rows(self.at(), None);
+        super::loads::centre_arms(self.placed.view(self.m, &self.n, &self.k), &mut self.arms);
+        self.factor(Force::ActuatorDirection)
     }
 
     /// The same without those that all else keeps as they are, as a stop at which a lock holds: they are left closed, without

@@ -106,6 +106,7 @@ impl Workspace<'_> {
     /// As [`Workspace::solve`].
     pub fn engagement_impact(&mut self) -> Result<ImpactSolution, DynamicsError> {
         let nothing = self.closed_contacts(vec![])?;
+        self.factor_closing_rows()?;
         let asked: Vec<f64> = self.rows.iter().map(|row| -row.rate.unwrap_or(0.0)).collect();
         let solution = self.dense.saddle.solve(&vec![0.0; self.m.freedom()], &asked);
         let mut change = vec![0.0; self.m.freedom()];

@@ -44,13 +44,17 @@ pub struct SmoothMotion<'m, S> {
 impl<'m, S: Scalar> SmoothMotion<'m, S> {
     /// Whether the motion of a mechanism is the same operations whatever its numbers, and nothing happens in it.
     pub fn fits(m: &Mechanism) -> bool {
+        m.events.is_empty() && !m.is_hybrid() && Self::fits_while_free(m)
+    }
+
+    /// Whether it is so as long as its mode [is free](Mode::is_free).
+    pub fn fits_while_free(m: &Mechanism) -> bool {
         let holds_axes = |&joint: &usize| m.joints[joint].kind.held().is_some();
         let is_plain = |(drive, gauges): (&Drive, &DriveGauges)| {
             let is_uniform = drive.of.is_uniform() && drive.law.is_uniform();
             drive.level == Level::Position && gauges.force.is_none() && is_uniform
         };
-        m.events.is_empty()
-            && Self::roughness(m).is_none()
+        Self::roughness(m).is_none()
             && m.closures.iter().all(holds_axes)
             && m.drives.iter().zip(&m.drive_gauges).all(is_plain)
     }
@@ -60,6 +64,7 @@ impl<'m, S: Scalar> SmoothMotion<'m, S> {
         match (m.closures.is_empty(), m.drives.is_empty()) {
             (false, _) => Some("joints close a loop"),
             (_, false) => Some("a motion or a coupling is prescribed"),
+            _ if m.is_hybrid() => Some("there are contacts, stops, strings, joint friction or parts that come and go"),
             _ => Self::roughness(m),
         }
     }
@@ -69,7 +74,6 @@ impl<'m, S: Scalar> SmoothMotion<'m, S> {
             |joint: &Joint| joint.curve.is_none() && !joint.coordinates.iter().any(|c| joint.kind.unsigned(c.card));
         let is_smooth = |force: &Force| force.plate.is_none() && force.laws().all(ModelExpr::is_uniform);
         let obstacles = [
-            (m.is_hybrid(), "there are contacts, stops, strings, joint friction or parts that come and go"),
             (!m.discontinuities.is_empty(), "a law switches"),
             (!m.joints.iter().all(is_plain), "a joint runs along a curve, or its coordinate has no sign"),
             (!m.forces.iter().all(is_smooth), "a law of a force is looked up, or its formula has branches"),

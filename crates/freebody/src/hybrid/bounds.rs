@@ -14,6 +14,37 @@ fn is_one_formula(law: &ModelExpr) -> bool {
     is_measured(law) && law.is_without_choice()
 }
 
+/// How many times as far as it goes in a step a motion may go before it is asked again what is near.
+const ROOM: f64 = 8.0;
+
+/// Whether functions with these bounds are all far from zero, and would be if they went so many times as far.
+fn are_far(bounds: &[[f64; 2]], times: f64) -> bool {
+    bounds.iter().all(|[value, most]| value.abs() > 2.0 * times * most)
+}
+
+/// All states about one, in a phase of the motion, with the bounds of the switching functions there.
+pub(super) struct Room {
+    phase: usize,
+    t: f64,
+    q: Vec<f64>,
+    /// How far time and each coordinate may go.
+    time: f64,
+    reach: Vec<f64>,
+    bounds: Vec<[f64; 2]>,
+}
+
+impl Room {
+    /// Whether a step stays in it.
+    fn holds(&self, on: &Segment) -> bool {
+        let is_within = |(i, (q, reach)): (usize, (&f64, &f64))| {
+            let (middle, parts) = on.about_middle(i);
+            (middle - q).abs() + parts.iter().map(|part| part.abs()).sum::<f64>() <= *reach
+        };
+        let is_in_time = |t: f64| (t - self.t).abs() <= self.time;
+        is_in_time(on.t0) && is_in_time(on.t1) && self.q.iter().zip(&self.reach).enumerate().all(is_within)
+    }
+}
+
 impl SwitchingFunction {
     /// Whether it can have a bound as long as nothing touches or rubs.
     pub(super) fn may_have_bound(self, m: &Mechanism) -> bool {
@@ -30,22 +61,56 @@ impl SwitchingFunction {
 }
 
 impl HybridSystem<'_> {
-    /// Writes of every switching function its value in the middle of a step, and how far it goes from there at most; false
-    /// where one has no bound.
+    /// Writes of every switching function its value at a state, and how far it goes from there at most in a step; false where one has no
+    /// bound. The state is that where the mechanism happens to be, as long as all are far from zero by that; else in the middle of the step.
     pub(super) fn bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> bool {
         let idle = |mode: ContactMode| matches!(mode, ContactMode::Open | ContactMode::Off);
         if !(self.may_have_bounds && self.mode.contacts.iter().all(|contact| idle(contact.mode))) {
             return false;
         }
-        let (middle, half) = (0.5 * (on.t0 + on.t1), 0.5 * (on.t1 - on.t0).abs());
-        let mut y = std::mem::take(&mut self.middle);
-        y.resize(self.scales.len(), 0.0);
-        on.at(middle, &mut y);
-        self.note_roundoff(&y);
-        self.place(middle, &y);
-        self.middle = y;
-        self.travel.follow(self.workspace.at(), on.parts(), |k, i| on.part(k, i), half);
-        self.write_bounds(out).is_some()
+        self.note_roundoff(on.end());
+        // Where the motion has room nothing is placed.
+        if let Some(room) = self.room.as_ref().filter(|room| room.phase == self.phases.len() && room.holds(on)) {
+            out.copy_from_slice(&room.bounds);
+            return true;
+        }
+        self.workspace.enter(&self.mode);
+        let is_told = self.workspace.is_placed() && self.follow(on, out).is_some() && are_far(out, 1.0);
+        if !is_told {
+            let mut y = std::mem::take(&mut self.middle);
+            y.resize(self.scales.len(), 0.0);
+            on.at(0.5 * (on.t0 + on.t1), &mut y);
+            self.place(0.5 * (on.t0 + on.t1), &y);
+            self.middle = y;
+            if self.follow(on, out).is_none() {
+                return false;
+            }
+        }
+        self.room = if are_far(out, ROOM) { self.room(out.to_vec()) } else { None };
+        true
+    }
+
+    /// The bounds in a step, from where the mechanism is.
+    fn follow(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> Option<()> {
+        let at = self.workspace.at();
+        let changes = |i: usize| {
+            let (middle, [first, second, rest]) = on.about_middle(i);
+            [first, second, middle - at.q[i], rest]
+        };
+        let time = (0.5 * (on.t0 + on.t1) - at.t).abs() + 0.5 * (on.t1 - on.t0).abs();
+        self.travel.follow(at, changes, time);
+        self.write_bounds(out)
+    }
+
+    /// All states within some times as far as was followed last, as long as all functions are far from zero there.
+    fn room(&mut self, mut bounds: Vec<[f64; 2]>) -> Option<Room> {
+        let at = self.workspace.at();
+        let (reach, time): (Vec<f64>, _) =
+            (self.travel.changes().iter().map(|change| ROOM * change).collect(), ROOM * self.travel.time());
+        self.travel.follow(at, |i| [0.0, 0.0, 0.0, reach[i]], time);
+        self.write_bounds(&mut bounds)?;
+        let at = self.workspace.at();
+        are_far(&bounds, 1.0).then(|| Room { phase: self.phases.len(), t: at.t, q: at.q.to_vec(), time, reach, bounds })
     }
 
     fn write_bounds(&self, out: &mut [[f64; 2]]) -> Option<()> {

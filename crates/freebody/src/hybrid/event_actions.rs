@@ -76,6 +76,7 @@ impl HybridSystem<'_> {
         }
         let p = self.workspace.m.parameters_with(&self.set);
         self.workspace.rebind(&p);
+        self.recorded = None;
         self.begin_changed_phase(t, y, before);
     }
 }

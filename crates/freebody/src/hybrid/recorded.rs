@@ -7,6 +7,7 @@ use crate::mechanism::Recording;
 use crate::scalar::Scalar;
 use crate::series::{recorded, Alone, Program, Traced};
 use crate::solve::Quasidefinite;
+use std::iter::repeat;
 use std::sync::Arc;
 
 /// By how much the state recorded is aside: there no length vanishes without which a spring has no direction.
@@ -15,9 +16,9 @@ const ASIDE: f64 = 0.618_033_988_749_894_9;
 pub(super) const NEAR_SINGULAR: f64 = 0.1;
 /// Part of what was left of an inertia or a row at the start, where it is eliminated, below which digits may be lost.
 const FIRM: f64 = 1e-2;
-/// Freedom of trees up to which a program is a third less work than a sweep, as machine code, so that it soon makes up for being written;
-/// the same where there is none, for the same bits.
-const FEW: usize = 5;
+/// Freedom of trees up to which a program is no more work than a sweep, also where there is no machine code: all machines go the same
+/// way, for the same bits.
+const FEW: usize = 3;
 
 /// Whether a pivot says that digits are kept, beside what it was at the start.
 #[inline(always)]
@@ -38,11 +39,12 @@ pub struct Recorded {
 }
 
 impl Recorded {
-    /// That of a mechanism that is placed, recorded once for all its motions; None where its motion may be other operations elsewhere.
+    /// That of a mechanism that is placed, in a mode that [is free](crate::mode::Mode::is_free), recorded once for all its motions; None
+    /// where its motion may be other operations elsewhere.
     pub fn new(workspace: &Workspace, what: Recording) -> Option<Self> {
         let (m, massless) = (workspace.m, massless(workspace.at().n));
         let pivots = if m.is_tree() { 0 } else { m.freedom() + closing_rows(workspace.at(), None).len() };
-        if !SmoothMotion::<Traced>::fits(m) || pivots > Quasidefinite::MOST {
+        if !SmoothMotion::<Traced>::fits_while_free(m) || pivots > Quasidefinite::MOST {
             return None;
         }
         let bound: Vec<_> = (0..m.values.len()).filter(|&i| m.values[i].variables().next().is_some()).collect();
@@ -127,7 +129,8 @@ impl Motion {
         let (own, rest) = dy.split_at_mut(self.own);
         let (works, states) = rest.split_at_mut(first_state - self.own);
         for (to, from) in [(own, 0), (states, self.own), (works, rates + self.pivots.len())] {
-            to.iter_mut().zip(self.program.results(from)).for_each(|(to, from)| *to = from);
+            // Behind all results are friction and contacts, which do no work.
+            to.iter_mut().zip(self.program.results(from).chain(repeat(0.0))).for_each(|(to, from)| *to = from);
         }
         let mut pivots = self.pivots.iter().zip(self.program.results(rates));
         let is_kept = pivots.all(|(&start, pivot)| is_firm(pivot, start));
@@ -136,11 +139,11 @@ impl Motion {
 }
 
 impl HybridSystem<'_> {
-    /// Lets a program carry the motion from a state on that can be solved: as it does many side by side, to the same bits. Trees of more
-    /// than a few bodies are swept sooner, and so are unless they march.
+    /// Lets a program carry the motion from a state on that can be solved, as long as its mode is free: as it does many side by side, to
+    /// the same bits. Trees of more than a few bodies are swept sooner, and so are unless they march.
     pub(super) fn record_equations(&mut self, t: f64, y: &[f64], marches: bool) {
         let m = self.workspace.m;
-        if SmoothMotion::<Traced>::fits(m) && (marches || !m.is_tree() || m.freedom() <= FEW) {
+        if self.mode.is_free() && (marches || !m.is_tree() || m.freedom() <= FEW) {
             self.place(t, y);
             let is_solved = self.workspace.solve_motion().is_ok();
             self.recorded = is_solved.then(|| Motion::new(&mut self.workspace)).flatten();

@@ -1,5 +1,6 @@
 //! A mechanism as a system of differential equations with events.
 
+use super::bounds::Room;
 use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
@@ -50,6 +51,8 @@ pub struct HybridSystem<'m> {
     /// its middle.
     pub(super) may_have_bounds: bool,
     pub(super) travel: Travel,
+    /// Where nothing comes near.
+    pub(super) room: Option<Room>,
     pub(super) middle: Vec<f64>,
     /// What is active now.
     pub(super) mode: Mode,
@@ -111,6 +114,7 @@ impl<'m> HybridSystem<'m> {
             switching_functions: SwitchingFunction::all(m).collect(),
             may_have_bounds: SwitchingFunction::all(m).all(|function| function.may_have_bound(m)),
             travel: Travel::default(),
+            room: None,
             middle: vec![],
             mode,
             works,
@@ -275,7 +279,10 @@ impl System for HybridSystem<'_> {
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError> {
         let (n, states) = (self.workspace.m.freedom(), self.first_state());
-        if !self.near_singular && self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy)) {
+        if !self.near_singular
+            && self.mode.is_free()
+            && self.recorded.as_mut().is_some_and(|motion| motion.write_rates(t, y, dy))
+        {
             return Ok(());
         }
         if self.mode.resting {

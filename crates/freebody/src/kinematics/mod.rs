@@ -13,7 +13,7 @@ mod view;
 
 pub use joint_view::JointView;
 pub use measure::{gradient, jet, Config, Observed, State};
-pub use travel::{Travel, TravelView};
+pub use travel::{Travel, TravelView, PARTS};
 pub use view::{relative, MotionView, Poses, SeededView, StateView, ValuesView};
 
 use crate::bound_values::{BoundValues, HingeNumbers};

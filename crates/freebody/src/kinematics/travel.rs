@@ -6,8 +6,12 @@ use crate::mechanism::{Joint, TreeJoint};
 use crate::plane::{Pose, Turn, Vec2};
 use crate::scalar::{Ball, Scalar};
 
+/// Parts of the motions that are followed, and the one by which each coordinate goes for itself.
+pub const PARTS: usize = 4;
+const ALONE: usize = PARTS - 1;
+
 /// Bounds of how far the bodies go from a state while each coordinate goes by Σₖ wₖ dₖ, where |wₖ| ≤ 1: all coordinates
-/// together, so that what opposite turns leave of each other is found.
+/// together, so that what opposite turns leave of each other is found, but in the last part each for itself.
 #[derive(Clone, Debug, Default)]
 pub struct Travel {
     /// Of each body, how far its joint origin goes at most, m.
@@ -15,7 +19,7 @@ pub struct Travel {
     /// How far it turns at most, rad.
     turn: Vec<f64>,
     /// How far it turns in each part of the motion, rad.
-    turns: Vec<f64>,
+    turns: Vec<[f64; PARTS]>,
     /// How far each coordinate goes at most.
     change: Vec<f64>,
     /// How far time goes, s.
@@ -23,48 +27,54 @@ pub struct Travel {
 }
 
 impl Travel {
-    /// Takes the changes dₖ of the coordinates in each of `parts` parts of a motion that lasts from `time` before the state
-    /// to `time` after it. What hangs on a joint along a curve may go anywhere.
-    pub fn follow(&mut self, at: StateView<'_>, parts: usize, part: impl Fn(usize, usize) -> f64, time: f64) {
+    /// Takes a motion that is never more than `time` from the state, by the changes dₖ of each coordinate. What hangs on a joint along a
+    /// curve may go anywhere.
+    pub fn follow(&mut self, at: StateView<'_>, changes: impl Fn(usize) -> [f64; PARTS], time: f64) {
         let bodies = at.m.bodies.len();
         self.time = time;
-        for (list, size) in [
-            (&mut self.way, bodies),
-            (&mut self.turn, bodies),
-            (&mut self.turns, bodies * parts),
-            (&mut self.change, at.q.len()),
-        ] {
-            list.clear();
-            list.resize(size, 0.0);
-        }
+        self.way.resize(bodies, 0.0);
+        self.turn.resize(bodies, 0.0);
+        self.turns.resize(bodies, [0.0; PARTS]);
+        self.change.resize(at.q.len(), 0.0);
         for body in 1..bodies {
             let Some(b) = at.m.bodies[body].tree_joint else { continue };
-            let joint = &at.m.joints[b.joint];
-            let (before, own) = self.turns.split_at_mut(body * parts);
-            let (carried, turned) = (&before[b.parent * parts..][..parts], &mut own[..parts]);
-            if !at.m.bodies[body].particle {
-                turned.copy_from_slice(carried);
-            }
+            let (joint, carried) = (&at.m.joints[b.joint], self.turns[b.parent]);
+            let mut turned = if at.m.bodies[body].particle { [0.0; PARTS] } else { carried };
             let (mut shift, mut spin, mut relative) = (0.0, 0.0, 0.0);
             for (j, coordinate) in joint.coordinates.iter().enumerate() {
                 let (i, reading) = (b.start + j, coordinate.reading(&at.n.values));
-                let (column, is_shift) = (at.k.motion_subspace[body][j].w, coordinate.dimension == "m");
-                for k in 0..parts {
-                    let change = part(k, i);
-                    self.change[i] += change.abs();
-                    let own = reading.to_joint(0.0, change, 0.0, carried[k]).1;
-                    *(if is_shift { &mut shift } else { &mut spin }) += own.abs();
-                    turned[k] += column * own;
-                    relative += (column * own).abs();
-                }
+                let (column, is_shift) = (at.k.motion_subspace[body][j].w, !b.hinge && coordinate.dimension == "m");
+                let changes = changes(i);
+                self.change[i] = changes.iter().map(|change| change.abs()).sum();
+                let mut own: [f64; PARTS] =
+                    std::array::from_fn(|k| reading.to_joint(0.0, changes[k], 0.0, carried[k]).1);
+                (0..ALONE).for_each(|k| turned[k] += column * own[k]);
+                // What is read from a fixed axis takes back what is carried.
+                let taken = if reading.absolute { 1.0 } else { 0.0 };
+                own[ALONE] = changes[ALONE].abs() + taken * carried[ALONE];
+                turned[ALONE] = turned[ALONE] * (1.0 - taken * column).abs() + (column * changes[ALONE]).abs();
+                let sum: f64 = own.iter().map(|own| own.abs()).sum();
+                *(if is_shift { &mut shift } else { &mut spin }) += sum;
+                relative += column.abs() * sum;
             }
             if joint.curve.is_some() {
-                turned.fill(f64::INFINITY);
+                turned = [f64::INFINITY; PARTS];
             }
+            self.turns[body] = turned;
             self.turn[body] = turned.iter().map(|turn| turn.abs()).sum();
             let swing = self.turn[b.parent] * at.k.arm[body].norm();
             self.way[body] = self.way[b.parent] + swing + joint_way(at, body, joint, b, [shift, spin, relative]);
         }
+    }
+
+    /// How far each coordinate goes at most.
+    pub fn changes(&self) -> &[f64] {
+        &self.change
+    }
+
+    /// How far time goes, s.
+    pub fn time(&self) -> f64 {
+        self.time
     }
 
     /// How far the joint origin of a body goes at most, m.

@@ -55,17 +55,18 @@ impl Segment {
         }
     }
 
-    /// In how many parts [`Segment::part`] splits the motion about the middle of the step.
-    pub fn parts(&self) -> usize {
-        (self.values.len() / self.n.max(1)).max(2) - 1
-    }
-
-    /// Part `k` of how far component `i` goes from the middle of the step at most: it goes there by the sum of all parts, each
-    /// times a factor from −1 to 1 that is the same for all components. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is from 0 to
-    /// below twice its value 2⁻ᵃ⁻ᵇ at the middle.
-    pub fn part(&self, k: usize, i: usize) -> f64 {
-        let full = if k == 0 { self.end()[i] - self.start()[i] } else { self.values[(k + 1) * self.n + i] };
-        full * (1.0 / f64::from(2_u32 << k))
+    /// Component `i` in the middle of the step, and how far it goes from there at most: by the first two of three parts, each times a
+    /// factor from −1 to 1 that is the same for all components, and by no more than the third. For θᵃ(1−θ)ᵇ, with a = b or b + 1, is
+    /// from 0 to below twice its value 2⁻ᵃ⁻ᵇ at the middle.
+    pub fn about_middle(&self, i: usize) -> (f64, [f64; 3]) {
+        let [first, second] = [0.5 * (self.end()[i] - self.start()[i]), 0.25 * self.values[2 * self.n + i]];
+        let (mut middle, mut rest, mut half) = (self.start()[i] + first + second, 0.0, 0.25);
+        for bend in self.values[3 * self.n + i..].iter().step_by(self.n) {
+            half *= 0.5;
+            middle += half * bend;
+            rest += (half * bend).abs();
+        }
+        (middle, [first, second, rest])
     }
 
     /// State at the start of the step.

@@ -22,6 +22,9 @@ impl Runner<'_> {
         }
         let system = &mut *self.system.system;
         let marks = self.detector.search(system, segment).map_err(Outcome::DynamicsError)?;
+        if self.detector.is_clear {
+            return Ok(marks);
+        }
         let (mut counting, mut y) = (Vec::new(), vec![0.0; self.now.y.len()]);
         for mark in marks {
             segment.at(mark.t, &mut y);

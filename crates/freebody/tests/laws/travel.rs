@@ -3,12 +3,11 @@
 use crate::random::*;
 use crate::random_mechanisms::{recipe, HOME};
 use crate::rng::{seeds, Rng};
-use freebody::kinematics::{Poses, Travel, TravelView};
+use freebody::kinematics::{Poses, Travel, TravelView, PARTS};
 use freebody::plane::Pose;
 use freebody::scalar::Ball;
 
-/// Parts of each motion, and how many of all their sums are looked at.
-const PARTS: usize = 3;
+/// How many of all sums of the parts of each motion are looked at.
 const LOOKS: usize = 20;
 /// Round-off of places and angles of order 1 to 100.
 const ROUNDOFF: f64 = 1e-12;
@@ -24,13 +23,14 @@ fn nothing_leaves_its_bound() {
         let parts: Vec<Vec<f64>> = (0..PARTS).map(|_| rng.vector(n, size)).collect();
         workspace.move_to(0.0, &bench.q, &at_rest);
         let mut travel = Travel::default();
-        travel.follow(workspace.at(), PARTS, |k, i| parts[k][i], 0.0);
+        travel.follow(workspace.at(), |i| std::array::from_fn(|k| parts[k][i]), 0.0);
         let numbers = |Pose { at, turn }: Pose<Ball>| [at.x, at.y, turn.angle, turn.cos, turn.sin];
         let bounds: Vec<[Ball; 5]> =
             (0..bodies).map(|body| numbers(TravelView { at: workspace.at(), travel: &travel }.pose(body))).collect();
         for _ in 0..LOOKS {
-            let weights = rng.vector(PARTS, 1.0);
-            let gone = |i: usize| (0..PARTS).map(|k| weights[k] * parts[k][i]).sum::<f64>();
+            let (weights, own) = (rng.vector(PARTS - 1, 1.0), rng.vector(n, 1.0));
+            let together = |i: usize| weights.iter().zip(&parts).map(|(weight, part)| weight * part[i]).sum::<f64>();
+            let gone = |i: usize| together(i) + own[i] * parts[PARTS - 1][i];
             let q: Vec<f64> = bench.q.iter().enumerate().map(|(i, q)| q + gone(i)).collect();
             workspace.move_to(0.0, &q, &at_rest);
             for (body, balls) in bounds.iter().enumerate() {

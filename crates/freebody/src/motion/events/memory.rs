@@ -47,7 +47,7 @@ impl Memory {
         beyond(value, NOISE * self.size)
     }
 
-    /// Whether a function that goes so far from a value stays clearly on the side where it is.
+    /// Whether a function that goes so far from a value, at most, stays clearly on the side where it is.
     pub fn is_kept_away(&self, [value, most]: [f64; 2]) -> bool {
         let (is_calm, noise) = (!self.is_spent && self.now.grazes.is_none(), TOUCH * self.size.max(value.abs()));
         is_calm && value.abs() - noise > CLEAR_OF_ZERO * most && self.now.side == value.signum() as i8
