@@ -3,11 +3,11 @@ side within the tolerance, else to the same bits."""
 
 import numpy as np
 import pytest
+from store import MODELS, every, mechanism
 
 import freebody as fb
 from freebody.core import MotionError
 from freebody.model.errors import ModelFileError
-from store import MODELS, every, mechanism
 
 STEP = {"until": 0.3, "method": "rk4", "step": 0.01}
 PENDULUMS = """

@@ -55,7 +55,7 @@ REMARKS = (
 )  # fmt: skip
 BETWEEN = ("; ", ", ", "\n", " and ", r" \\ ", r",\quad ", ", so ", " ⇒ ", r" \Rightarrow ", "; hence ", " (1)\n")
 _CONDITION = re.compile(
-    r"\s*((?:constant|limit|if|at|just|after|before|for|when|as|initially|small|while|once|until|without|with|steady state|held still)\b[^:=]*(?:=[^:]*)?:(?!=))\s*"
+    r"\s*((?:constant|limit|if|at|just|after|before|for|when|as|initially|small|while|once|until|without|with|steady state|held still|[a-z]+ on the [a-z]+)\b[^:=]*(?:=[^:]*)?:(?!=))\s*"
 )
 _BEHIND = re.compile(r"\s+as\s+\S+\s*(?:→|->).*$|\s*=\s*(?:\\text\{)?const\}?\s*$")
 

@@ -25,7 +25,7 @@ ARRANGED = {
     "jaws together (after the blow): θ = φ": "after the blow: θ = φ",
     "after the first blow, before the second: E = 0": "after the first blow: E = 0",
     "right after the release (θ = θ_0, θ' = 0): R = 0": "right after the release: R = 0",
-    "link locked (θ = 0, d = 0): F = 0": "if d = 0, θ held at 0: F = 0",
+    "link locked (θ = 0, d = 0): F = 0": "if θ held at 0, d = 0: F = 0",
     "natural frequency of the rotor with θ = 0: ω = 1": "with θ = 0: natural frequency: ω = 1",
     "recovery (handle free): E = const": "during recovery: E = const",
     "small, from equilibrium: m a = F": "for small motions: m a = F",

@@ -131,7 +131,8 @@ impl Mode {
             spent: vec![],
         }
     }
-    /// Whether nothing touches, sticks or rests, and all parts are in place: then it moves as if nothing could happen to it.
+    /// Whether nothing touches, sticks or rests, and all parts are in place: then it moves as if nothing could happen to it, unless what
+    /// is in place has come so.
     pub fn is_free(&self) -> bool {
         !self.resting
             && self.off.is_empty()

@@ -16,7 +16,7 @@ import numpy as np
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.model.start import quantity
-from freebody.run.moments import PATIENT, Unreached, time_of
+from freebody.run.moments import ORDINALS, PATIENT, Unreached, time_of
 from freebody.symbolic.errors import StatementError
 
 from .asked_model import does
@@ -325,7 +325,10 @@ class Checker:
         run = self.own_motion
         parts = dict.fromkeys(part for change in run.changes for part in change.of)
         said = with_names(said, parts)
-        if said in (f"{change.kind} {part}" for change in run.changes for part in change.of):
+        which, _, again = said.partition(" ")
+        if {said, again if which in ORDINALS else said} & {
+            f"{change.kind} {part}" for change in run.changes for part in change.of
+        }:
             return said
         if (found := NOT_FIRST.search(said)) and (often := self._again(found[0], said)):
             return often

@@ -85,7 +85,7 @@ _ARROW = re.compile(r"\A(?:→|\\rightarrow)(?=\s*(?:[A-Za-z]{2}|\Z))|(?:→|\\(
 _OPERATORS = "=+*/^·<>≤≥≈→"
 _INTRODUCES = re.compile(r"\b(?:if|when|where|at|for|with|from|until|once|while|as|given|assuming|provided|that|and|or|on|to)\Z")
 """Words behind which an equation is a condition, and not what is said."""
-_AT_TIME = ("at", "instant", "time", "moment")
+_AT_TIME = ("at", "when", "where", "instant", "time", "moment")
 _CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at|no [^:]* in)\b")
 
 # -- what a clause is
@@ -107,7 +107,7 @@ _BEHIND = re.compile(
 )
 """With which one begins behind an equation."""
 _WITHIN = re.compile(
-    rf"\s+(?={_INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\b|(?:at|in)\s+the\s+(?:moment|instant|start|end|{_MOTION})\b"
+    rf"\s+(?={_INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\s+\S|(?:at|in)\s+the\s+(?:moment|instant|start|end|{_MOTION})\b"
     r"|for\s+small\b|(?:for|with)\s+\S+\s*=|released\b|from\s+rest\b)"
 )
 """Where one begins in a clause that first says of what it is: ``energy just after the impact``."""
@@ -157,14 +157,18 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (r"(?:if|where|for|with) (?!.*\b(?:kept|prevented)\b)[a-z'’ -]+ \(([^()]*(?:[=<>→]|->|\\to)[^()]*)\)", r"if \1"),
     (r"((?:in (?:the )?(?:flight|air)|during (?:the )?(?:[a-z]+ )?flight)) (?:only|nothing|no|there|it|the) .*", r"\1"),
     (r"(?:once|when|after) (?:the )?\S+ (?:is|has become) (?:steady|constant)", "in the steady state"),
-    (r"((?:the|an?|it|he|she) .*[a-z]{3}) at(?: the (?:instant|time|moment))?", r"when \1"),  # it blows off at t = …
-    (r"(?:the )?(.*[a-z]{3}) at(?: the (?:instant|time|moment))?", r"just before the \1"),  # first impact at t = …
+    (
+        r"((?:the|an?|it|he|she) .*[a-z]{3}) (?:at|when|where)(?: the (?:instant|time|moment))?",
+        r"when \1",
+    ),  # it blows off at t = …
+    (r"(?:the )?([a-z]+ [a-z]+|[a-z]+) at(?: the (?:instant|time|moment))?", r"just before the \1"),  # first impact at t = …
+    (r"(.*[a-z]{3}) (?:at|when|where)(?: the (?:instant|time|moment))?", r"when \1"),
 )
 """Clauses in words of exercise books, and what is read for them."""
 _IDLE = re.compile(
     r"(?:as\s+a\s+)?special\s+case|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
     r"|for\s+an\s+observer\b.*|(?:solving|using|eliminating|substituting|combining|inserting)\b.*|1:?\s.*\bbefore|2:?\s.*\bafter"
-    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|in\s+the\s+end|eventually|finally|at\s+last|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
+    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
     re.I,
 )
 """Clauses that say nothing of it."""
@@ -418,11 +422,18 @@ def _core(text: str, body: Sequence[_Piece]) -> int | None:
             said = ""
         elif piece.relation and said not in _AT_TIME and not _INTRODUCES.search(said):
             return i
-        elif piece.relation and said in _AT_TIME and i == len(body) - 1 and text[piece.start :].lstrip().startswith("t "):
-            return i  # the first impact at t = …
+        elif piece.relation and said in _AT_TIME and i == len(body) - 1 and _is_moment(text, body[:i]):
+            return i  # the first impact at t = …, the box slides when …
         else:
             said = "" if piece.relation else said
     return None
+
+
+def _is_moment(text: str, before: Sequence[_Piece]) -> bool:
+    """Whether pieces before a relation say what happens where it is so."""
+    last = max((i + 1 for i, piece in enumerate(before) if piece.kind in ",;:"), default=0)
+    words = [text[piece.start : piece.stop] for piece in before[last:] if piece.kind == "words"]
+    return len(words) > 1 and not (_HEAD.match(words[0]) or any(piece.relation for piece in before[last:]))
 
 
 def _suffix(text: str, core: Sequence[_Piece]) -> int:

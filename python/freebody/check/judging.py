@@ -250,6 +250,9 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
         if _at_a_glance(case, equation, family) and of_family(case, equation, family, SAMPLES):
             verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
             return replace(verdict, assumption=FROM_START) if verdict.ok else None
+    if case.sampler.moment and case.meaning.speaks_of_start(equation) and not any(map(case.sampler.has, ways)):
+        what = f"no motions from the start were found that come to where it is said of, {case.sampler.own.moment}, as the model's own does"
+        return Verdict(Kind.UNDECIDABLE, case.program.text, what)
     return None
 
 

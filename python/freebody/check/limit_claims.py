@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from copy import copy
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -26,7 +27,8 @@ from .assumptions import (
 )
 from .case import Case
 from .correction import SECOND, corrections
-from .families import ALL, NoMotion
+from .described import described
+from .families import ALL, Family, NoMotion
 from .held import with_held
 from .language.statements import Equation, symbols_in
 from .phases import phase
@@ -56,7 +58,7 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         there, others, read = found_held
         verdict = limit(there, declared, statement, others)
         return replace(verdict, notes=(*verdict.notes, read))
-    given = family(limits, checker, declared)
+    given = _extreme(checker, declared, words, others) or family(limits, checker, declared)
     if given.late and (ends := _ends(checker)):
         verdict = limit(checker.of_model(("without", *ends), partial(_without, ends)), declared, statement, limits)
         return replace(verdict, notes=(*verdict.notes, f"The motion is followed on past {', '.join(ends)}."))
@@ -89,6 +91,15 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _extreme(checker: Checker, declared: Declared, words: str, others: Sequence[str]) -> Family | None:
+    """The motions of a limit to where something is greatest or least, ``at the lowest point``; None where words say nothing of the kind."""
+    if not others or words in WORDS or not IN_WORDS.fullmatch(words):
+        return None
+    there = copy(checker)
+    there.hypothesis = family(", ".join(others), checker, declared)
+    return described(words, there, declared)
 
 
 def _ends(checker: Checker) -> list[str]:

@@ -42,6 +42,8 @@ _ENOUGH = 8  # samples to judge by
 _LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
 _STILL_SMALL = 10.0  # times as large as it was to be: round-off of what else was arranged
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
+_JUST_BEFORE = 1 - 1e-6  # of the time to a moment, which is not found more exactly
+_SEVERAL = 2  # contacts and stops, of which one may come before another
 _FULL_SPEED = 1000  # the same where a speed is asked for at which something vanishes
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
@@ -155,6 +157,8 @@ class MotionSampler(FollowedModel):
         else:
             found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
+        if found and start and "after" in self.moment and not self._came_as_usual(values, start):
+            return None
         start = self.started(values) if family.since == BEFORE else start
         asked = self._asked_of_motion(start, family) if found and start else family.vanishing
         lost = [text for text in asked if found and not self.vanishes(self.of_now(text, start), found)]
@@ -392,6 +396,21 @@ class MotionSampler(FollowedModel):
                 own = None
             self._usual_impacts[family] = self.impacts(began, own) if own else None
         return self._usual_impacts[family] in (None, self.impacts(start, found))
+
+    def _came_as_usual(self, values: Mapping[str, float], there: State) -> bool:
+        """Whether the moment comes through the impacts of the model's own motion, where there may be others."""
+        if len(self.spec["contacts"]) + len(self.spec["stops"]) < _SEVERAL:
+            return True
+        return self._impacts_before == self._impacts_until(self.started(values), there.t)
+
+    @cached_property
+    def _impacts_before(self) -> list[tuple[str, ...]]:
+        return self._impacts_until(self.first, self.own.t)
+
+    def _impacts_until(self, start: State, t: float) -> list[tuple[str, ...]]:
+        """Between what the impacts are on a motion before a time."""
+        motion = self.run(start, _JUST_BEFORE * (t - start.t)) if t > start.t else None
+        return [change.of for change in motion.changes if change.kind == "impact"] if motion else []
 
     def _asked_of_motion(self, start: State, family: Family) -> list[str]:
         """What has to vanish on a motion itself: its start was put where it has to be."""

@@ -31,7 +31,7 @@ _KINDS = {
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on (?:the|its|his|her) (?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
-    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|open(?:s|ed|ing)?|blows\s+off",
+    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+still)|open(?:s|ed|ing)?|blows\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
@@ -56,6 +56,7 @@ _LASTED = re.compile(r"\b(?:has|have|had)\b")
 _GROUND = re.compile(r"\b(?:ground|floor|land(?:s|ed|ing)?|touch\w*down|wall|table|ice|road|street|slope|incline)\b")
 _TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|together|both|two)\b")
 """Of what touches ground, and of what touches another body."""
+_AGAIN = re.compile(r"\bagain\b")
 _ALL = re.compile(r"\b(?:both|all|they)\b")
 NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
 """Of what happens several times only the first is known."""
@@ -88,8 +89,14 @@ def with_names(words: str, names: Iterable[str]) -> str:
 
 def kind_of(words: str) -> str | None:
     """What goes on in words, of the kinds above."""
-    said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words)]
+    said = [(len(found[0]), kind) for kind, of in _KINDS.items() for found in re.finditer(rf"\b(?:{of})\b", words, re.IGNORECASE)]
     return max(said, key=lambda each: each[0], default=(0, None))[1]  # rolling that ends is slipping
+
+
+def is_moment(words: str, kind: str | None = None) -> bool:
+    """Whether words of what goes on are of a moment: what a contact or a string is in lasts, and so does what has happened."""
+    lasts = (kind or kind_of(words)) in _STATES and _MOMENT.search(words) is None
+    return not (lasts or _LASTED.search(words))
 
 
 def phase(checker: Checker, words: str) -> Phase | None:
@@ -99,11 +106,18 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return Phase(False, (joins,), False)
     kind = kind_of(words)
     place = _ON.match(words)
-    lasts, on_body = LASTS.match(words) is not None or place is not None, place and place[1] in checker.symbols().bodies
+    lasts = LASTS.match(words) is not None or place is not None
+    touched = {
+        name
+        for limit in checker.sampler.core.instant(checker.sampler.own).limits.values()
+        for name in (limit.first, limit.second)
+    }
+    on_body = place and place[1] in checker.symbols().bodies - touched
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
     run = checker.own_motion
-    happened = {change.kind for change in run.changes if change.t > run.t[0]}
+    begins = checker.sampler.own.t if checker.sampler.moment else run.t[0]
+    happened = {change.kind for change in run.changes if change.t > begins}
     if kind == "rest":  # what slides comes to it by sticking
         kind = "stick"
         if kind not in happened:
@@ -112,8 +126,13 @@ def phase(checker: Checker, words: str) -> Phase | None:
     found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
     begun = _begun(run, _STATES[kind]) if kind in _BEFORE else []
     found += begun
-    firsts = {name: (t, part) for t, part, name in sorted(found, reverse=True) if t > run.t[0]}
+    later = sorted({(t, part, name) for t, part, name in found if t > begins})
     limits = checker.sampler.core.instant(checker.sampler.own).limits
+    before = (_BEFORE[change.kind] for change in run.changes if change.kind in _BEFORE)
+    if _AGAIN.search(words) and next(before, None) != _STATES.get(kind, kind):
+        names = [name for *_, name in later]  # what begins anew has done so before
+        later = [(t, part, f"second {name}") for i, (t, part, name) in enumerate(later) if names[:i].count(name) == 1]
+    firsts = {name: (t, part) for t, part, name in reversed(later)}
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
     rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
@@ -135,8 +154,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     at_first = _goes_on_at_first(kind, lasts and not (begun and times), every, states, run, meant)
     if not lasts and NOT_FIRST.search(words):
         return None
-    is_moment = not lasts and not _LASTED.search(words) and (kind not in _STATES or _MOMENT.search(words) is not None)
-    return Phase(at_first and not is_moment, tuple(reversed(changes.values())), is_moment) if changes or at_first else None
+    of_moment = not lasts and is_moment(words, kind)
+    return Phase(at_first and not of_moment, tuple(reversed(changes.values())), of_moment) if changes or at_first else None
 
 
 def _joining(checker: Checker, words: str) -> str | None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.model.errors import ModelProblem
+from freebody.run.moments import Unreached, time_of
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Sym
 
@@ -20,7 +21,7 @@ from .assumptions import WORDS
 from .described import described, way_of
 from .families import BEFORE, SINCE_START
 from .language.statements import symbols_in
-from .phases import NOT_FIRST, Phase, kind_of, phase
+from .phases import NOT_FIRST, Phase, is_moment, kind_of, phase
 from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
 from .wording import LASTS
@@ -92,9 +93,10 @@ def _of_moment(checker: Checker, declared: Declared, words: str, statement: str)
     if _OVER.search(words):
         with suppress(ModelProblem):
             return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
-    if kind_of(words):
+    if kind := kind_of(words):
+        lasts = kind in ("taut", "slack") and not is_moment(words)  # what a string is, not what it does
         with suppress(ModelProblem):  # an event by what goes on from there
-            return in_phase(checker, declared, Phase(False, (checker.happening(words),), True), words, statement)
+            return in_phase(checker, declared, Phase(False, (checker.happening(words),), not lasts), words, statement)
     return None
 
 
@@ -219,6 +221,7 @@ def in_phase(
     sides = [("just ", "after"), ("just ", "before")] if when.is_moment else [("", "after")]
     places = [("", "", "")] * when.at_first + [(just, side, name) for name in when.changes for just, side in sides]
     names = ["at first"] * bool(verdicts) + [f"{just}{side} {name}" if side else "at first" for just, side, name in places]
+    unclear = len(places) > 1 and _WHICH_OF_THEM.search(words) is not None
     found: list[tuple[Place | None, Verdict]] = [(None, one) for one in verdicts]
     problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
     for place, name in zip(places, names[len(names) - len(places) :], strict=True):
@@ -229,11 +232,14 @@ def in_phase(
             continue
         if one.ok:
             one = replace(one, notes=(*one.notes, f"`{words}` is read as {name}."))
-            if not _says_nothing(one):
+            if not (unclear or _says_nothing(one)):
                 return one
         found.append((place, one))
     if not found:
         raise problem
+    if unclear and any(one.ok for _, one in found) and any(one.kind in _WRONG for _, one in found):
+        what = f"it holds on some of the stretches that `{words}` may mean, and not on others"
+        return Verdict(Kind.UNDECIDABLE, statement, what)
     found = [(place, one) for place, one in found if not one.ok] or found  # what is 0 there is spoken of elsewhere
     found = [(place, one) for place, one in found if not one.of_no_motion] or found
     nearest = next((one for _, one in found if one.kind not in _WRONG), None)
@@ -311,6 +317,10 @@ def beside_words(checker: Checker, declared: Declared, just: str, side: str, eve
 
 def beside_event(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
     """Before or after something that happens on a motion, at once or until the next change."""
+    if checker.sampler.moment and _is_past(checker, event):
+        if side == "before" or just:
+            raise ModelProblem(f"`{event}` is past there", "say one moment or stretch")
+        return checker.check(statement, declared)
     held = {name: float(value) for name, value in checker.hypothesis.held if _FIGURE.fullmatch(str(value))}
     if just and side == "after" and not checker.sampler.spec["events"] and not checker.own_motion.changes:
         verdict = checker.check(statement, declared, replace(checker.hypothesis, at_start=True))
@@ -332,6 +342,13 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     return until if until.ok or (until.mends and not verdict.mends) else verdict
 
 
+def _is_past(checker: Checker, event: str) -> bool:
+    """Whether what happens has done so already at the moment of which is spoken."""
+    with suppress(ModelProblem, Unreached):
+        return time_of(checker.own_motion, checker.happening(event)) <= checker.sampler.own.t
+    return False
+
+
 def _speaks_of_time(checker: Checker, declared: Declared, statement: str) -> bool:
     """Whether something of a statement is asked of the time since the start."""
     with suppress(ModelProblem, StatementError):
@@ -351,6 +368,8 @@ _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
 _PLACED = re.compile(r"(?:with|once)\b|.+\b(?:on|in|against) the\b")
 """``with the lump on the rim``: words that may be of a later stretch."""
+_WHICH_OF_THEM = re.compile(r"\b(?:ahead|forwards?|backwards?|the\s+other\s+way)\b")
+"""Which of several stretches of one kind is meant: not understood, so that no other is taken for it."""
 _FIRST_OF_ALL = re.compile(r"\bfirst\s+(?:half[\s-])?(?:swing|stroke|stage|phase|part|stretch|period)")
 """``during the first swing``: no later stretch is meant."""
 _ONE_PART = re.compile(

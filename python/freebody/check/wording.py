@@ -23,7 +23,9 @@ _FREQUENCIES = re.compile(
     r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)"
 )
 BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump"
-LASTS = re.compile(r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b")
+LASTS = re.compile(
+    r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b|(?:\w+\s+)?hanging\b(?! still)"
+)
 """``while it slips``: words of a stretch of the motion."""
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""

@@ -55,6 +55,7 @@ impl<'m, S: Scalar> SmoothMotion<'m, S> {
             drive.level == Level::Position && gauges.force.is_none() && is_uniform
         };
         Self::roughness(m).is_none()
+            && !m.has_parts_that_come_and_go()
             && m.closures.iter().all(holds_axes)
             && m.drives.iter().zip(&m.drive_gauges).all(is_plain)
     }

@@ -268,9 +268,12 @@ impl Mechanism {
     /// Whether what holds it can change during a motion: unilateral constraints, friction, or parts that are released
     /// and engaged.
     pub fn is_hybrid(&self) -> bool {
+        !(self.unilateral.is_empty() && self.joint_friction.is_empty()) || self.has_parts_that_come_and_go()
+    }
+    /// Whether parts are released or engaged.
+    pub fn has_parts_that_come_and_go(&self) -> bool {
         let switches = |action: &EventAction| matches!(action, EventAction::Release(_) | EventAction::Engage(_));
-        !(self.unilateral.is_empty() && self.joint_friction.is_empty() && self.initially_absent.is_empty())
-            || self.events.iter().any(|e| e.then.iter().any(switches))
+        !self.initially_absent.is_empty() || self.events.iter().any(|e| e.then.iter().any(switches))
     }
     /// The row that holds what runs on a curve once its pin, a part, is released.
     pub fn held_without(&self, part: Part) -> Option<Part> {
