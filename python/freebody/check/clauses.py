@@ -4,85 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
-
-from freebody.symbolic.alphabet import LATEX_WORDS
 
 from .language.glyphs import CONDITION
-from .language.tokens import CALLS
+from .pieces import RELATION, Piece, pieces_of, relates
 
 _FEWEST = 2  # words of a clause that stands directly before an equation
-_LONG = 4  # letters from which on what stands behind an operator is a word, and no name
-_SHORT = {
-    *[
-        "a",
-        "an",
-        "as",
-        "at",
-        "be",
-        "by",
-        "do",
-        "he",
-        "if",
-        "in",
-        "is",
-        "it",
-        "its",
-        "no",
-        "of",
-        "off",
-        "on",
-        "or",
-        "so",
-        "to",
-        "up",
-        "we",
-        "and",
-        "she",
-        "her",
-        "his",
-    ]
-}
-"""Words of one or two letters, which are no symbols where they stand among others."""
-_COMMON = {
-    *[
-        "all",
-        "and",
-        "are",
-        "bar",
-        "end",
-        "for",
-        "has",
-        "its",
-        "let",
-        "not",
-        "off",
-        "one",
-        "out",
-        "rod",
-        "the",
-        "two",
-        "was",
-        "way",
-    ]
-}
-"""Words that are words, though letters of them may be symbols."""
-_NO_WORDS = {*CALLS, "const", "inf", "infinity", "lim", "min", "max", "deg", "rad", "rpm"}
-_WORD = re.compile(r"(?:\A|(?<=[\s,;:(]))[A-Za-z]+(?:-[a-z]+)*(?:(?<=[a-z]{3})['’]s?)?(?=[\s,;:)]|\Z)")
 _JOINED = "…"
 _BLANK = re.compile(r"(?<!\\)\\(?:q?quad\b|[,;:!> ])")
-_RATE = re.compile(r"d{0,2}dot\Z")
-"""Of the name of a rate, as programs have it."""
-_FIGURE = re.compile(r"(?<![^\W\d])(?<!_)[\d.]+\Z")
-"""A number, behind which a unit may stand."""
 _BOXED = re.compile(r"\\boxed\s*\{(.*)\}(?=\s*\Z)", re.S)
 _SENTENCE = re.compile(r"\A[^:\n]*?[\w)]\.\s+(?=[A-Z][a-z]+\b[^:\n]*:)")
 """A sentence before that which says when something is so."""
-_SKIP = re.compile(r"\\[A-Za-z]+|\\.")
-_RELATION = re.compile(r"=|[<>≤≥≈→]|\\(?:leq?|geq?|approx|to|rightarrow|lt|gt)(?![A-Za-z])")
-_ARROW = re.compile(r"\A(?:→|\\rightarrow)(?=\s*(?:[A-Za-z]{2}|\Z))|(?:→|\\(?:to|rightarrow))\Z")
-"""A direction that is counted as positive."""
-_OPERATORS = "=+*/^·<>≤≥≈→"
 _INTRODUCES = re.compile(r"\b(?:if|when|where|at|for|with|from|until|once|while|as|given|assuming|provided|that|and|or|on|to)\Z")
 """Words behind which an equation is a condition, and not what is said."""
 _AT_TIME = ("at", "when", "where", "instant", "time", "moment")
@@ -194,30 +125,20 @@ _NAME = re.compile(r"[A-Z][a-z]+(?<!ing)")
 _SYMBOL = re.compile(r"(?:\\[a-z]+|[^\W\d])(?:\d|_\w+|_\{\w+\})?[′']*")
 
 
-@dataclass(frozen=True)
-class _Piece:
-    """Words, a formula, or a sign that parts clauses; ``relation``: whether a formula says that something is equal or tends to something."""
-
-    kind: str
-    start: int
-    stop: int
-    relation: bool = False
-
-
 def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
     """A statement with the conditions among the clauses around its equation first, then what it is of, then the equation; any other as it
     is. Names that are ``known`` are no words; ``of_what``: words that say of what an equation is, as the names of ``bodies`` do."""
-    if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and _RELATION.search(text.partition(";")[0])):
+    if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and RELATION.search(text.partition(";")[0])):
         return text
     plain = _SENTENCE.sub("", _BOXED.sub(r"\1", _BLANK.sub(" ", text.replace("$", ""))))
-    pieces = [*_pieces(plain, known)]
+    pieces = [*pieces_of(plain, known)]
     colon = _label_ends(plain, pieces)
     before, body = pieces[: max(colon, 0)], pieces[colon + 1 :]
     begins = _core(plain, body)
     if (
         begins is None
         or not (before or any(piece.kind == "words" for piece in pieces))
-        or _RELATION.match(plain[body[begins].start :].lstrip())
+        or RELATION.match(plain[body[begins].start :].lstrip())
     ):
         return text
     if begins and sum(piece.kind == "words" for piece in body[:begins]) < _FEWEST and not _HEAD.match(plain[body[0].start :]):
@@ -235,11 +156,11 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
         conditions.pop()
     behind = [part for clause in around[2] for part in _parts(clause, is_label)]
     changed = [*said, *behind] != [*around[0], *around[1], *around[2]]
-    is_law = any(_relates(label) or _LAW.fullmatch(label) for label in labels)
+    is_law = any(relates(label) or _LAW.fullmatch(label) for label in labels)
     at_once = bool(before) and _is_list(conditions)
     if not (begins or changed or is_law or at_once or behind or (labels and any(map(_is_condition, conditions)))):
         return text
-    labels = [label for label in labels if not (_relates(label) or _LAW.fullmatch(label))]
+    labels = [label for label in labels if not (relates(label) or _LAW.fullmatch(label))]
     if not any(map(_is_condition, [*conditions, *behind])):
         labels, conditions = [*conditions, *labels], []
     equation = plain[core[0].start : core[ends - 1].stop].strip(" ,")
@@ -250,10 +171,10 @@ def _is_list(conditions: Sequence[str]) -> bool:
     """Whether conditions are values, or relations beside others, without a word for that."""
     if not conditions or any(map(_HEAD.match, conditions[:1])):
         return False
-    return all(map(_VALUE.fullmatch, conditions)) or (len(conditions) > 1 and any(map(_relates, conditions)))
+    return all(map(_VALUE.fullmatch, conditions)) or (len(conditions) > 1 and any(map(relates, conditions)))
 
 
-def _label_ends(text: str, pieces: Sequence[_Piece]) -> int:
+def _label_ends(text: str, pieces: Sequence[Piece]) -> int:
     """Where among the pieces the colon is behind which the statement begins; -1 where none is."""
     ends = -1
     for i in (i for i, piece in enumerate(pieces) if piece.kind == ":"):
@@ -277,7 +198,7 @@ def _explained(clauses: Sequence[str], is_label: re.Pattern[str]) -> list[str]:
     for clause in clauses:
         aside = _ASIDE.fullmatch(clause)
         is_value = _VALUE.fullmatch(_AT.sub("", clause)) is not None and not _SUM.match(clause)
-        stand = aside[2].count(",") if aside and _relates(aside[2]) else int(is_value)
+        stand = aside[2].count(",") if aside and relates(aside[2]) else int(is_value)
         for _ in range(stand):
             before = out[-1] if out else ""
             tells = (
@@ -346,12 +267,7 @@ def _headed(conditions: Iterable[str]) -> list[str]:
 
 
 def _is_condition(clause: str) -> bool:
-    return bool(_HEAD.match(clause)) or _relates(clause) or " held" in clause
-
-
-def _relates(clause: str) -> bool:
-    """Whether a clause says that something is equal, or tends to something."""
-    return _RELATION.search(_ARROW.sub("", clause.strip())) is not None
+    return bool(_HEAD.match(clause)) or relates(clause) or " held" in clause
 
 
 def _is_of_what(clause: str, is_label: re.Pattern[str]) -> bool:
@@ -364,55 +280,10 @@ def _is_of_what(clause: str, is_label: re.Pattern[str]) -> bool:
     )
 
 
-# -- pieces
+# -- where an equation stands
 
 
-def _pieces(text: str, known: Collection[str]) -> Iterator[_Piece]:
-    """Words, formulas, and the signs that part clauses, in their order."""
-    at, depth, start, relation = 0, 0, 0, False
-
-    def formula(stop: int) -> Iterator[_Piece]:
-        if said := text[start:stop].strip(" ~"):
-            yield _Piece("formula", start, stop, relation and _relates(said))
-
-    while at < len(text):
-        char, stop = text[at], at + 1
-        if depth == 0 and (word := _WORD.match(text, at)) and _is_word(word[0], text[:at].rstrip(), text[word.end() :], known):
-            yield from formula(at)
-            yield _Piece("words", at, word.end())
-            start, relation, stop = word.end(), False, word.end()
-        elif depth == 0 and char in ",;:" and text[at : at + 2] != ":=":
-            yield from formula(at)
-            yield _Piece(char, at, stop)
-            start, relation = stop, False
-        elif found := _SKIP.match(text, at):
-            relation |= depth == 0 and _RELATION.match(found[0]) is not None
-            stop = found.end()
-        else:
-            depth += (char in "([{") - (char in ")]}" and depth > 0)
-            relation |= depth == 0 and _RELATION.match(char) is not None
-        at = stop
-    yield from formula(len(text))
-
-
-def _is_word(word: str, before: str, after: str, known: Collection[str]) -> bool:
-    """Whether letters in a row between others are a word, and no symbol, function or unit."""
-    if len(word) == 1:
-        return word in "aA" and word not in known and re.match(r"\s+[a-z]{3}", after) is not None
-    if word.lower() in _COMMON and word not in known:
-        return before[-1:] not in [*_OPERATORS]
-    measures = (_FIGURE.search(before) is not None and len(word) <= _LONG) or (
-        before[-1:] in [*_OPERATORS] and (len(word) < _LONG or word.startswith("const"))
-    )
-    if word in known or word.lower() in _NO_WORDS or measures:
-        return False
-    if len(word) < 3:
-        return word.lower() in _SHORT
-    named = _RATE.sub("", word) in {*known, *LATEX_WORDS}
-    return re.search("[aeiouyAEIOUY]", word) is not None and not named and not {*word} <= {*known, "'", "’"}
-
-
-def _core(text: str, body: Sequence[_Piece]) -> int | None:
+def _core(text: str, body: Sequence[Piece]) -> int | None:
     """Where among the pieces behind the label the equation begins; None where they state none."""
     said = ""
     for i, piece in enumerate(body):
@@ -429,14 +300,14 @@ def _core(text: str, body: Sequence[_Piece]) -> int | None:
     return None
 
 
-def _is_moment(text: str, before: Sequence[_Piece]) -> bool:
+def _is_moment(text: str, before: Sequence[Piece]) -> bool:
     """Whether pieces before a relation say what happens where it is so."""
     last = max((i + 1 for i, piece in enumerate(before) if piece.kind in ",;:"), default=0)
     words = [text[piece.start : piece.stop] for piece in before[last:] if piece.kind == "words"]
     return len(words) > 1 and not (_HEAD.match(words[0]) or any(piece.relation for piece in before[last:]))
 
 
-def _suffix(text: str, core: Sequence[_Piece]) -> int:
+def _suffix(text: str, core: Sequence[Piece]) -> int:
     """Where among the pieces from the equation on a condition begins behind it; their number where none does."""
     for i, piece in enumerate(core[1:], 1):
         if piece.kind == "words":
@@ -444,7 +315,7 @@ def _suffix(text: str, core: Sequence[_Piece]) -> int:
     return len(core)
 
 
-def _clauses(text: str, pieces: Sequence[_Piece]) -> Iterator[str]:
+def _clauses(text: str, pieces: Sequence[Piece]) -> Iterator[str]:
     """The clauses of some pieces: what stands between signs that part them, and an equation that is a condition for itself; with a mark
     what stands behind that without a sign between."""
     at, closed, joined = 0, False, False
@@ -457,13 +328,13 @@ def _clauses(text: str, pieces: Sequence[_Piece]) -> Iterator[str]:
             at = i + (parts or text[piece.start : piece.stop] == "and")
             closed = False
         said = text[piece.start : piece.stop].strip()
-        in_words = any(map(_RELATION.match, (said[:1], said[-1:])))  # words are what is equal
+        in_words = any(map(RELATION.match, (said[:1], said[-1:])))  # words are what is equal
         closed |= piece.relation and not in_words
     if at < len(pieces):
         yield _JOINED * joined + text[pieces[at].start : pieces[-1].stop].strip()
 
 
-def _goes_on(text: str, pieces: Sequence[_Piece], at: int, i: int) -> bool:
+def _goes_on(text: str, pieces: Sequence[Piece], at: int, i: int) -> bool:
     """Whether behind a comma the list of what is small goes on."""
     after = [p.kind for p in pieces[i + 1 : i + 3]]
     small = re.search(r"\bsmall\b", text[pieces[at].start : pieces[i].start])
