@@ -41,6 +41,10 @@ ARRANGED = {
     "natural frequencies for $c = 0$: m ω² = k": "for c = 0: frequencies: m ω² = k",
     "m s = F   (belt taut, sliding forward)": "belt taut, sliding forward: m s = F",
     "once the speed is steady: F v = E": "in the steady state: F v = E",
+    "rear wheel in the air, ΣF_x: F = m a": "while rear wheel is in the air: ΣF_x: F = m a",
+    "at every instant F = k x": "F = k x",
+    "wheel held: F = k x": "if wheel held: F = k x",
+    "check: if m = 0, F = k x": "if m = 0: F = k x",
 }
 AS_THEY_STAND = (
     "v = r ω",

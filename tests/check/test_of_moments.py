@@ -116,6 +116,34 @@ def test_the_second_impact_is_the_second(speed: str, kind: Kind) -> None:
         Checker(mechanism).check("just after the fourth impact: y' = 0")
 
 
+LIFTED = """
+parameters: {m: 3 kg, p: 90 N/s, g: 9.81 m/s^2}
+gravity: g
+ground: {lines: {floor: {through: O, angle: 0}, up: {through: O, angle: 90 deg}}}
+bodies: {load: {shape: particle, mass: m}}
+joints: {guide: {type: slot, along: ground.up, point: load.centre, coordinate: y}}
+contacts: {floor: {of: [load.centre, ground.floor]}}
+forces: {rope: {type: law, along: y, value: p*t}}
+initial: {y: 0, at_rest: true}
+run: {until: 1 s}
+"""
+
+
+@pytest.mark.parametrize(
+    ("statement", "kind"),
+    [
+        ("once the load hangs free: T = m g", W),
+        ("once the load leaves the floor: T = m g", Kind.TRUE_IF),
+        ("once the load leaves the floor: T = m g + m y''", T),
+        ("at the moment the load leaves the floor: T = m g", T),
+        ("load in the air: T = m g", W),
+    ],
+)
+def test_once_is_from_then_on(statement: str, kind: Kind) -> None:
+    mechanism = Mechanism.loads(f"freebody: 1\n{LIFTED}")
+    assert Checker(mechanism, {"T": "p*t"}).check(statement, correcting=False).kind is kind
+
+
 def test_a_letter_of_a_moment_that_there_is_not_is_refused() -> None:
     mechanism = Mechanism.loads(f"freebody: 1\n{BALL}run: {{until: 1.2 s}}\n")
     with pytest.raises(StatementError, match="nothing that happens"):

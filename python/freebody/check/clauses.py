@@ -14,6 +14,10 @@ _BLANK = re.compile(r"(?<!\\)\\(?:q?quad\b|[,;:!> ])")
 _BOXED = re.compile(r"\\boxed\s*\{(.*)\}(?=\s*\Z)", re.S)
 _SENTENCE = re.compile(r"\A[^:\n]*?[\w)]\.\s+(?=[A-Z][a-z]+\b[^:\n]*:)")
 """A sentence before that which says when something is so."""
+_ALWAYS = re.compile(
+    r"\A\s*at (?:every|any|each|all) (?:instant|time|moment)s?\b\s*[,:]?|(?:(?<=conserved)|(?<=constant))\s+(?:throughout|always)\s*\Z",
+    re.I,
+)
 _INTRODUCES = re.compile(r"\b(?:if|when|where|at|for|with|from|until|once|while|as|given|assuming|provided|that|and|or|on|to)\Z")
 """Words behind which an equation is a condition, and not what is said."""
 _AT_TIME = ("at", "when", "where", "instant", "time", "moment")
@@ -50,7 +54,10 @@ _WORDS: tuple[tuple[str, str], ...] = (
         r"(?: (?:of|on|with|by) [a-z ]+)?)",
         r"during \1",
     ),
-    (rf"(?!(?:{CONDITION})\b)((?:the )?[A-Za-z]+) (in (?:the )?(?:flight|air)|off the [a-z]+|airborne)", r"while \1 is \2"),
+    (
+        rf"(?!(?:{CONDITION})\b)((?:the )?[A-Za-z]+(?: [a-z]+)?) (in (?:the )?(?:flight|air)|off the [a-z]+|airborne)",
+        r"while \1 is \2",
+    ),
     (r"(?:with |while )?(?:the )?([a-z]+) (?:is )?(?:still )?(?:whole|intact|uncut|unbroken)", r"before the \1 is cut"),
     (
         r"(?:the )?([a-z]+) (?:sliding|coming|going|moving|falling|sinking|climbing|rising) (?:back )?"
@@ -99,7 +106,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
 _IDLE = re.compile(
     r"(?:as\s+a\s+)?special\s+case|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
     r"|for\s+an\s+observer\b.*|(?:solving|using|eliminating|substituting|combining|inserting)\b.*|1:?\s.*\bbefore|2:?\s.*\bafter"
-    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
+    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|(?:as\s+a\s+)?check|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
     re.I,
 )
 """Clauses that say nothing of it."""
@@ -128,6 +135,7 @@ _SYMBOL = re.compile(r"(?:\\[a-z]+|[^\W\d])(?:\d|_\w+|_\{\w+\})?[′']*")
 def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
     """A statement with the conditions among the clauses around its equation first, then what it is of, then the equation; any other as it
     is. Names that are ``known`` are no words; ``of_what``: words that say of what an equation is, as the names of ``bodies`` do."""
+    text = _ALWAYS.sub("", text)
     if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and RELATION.search(text.partition(";")[0])):
         return text
     plain = _SENTENCE.sub("", _BOXED.sub(r"\1", _BLANK.sub(" ", text.replace("$", ""))))
@@ -158,7 +166,8 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
     changed = [*said, *behind] != [*around[0], *around[1], *around[2]]
     is_law = any(relates(label) or _LAW.fullmatch(label) for label in labels)
     at_once = bool(before) and _is_list(conditions)
-    if not (begins or changed or is_law or at_once or behind or (labels and any(map(_is_condition, conditions)))):
+    unsaid = any(" held" in clause and not _HEAD.match(clause) for clause in conditions)
+    if not (begins or changed or is_law or at_once or behind or unsaid or (labels and any(map(_is_condition, conditions)))):
         return text
     labels = [label for label in labels if not (relates(label) or _LAW.fullmatch(label))]
     if not any(map(_is_condition, [*conditions, *behind])):

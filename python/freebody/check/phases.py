@@ -53,6 +53,10 @@ _MOMENT = re.compile(
 )
 _LASTED = re.compile(r"\b(?:has|have|had)\b")
 """``once it has left``: from then on."""
+_GOES_ON = re.compile(
+    r"\bhang(?:s|ing)?\b|\bin the air\b|\bairborne\b|\bfl(?:ies|ying)\b|\bflight\b|\b(?:is|are)\s+(?:open|off)\b"
+)
+"""``once it hangs free``."""
 _GROUND = re.compile(r"\b(?:ground|floor|land(?:s|ed|ing)?|touch\w*down|wall|table|ice|road|street|slope|incline)\b")
 _TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|together|both|two)\b")
 """Of what touches ground, and of what touches another body."""
@@ -95,7 +99,7 @@ def kind_of(words: str) -> str | None:
 
 def is_moment(words: str, kind: str | None = None) -> bool:
     """Whether words of what goes on are of a moment: what a contact or a string is in lasts, and so does what has happened."""
-    lasts = (kind or kind_of(words)) in _STATES and _MOMENT.search(words) is None
+    lasts = ((kind or kind_of(words)) in _STATES or _GOES_ON.search(words)) and _MOMENT.search(words) is None
     return not (lasts or _LASTED.search(words))
 
 

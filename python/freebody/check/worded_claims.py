@@ -164,7 +164,13 @@ def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, st
     """On a stretch or at a moment in words; where no part is called as they say, on any later stretch, too."""
     if not found.is_moment and (way := way_of(words, checker)):
         statement = f"if {way}: {statement}"
+    lasting = replace(found, is_moment=False) if found.is_moment and _FROM_THEN_ON.match(words) else None
+    if lasting and (verdict := in_phase(checker, declared, lasting, words, statement)).ok:
+        return verdict
     verdict = in_phase(checker, declared, found, words, statement)
+    if lasting and verdict.ok:
+        only = f"just after {' or '.join(found.changes)}"
+        return replace(verdict, kind=Kind.TRUE_IF, assumption=only, reason=f"true only {only}, not from then on")
     if found.is_moment and not verdict.ok and (there := _before_another(checker, declared, found, words, statement)):
         return there
     unclear = found == Phase(True, (), False) and not verdict.ok
@@ -364,6 +370,7 @@ IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
 _LAUNCH = re.compile(r"(?:the\s+)?(?:take-?off|launch|throw|push-off|kick-off|kick|shot)")
+_FROM_THEN_ON = re.compile(r"once\b")
 _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
 _PLACED = re.compile(r"(?:with|once)\b|.+\b(?:on|in|against) the\b")

@@ -110,6 +110,7 @@ _CONSTANT = re.compile(
 )
 """``E = T + V = const``, ``p is conserved``, ``H stays the same``."""
 _UNCHANGING = re.compile("cons|same|chang")
+_LABEL = re.compile(rf"(?:\A|(?<=:))(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
 _CONSTANT_WHEN = re.compile(
     rf"\s*(?:(?!(?:{CONDITION})\b)[A-Za-z][\w\s'-]*,\s*)?constant\s*((?:{_STARTS}|{_WHILE})\s[^=:;\n]*)?:(?!=)\s*(.+)",
     re.S,
@@ -183,7 +184,7 @@ def with_condition_first(text: str) -> str:
         return f"when {found[1]}: {found[2]}"
     if (found := _BEHIND.fullmatch(said)) and not re.match(rf"(?:{_STARTS}|while|during|until)\b", said):
         said = f"{found[2]}: {found[1]}"
-    return _CONSTANT.sub(r"constant: \1", said) if _UNCHANGING.search(said) else said
+    return _LABEL.sub("", _CONSTANT.sub(r"constant: \1", said)) if _UNCHANGING.search(said) else said
 
 
 def as_claim(text: str) -> str:
