@@ -90,7 +90,9 @@ class _Search:
         """Pairs of an edit that brings it near, and of what is then another number or lacking."""
         with np.errstate(all="ignore"):
             left = ((self._left(edit.after.left), edit) for edit in self.within(self._plain()) if self.fits(edit.after))
-            near = sorted(((size, edit) for size, edit in left if size), key=lambda pair: pair[0])[:_NEAREST]
+            near = sorted((each for each in left if each[0] and each[1].kind != "derivative"), key=lambda pair: pair[0])[
+                :_NEAREST
+            ]
             for _, first in self.within(near):
                 for second in chain(self._factors(first.after.left), self._missing(first.after.left)):
                     if self.fits(second.after) and self._is_steady(second.after.left):
