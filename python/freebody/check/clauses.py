@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from .language.glyphs import CONDITION
 from .pieces import RELATION, Piece, pieces_of, relates
+from .wording import INSTANT
 
 _FEWEST = 2  # words of a clause that stands directly before an equation
 _JOINED = "…"
@@ -14,10 +15,6 @@ _BLANK = re.compile(r"(?<!\\)\\(?:q?quad\b|[,;:!> ])")
 _BOXED = re.compile(r"\\boxed\s*\{(.*)\}(?=\s*\Z)", re.S)
 _SENTENCE = re.compile(r"\A[^:\n]*?[\w)]\.\s+(?=[A-Z][a-z]+\b[^:\n]*:)")
 """A sentence before that which says when something is so."""
-_ALWAYS = re.compile(
-    r"\A\s*at (?:every|any|each|all) (?:instant|time|moment)s?\b\s*[,:]?|(?:(?<=conserved)|(?<=constant))\s+(?:throughout|always)\s*\Z",
-    re.I,
-)
 _INTRODUCES = re.compile(r"\b(?:if|when|where|at|for|with|from|until|once|while|as|given|assuming|provided|that|and|or|on|to)\Z")
 """Words behind which an equation is a condition, and not what is said."""
 _AT_TIME = ("at", "when", "where", "instant", "time", "moment")
@@ -25,7 +22,6 @@ _CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same a
 
 # -- what a clause is
 
-_INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
 _HELD = r"(?:is |are )?(?:held|fixed|locked|clamped|blocked)(?: (?:still|fixed|fast|in place))?"
 _MOTION = (
     r"(?:turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
@@ -36,13 +32,13 @@ _HEAD = re.compile(
 )
 """With which a condition begins."""
 _BEHIND = re.compile(
-    rf"(?:{_INSTANT})?(?:after|before)\b|(?:at|when|once|if|for|while|during|until|initially|(?:as|so) long as|provided|assuming)\b"
+    rf"(?:{INSTANT})?(?:after|before)\b|(?:at|when|once|if|for|while|during|until|initially|(?:as|so) long as|provided|assuming)\b"
     rf"|in the {_MOTION}\b|in (?:the )?(?:free )?(?:flight|air)\b|(?:the whole time|all the time|throughout)\b"
     r"|in\s+(?:the\s+)?(?:static\s+)?(?:steady|equilibrium)\b"
 )
 """With which one begins behind an equation."""
 _WITHIN = re.compile(
-    rf"\s+(?={_INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\s+\S|(?:at|in)\s+the\s+(?:moment|instant|start|end|{_MOTION})\b"
+    rf"\s+(?={INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\s+\S|(?:at|in)\s+the\s+(?:moment|instant|start|end|{_MOTION})\b"
     r"|for\s+small\b|(?:for|with)\s+\S+\s*=|released\b|from\s+rest\b)"
 )
 """Where one begins in a clause that first says of what it is: ``energy just after the impact``."""
@@ -73,8 +69,8 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (r"after (?:a |the )?(?:time )?t (?:from rest|if the start is at rest)", "if the start is at rest"),
     (r"after (?:a|an|one|half|two|three|\d+)\b[^()=]*\(([^()]*=[^()]*)\)", r"when \1"),
     (r"(?:pure )?(rolling|rolls|sliding|slides|slipping|slips) \([^()=]+=[^()]+\)", r"while \1"),
-    (rf"({_INSTANT}(?:after|at)|at) ((?:the )?(?:release|start|beginning))(?: from rest)? ?\([^()1-9]*=[^()1-9]*\)", r"\1 \2"),
-    (rf"((?:{_INSTANT})?(?:after|before) .*[a-z]) \([^()=<>→]*\)", r"\1"),
+    (rf"({INSTANT}(?:after|at)|at) ((?:the )?(?:release|start|beginning))(?: from rest)? ?\([^()1-9]*=[^()1-9]*\)", r"\1 \2"),
+    (rf"((?:{INSTANT})?(?:after|before) .*[a-z]) \([^()=<>→]*\)", r"\1"),
     (r".*\bfrom \S+ \(at rest\)", "if the start is at rest"),
     (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?(?:\(|at )\s*(\S+?) ?= ?([^(),]+?)\)?", r"\2 held at \3"),
     (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?\((\S+?) ?= ?([^(),]+?), ([^()]+)\)", r"\2 held at \3, \4"),
@@ -106,7 +102,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
 _IDLE = re.compile(
     r"(?:as\s+a\s+)?special\s+case|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
     r"|for\s+an\s+observer\b.*|(?:solving|using|eliminating|substituting|combining|inserting)\b.*|1:?\s.*\bbefore|2:?\s.*\bafter"
-    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|(?:as\s+a\s+)?check|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
+    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|(?:as\s+a\s+)?check|(?:both|the\s+two|these)\s+equations|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
     re.I,
 )
 """Clauses that say nothing of it."""
@@ -135,7 +131,6 @@ _SYMBOL = re.compile(r"(?:\\[a-z]+|[^\W\d])(?:\d|_\w+|_\{\w+\})?[′']*")
 def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
     """A statement with the conditions among the clauses around its equation first, then what it is of, then the equation; any other as it
     is. Names that are ``known`` are no words; ``of_what``: words that say of what an equation is, as the names of ``bodies`` do."""
-    text = _ALWAYS.sub("", text)
     if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and RELATION.search(text.partition(";")[0])):
         return text
     plain = _SENTENCE.sub("", _BOXED.sub(r"\1", _BLANK.sub(" ", text.replace("$", ""))))

@@ -89,10 +89,10 @@ class _Search:
     def pairs(self) -> Iterator[tuple[Edit, ...]]:
         """Pairs of an edit that brings it near, and of what is then another number or lacking."""
         with np.errstate(all="ignore"):
-            left = ((self._left(edit.after.left), edit) for edit in self.within(self._plain()) if self.fits(edit.after))
-            near = sorted((each for each in left if each[0] and each[1].kind != "derivative"), key=lambda pair: pair[0])[
-                :_NEAREST
-            ]
+            # Another rate makes what is not kept something else that is.
+            firsts = (edit for edit in self._plain() if edit.kind != "derivative" and self.fits(edit.after))
+            left = ((self._left(edit.after.left), edit) for edit in self.within(firsts))
+            near = sorted(((size, edit) for size, edit in left if size), key=lambda pair: pair[0])[:_NEAREST]
             for _, first in self.within(near):
                 for second in chain(self._factors(first.after.left), self._missing(first.after.left)):
                     if self.fits(second.after) and self._is_steady(second.after.left):

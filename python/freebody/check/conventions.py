@@ -13,7 +13,7 @@ from .edits import OTHER, Edit, exchanged
 from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation
-from .vocabulary import Vocabulary
+from .vocabulary import Vocabulary, stem
 
 _HALF = 0.05
 """By how much it is less likely that a mass is half of what it is than that it is there twice."""
@@ -43,7 +43,7 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _UNSIGNED:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
     loads = [n for n in dict.fromkeys(found) if vocabulary.is_load(n) and n not in vocabulary.parameters]
-    for _, alike in groupby(sorted(loads, key=_stem), _stem):
+    for _, alike in groupby(sorted(loads, key=stem), stem):
         if len(together := [*alike]) > 1:
             names = " and ".join(f"`{n.name}`" for n in together)
             yield _convention(equation, {n: Negative(n) for n in together}, f"{names} taken in the other sense")
@@ -58,11 +58,6 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
     for one, two in pairs:
         swapped = dict(zip(_with_rates(one) + _with_rates(two), _with_rates(two) + _with_rates(one), strict=True))
         yield _convention(equation, swapped, f"`{one}` and `{two}` exchanged")
-
-
-def _stem(symbol: Sym) -> str:
-    """A letter without its index: of F1 and F_B it is F."""
-    return symbol.name.partition("_")[0].rstrip("0123456789")
 
 
 def _convention(equation: Equation, changes: Mapping[Sym, Node], words: str) -> Edit:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -62,10 +62,12 @@ _TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|togethe
 """Of what touches ground, and of what touches another body."""
 _AGAIN = re.compile(r"\bagain\b")
 _ALL = re.compile(r"\b(?:both|all|they)\b")
-NOT_FIRST = re.compile(r"\b(?:second|third|fourth|last)\b")
-"""Of what happens several times only the first is known."""
+NOT_FIRST = re.compile(rf"\b(?:{'|'.join(each for each, n in ORDINALS.items() if n > 1)}|last)\b")
+"""Of what happens several times."""
 _NUMBERED = re.compile(rf"\b({'|'.join(ORDINALS)})\s+([A-Za-z]\w*)")
 _IS_ON = re.compile(r"(?<!\bis )(?<!\bare )\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
+_Change = tuple[float, str, str]
+"""When something changes, s, what does, and the name of that change."""
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -105,40 +107,25 @@ def is_moment(words: str, kind: str | None = None) -> bool:
 
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
-    words = with_names(words, checker.sampler.core.instant(checker.sampler.own).limits)
+    limits = checker.sampler.core.instant(checker.sampler.own).limits
+    words = with_names(words, limits)
     if joins := _joining(checker, words):
         return Phase(False, (joins,), False)
-    kind = kind_of(words)
-    place = _ON.match(words)
+    kind, place = kind_of(words), _ON.match(words)
     lasts = LASTS.match(words) is not None or place is not None
-    touched = {
-        name
-        for limit in checker.sampler.core.instant(checker.sampler.own).limits.values()
-        for name in (limit.first, limit.second)
-    }
+    touched = {body for limit in limits.values() for body in (limit.first, limit.second)}
     on_body = place and place[1] in checker.symbols().bodies - touched
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
-    run = checker.own_motion
-    begins = checker.sampler.own.t if checker.sampler.moment else run.t[0]
-    happened = {change.kind for change in run.changes if change.t > begins}
-    if kind == "rest":  # what slides comes to it by sticking
-        kind = "stick"
-        if kind not in happened:
-            return None
-    kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
-    found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
-    begun = _begun(run, _STATES[kind]) if kind in _BEFORE else []
-    found += begun
-    later = sorted({(t, part, name) for t, part, name in found if t > begins})
-    limits = checker.sampler.core.instant(checker.sampler.own).limits
-    before = (_BEFORE[change.kind] for change in run.changes if change.kind in _BEFORE)
-    if _AGAIN.search(words) and next(before, None) != _STATES.get(kind, kind):
-        names = [name for *_, name in later]  # what begins anew has done so before
-        later = [(t, part, f"second {name}") for i, (t, part, name) in enumerate(later) if names[:i].count(name) == 1]
-    firsts = {name: (t, part) for t, part, name in reversed(later)}
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
+    run, begins = checker.own_motion, checker.sampler.own.t if checker.sampler.moment else checker.own_motion.t[0]
+    if kind == "rest":  # what slides comes to it by sticking
+        kind = "stick"
+        if not any(change.kind == kind and change.t > begins for change in run.changes):
+            return None
+    begun = _begun(run, _STATES[kind]) if kind in _BEFORE else []
+    firsts = _firsts(run, begins, kind, begun, _AGAIN.search(words) is not None)
     rubs = lambda name: limits[name].state in _STATES.values()  # what has no friction never slides
     able = {name for name in limits if (rubs(name) if kind in _STATES else limits[name].state not in _OF_STRINGS)}
     parts = {*(part for _, part in firsts.values()), *able} or {*limits}
@@ -162,6 +149,20 @@ def phase(checker: Checker, words: str) -> Phase | None:
     return Phase(at_first and not of_moment, tuple(reversed(changes.values())), of_moment) if changes or at_first else None
 
 
+def _firsts(run: Any, begins: float, kind: str, begun: Sequence[_Change], again: bool) -> dict[str, tuple[float, str]]:
+    """When changes of a kind come first after a time, beside those by which something has ``begun``, with their parts, by their names;
+    where it is so ``again``, and was not at first, when they come for the second time."""
+    happened = {change.kind for change in run.changes if change.t > begins}
+    kinds = next((kinds for kinds in _CHANGES.get(kind, ()) if happened & {*kinds}), (kind,))
+    found = [(change.t, part, f"{change.kind} {part}") for change in run.changes for part in change.of if change.kind in kinds]
+    later = sorted({each for each in (*found, *begun) if each[0] > begins})
+    before = (_BEFORE[change.kind] for change in run.changes if change.kind in _BEFORE)
+    if again and next(before, None) != _STATES.get(kind, kind):
+        names = [name for *_, name in later]
+        later = [(t, part, f"second {name}") for i, (t, part, name) in enumerate(later) if names[:i].count(name) == 1]
+    return {name: (t, part) for t, part, name in reversed(later)}
+
+
 def _joining(checker: Checker, words: str) -> str | None:
     """The only event that puts a part on another, where words say of a body that it is on: ``with the ring on it``."""
     events = (event for event in checker.sampler.spec["events"] if not event["opening"])
@@ -171,10 +172,10 @@ def _joining(checker: Checker, words: str) -> str | None:
     return joining[0] if said and len(joining) == 1 else None
 
 
-def _begun(run: Any, state: str) -> list[tuple[float, str, str]]:
+def _begun(run: Any, state: str) -> list[_Change]:
     """When parts touch that are in a state from then on, each with the name of that change."""
     last = {name: limit.state for name, limit in run.source.instant(run.motion.end).limits.items()}
-    found: list[tuple[float, str, str]] = []
+    found: list[_Change] = []
     for change in reversed(run.changes):
         for part in change.of:
             if change.kind in _TOUCHES and last.get(part) == state:

@@ -148,7 +148,7 @@ _EVER = (
     r"(?:\b(?:for|at)\s+(?:all|any|every|each)\s+(?:(?:time|instant|moment|angle|position|motion)s?\b|\\\w+|[A-Za-z]\w?\b|[^\W\x00-\x7f]\w*)(?:\s+(?:t\b|\\?theta\b|θ))?"
     r"(?:\s*(?:>=?|≥|\\geq?\b)\s*0)?|\balways|\bidentically|\ball the (?:way|time)|\b(?:throughout|during) the motion)"
 )
-_ALWAYS = re.compile(rf"(?:,|\\q?quad)?\s*{_EVER}{_CLOSES}|\A\s*{_EVER}\s*[,:]", re.IGNORECASE)
+_ALWAYS = re.compile(rf"(?:,|\\q?quad)?\s*{_EVER}{_CLOSES}|\A\s*{_EVER}(?:\s*[,:]|(?=\s))", re.IGNORECASE)
 _BEHIND = r"(?<=[^\s=+*/·<>≈-])"
 _NUMBER = re.compile(
     rf"{_BEHIND}\s+(?:\\q?quad\s*)?\((?:eq(?:uation|n)?\.?\s*)?(?:\d{{1,2}}[a-z]?|\*+|ii+|iv|vi+|[IVX]{{2,}})\){_CLOSES}"

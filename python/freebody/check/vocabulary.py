@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -249,6 +250,11 @@ class Vocabulary:
         plain = [Fn(name, (argument,)) for argument in self.angles for name in ("sin", "cos")]
         double = [(_square(a),) if a == b else (a, b) for a, b in combinations_with_replacement(plain, 2)]
         return [(), *((s,) for s in single), *((angle,) for angle in self.angles), *double]
+
+
+def stem(symbol: Sym) -> str:
+    """A letter without its index: of F1 and F_B it is F."""
+    return re.split(r"[_\d.]", symbol.name, maxsplit=1)[0]
 
 
 def _square(node: Node) -> Node:

@@ -73,16 +73,20 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
 
 def _is_launch(checker: Checker, words: str) -> bool:
     """Whether words are of how something comes to fly that does so from the start."""
-    named = any({*re.findall(r"\w+", event["name"])} <= {*re.findall(r"\w+", words)} for event in checker.sampler.spec["events"])
-    return (
-        _LAUNCH.fullmatch(words) is not None and not named and all(one.kind != "lift-off" for one in checker.own_motion.changes)
-    )
+    named = _events_named(checker, words)
+    lifts_off = any(one.kind == "lift-off" for one in checker.own_motion.changes)
+    return _LAUNCH.fullmatch(words) is not None and not named and not lifts_off
+
+
+def _events_named(checker: Checker, words: str) -> list[str]:
+    """The names of the model's events of which all words stand among these."""
+    said = {*re.findall(r"\w+", words)}
+    return [event["name"] for event in checker.sampler.spec["events"] if {*re.findall(r"\w+", event["name"])} <= said]
 
 
 def _of_moment(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
     """At a moment that words call by what goes on, or by the name of an event, or after it; None where they call none."""
-    said = {*re.findall(r"\w+", words)}
-    named = [event["name"] for event in checker.sampler.spec["events"] if {*re.findall(r"\w+", event["name"])} <= said]
+    named = _events_named(checker, words)
     if len(named) == 1 and len(named[0].split()) > 1:
         return in_phase(checker, declared, Phase(False, (named[0],), True), words, statement)
     if kind_of(words) == "reversal" and not NOT_FIRST.search(words):

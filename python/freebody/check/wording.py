@@ -7,8 +7,8 @@ import re
 
 from .language.glyphs import CONDITION
 
-_INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
-_STARTS = rf"(?:{_INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long as|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
+INSTANT = r"(?:just|immediately|right|shortly|directly)\s+"
+_STARTS = rf"(?:{INSTANT})?(?:after|before)|at|when|once|if|for|(?:as|so) long as|as|given(?: that)?|provided(?: that)?|assuming(?: that)?|in the limit(?: (?:as|of|where|when))?|in(?=\s+(?:static\s+)?equilibrium)|initially"
 _SINCE = r"from(?=\s+(?:the\s+)?(?:start|beginning)\b)"
 _WHILE = r"while|during|until|between(?=\s+(?:\w+\s+)?\w+s\s*[:,])"
 _BEFORE = re.compile(rf"({_STARTS}|{_SINCE}|with|without|in|on|{_WHILE})\b((?:(?!:=)[^:;\n])*?)\s*:(?!=)\s*(.+)", re.S)
@@ -70,7 +70,7 @@ OF_WHAT = re.compile(
 _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")
 _TENDING = re.compile(rf"\A\s*(?={_SYMBOL}\s*(?:→|⟶|->|\\(?:to|rightarrow)\b)\s*\S[^=:;\n]*:(?!=))")
 """``φ → 0:``."""
-_SAID_OF_MOMENT = re.compile(rf"\A\s*([^\s=:;,]+)\s+({_INSTANT}[^=:;\n]+?)\s*(=[^:;\n]+)\Z")
+_SAID_OF_MOMENT = re.compile(rf"\A\s*([^\s=:;,]+)\s+({INSTANT}[^=:;\n]+?)\s*(=[^:;\n]+)\Z")
 """``E just after the impact = …``."""
 _STILL_FIRST = re.compile(
     r"\A\s*(?:(?:(?:if|when|while)\s+)?(?:(?:it|all)\s+(?:is|hangs|stands)\s+)?(?:held|kept|hanging|standing|holding)\s+still"
@@ -92,7 +92,7 @@ _EXTREME_WHERE = re.compile(
 _PARTS = re.compile(r",|\band\b")
 _WHEN = re.compile(r"\s+(?:when|where|(?<![,\s]\s)while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
 _SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
-_BESIDE = re.compile(rf"(?:{_INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))\S.*")
+_BESIDE = re.compile(rf"(?:{INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))\S.*")
 _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
 _ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶|->)\s*")
 _NOTHING = re.compile(r"\A((?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)[^:=;\n]*)=\s*0\s*:")
@@ -106,11 +106,12 @@ _STEADY = re.compile(r"(?:(?:in|for|at)\s+)?(?:the\s+)?steady(?:[\s-]+state)?(?:
 _CONSTANT = re.compile(
     r"(?:(?:the\s+)?(?:(?:total|angular|linear|mechanical)\s+)*(?:sum|quantity|momentum|energy)\s+(?=[^\s=]))?(?:[^=:;\n]+=\s*)*((?:[^=:;\n]|\n(?=[ \t]))+?)\s*"
     r"(?:=\s*(?:\\(?:text|mathrm)\s*\{\s*)?const(?:ant)?\b\.?\}?|\b(?:is|are|stays?|remains?|keeps) (?:constant|conserved|unchanged|the same)\b\.?|\bdo(?:es)? not change\b\.?)"
-    r"(?=\s*[→←↑↓↺↻]?\s*$|\s+where\b|\s+with\b)"
+    r"(?=\s*(?:[→←↑↓↺↻]|throughout)?\s*$|\s+where\b|\s+with\b)"
 )
 """``E = T + V = const``, ``p is conserved``, ``H stays the same``."""
 _UNCHANGING = re.compile("cons|same|chang")
 _LABEL = re.compile(rf"(?:\A|(?<=:))(?!\s*(?:{CONDITION}|only|limit)\b)[^=:;\n]*:\s*(?=constant:)")
+"""``energy: T + V = const``."""
 _CONSTANT_WHEN = re.compile(
     rf"\s*(?:(?!(?:{CONDITION})\b)[A-Za-z][\w\s'-]*,\s*)?constant\s*((?:{_STARTS}|{_WHILE})\s[^=:;\n]*)?:(?!=)\s*(.+)",
     re.S,
@@ -288,7 +289,7 @@ def _condition(part: str) -> str:
         return "small motions"
     if found := re.fullmatch(r"(small|large)\s+(.+?)(?:\s+about\s[^=]*)?", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
-    if _START.fullmatch(re.sub(rf"\A{_INSTANT}(?:after|at|upon)\s+", "", said)):
+    if _START.fullmatch(re.sub(rf"\A{INSTANT}(?:after|at|upon)\s+", "", said)):
         return "at the start"
     if re.fullmatch(r"(?:in |at )?(?:static )?equilibrium", said):
         return "in equilibrium"

@@ -15,7 +15,7 @@ fn is_one_formula(law: &ModelExpr) -> bool {
 }
 
 /// How many times as far as it goes in a step a motion may go before it is asked again what is near.
-const ROOM: f64 = 8.0;
+const WIDER: f64 = 8.0;
 
 /// Whether functions with these bounds are all far from zero, and would be if they went so many times as far.
 fn are_far(bounds: &[[f64; 2]], times: f64) -> bool {
@@ -23,7 +23,7 @@ fn are_far(bounds: &[[f64; 2]], times: f64) -> bool {
 }
 
 /// All states about one, in a phase of the motion, with the bounds of the switching functions there.
-pub(super) struct Room {
+pub(super) struct Neighbourhood {
     phase: usize,
     t: f64,
     q: Vec<f64>,
@@ -33,7 +33,7 @@ pub(super) struct Room {
     bounds: Vec<[f64; 2]>,
 }
 
-impl Room {
+impl Neighbourhood {
     /// Whether a step stays in it.
     fn holds(&self, on: &Segment) -> bool {
         let is_within = |(i, (q, reach)): (usize, (&f64, &f64))| {
@@ -64,14 +64,14 @@ impl HybridSystem<'_> {
     /// Writes of every switching function its value at a state, and how far it goes from there at most in a step; false where one has no
     /// bound. The state is that where the mechanism happens to be, as long as all are far from zero by that; else in the middle of the step.
     pub(super) fn bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> bool {
-        let idle = |mode: ContactMode| matches!(mode, ContactMode::Open | ContactMode::Off);
-        if !(self.may_have_bounds && self.mode.contacts.iter().all(|contact| idle(contact.mode))) {
+        if !self.may_have_bounds || self.mode.contacts.iter().any(|contact| contact.mode.touches()) {
             return false;
         }
         self.note_roundoff(on.end());
-        // Where the motion has room nothing is placed.
-        if let Some(room) = self.room.as_ref().filter(|room| room.phase == self.phases.len() && room.holds(on)) {
-            out.copy_from_slice(&room.bounds);
+        // In the neighbourhood of before nothing is placed.
+        if let Some(near) = self.neighbourhood.as_ref().filter(|near| near.phase == self.phases.len() && near.holds(on))
+        {
+            out.copy_from_slice(&near.bounds);
             return true;
         }
         self.workspace.enter(&self.mode);
@@ -86,7 +86,7 @@ impl HybridSystem<'_> {
                 return false;
             }
         }
-        self.room = if are_far(out, ROOM) { self.room(out.to_vec()) } else { None };
+        self.neighbourhood = if are_far(out, WIDER) { self.neighbourhood(out.to_vec()) } else { None };
         true
     }
 
@@ -103,14 +103,21 @@ impl HybridSystem<'_> {
     }
 
     /// All states within some times as far as was followed last, as long as all functions are far from zero there.
-    fn room(&mut self, mut bounds: Vec<[f64; 2]>) -> Option<Room> {
+    fn neighbourhood(&mut self, mut bounds: Vec<[f64; 2]>) -> Option<Neighbourhood> {
         let at = self.workspace.at();
         let (reach, time): (Vec<f64>, _) =
-            (self.travel.changes().iter().map(|change| ROOM * change).collect(), ROOM * self.travel.time());
+            (self.travel.changes().iter().map(|change| WIDER * change).collect(), WIDER * self.travel.time());
         self.travel.follow(at, |i| [0.0, 0.0, 0.0, reach[i]], time);
         self.write_bounds(&mut bounds)?;
         let at = self.workspace.at();
-        are_far(&bounds, 1.0).then(|| Room { phase: self.phases.len(), t: at.t, q: at.q.to_vec(), time, reach, bounds })
+        are_far(&bounds, 1.0).then(|| Neighbourhood {
+            phase: self.phases.len(),
+            t: at.t,
+            q: at.q.to_vec(),
+            time,
+            reach,
+            bounds,
+        })
     }
 
     fn write_bounds(&self, out: &mut [[f64; 2]]) -> Option<()> {

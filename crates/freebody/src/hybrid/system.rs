@@ -1,6 +1,6 @@
 //! A mechanism as a system of differential equations with events.
 
-use super::bounds::Room;
+use super::bounds::Neighbourhood;
 use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
@@ -52,7 +52,7 @@ pub struct HybridSystem<'m> {
     pub(super) may_have_bounds: bool,
     pub(super) travel: Travel,
     /// Where nothing comes near.
-    pub(super) room: Option<Room>,
+    pub(super) neighbourhood: Option<Neighbourhood>,
     pub(super) middle: Vec<f64>,
     /// What is active now.
     pub(super) mode: Mode,
@@ -114,7 +114,7 @@ impl<'m> HybridSystem<'m> {
             switching_functions: SwitchingFunction::all(m).collect(),
             may_have_bounds: SwitchingFunction::all(m).all(|function| function.may_have_bound(m)),
             travel: Travel::default(),
-            room: None,
+            neighbourhood: None,
             middle: vec![],
             mode,
             works,
