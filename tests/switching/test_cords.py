@@ -168,6 +168,18 @@ def test_a_bob_that_does_not_reach_the_top(v):
     assert np.array(taut.after["u"]) == pytest.approx(u - (u @ q) * q, abs=1e-9)
 
 
+def test_beside_a_fast_wheel_a_cord_goes_slack_all_the_same():
+    """By the rate of the wheel what parts the bob from its circle at first is too slow to count: the gap tells, when it is 1e-9 of the length."""
+    wheel = "{bob: {shape: particle, mass: 1 kg}, wheel: {mass: 1 kg, inertia: 1 kg*m^2}}"
+    text = SWING.replace(
+        "{bob: {shape: particle, mass: 1 kg}}", wheel + "\njoints: {axle: {type: hinge, of: [ground.O, wheel.origin]}}"
+    )
+    run = motion(text.replace("bob.x: v", "bob.x: v, axle.angle: 1e4"), 1.0, v=6.0)
+    slack = changes(run, "slack")[0]
+    assert run.evaluate("bob.y", slack.t) == pytest.approx((36 / G - 2) / 3, abs=0.01)
+    assert [each.t for each in changes(run, "slack")] == [slack.t]
+
+
 EYELET = """
 gravity: none
 parameters: {b: 0}

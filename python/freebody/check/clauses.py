@@ -22,6 +22,7 @@ _CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same a
 
 # -- what a clause is
 
+_NEAR = "(?:about|around|near|for)"
 _HELD = r"(?:is |are )?(?:held|fixed|locked|clamped|blocked)(?: (?:still|fixed|fast|in place))?"
 _MOTION = (
     r"(?:turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
@@ -75,6 +76,10 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?(?:\(|at )\s*(\S+?) ?= ?([^(),]+?)\)?", r"\2 held at \3"),
     (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?\((\S+?) ?= ?([^(),]+?), ([^()]+)\)", r"\2 held at \3, \4"),
     (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD}", r"\1 held"),
+    (
+        rf"(?:linear(?:is|iz)ed {_NEAR}|near|close to|(?:for )?small \S+ {_NEAR}) (?:the (?:place|position) )?([^\s=]+) ?= ?([^\s=]+)",
+        r"as \1 -> \2",
+    ),
     (r"(\S{1,6}) (?:is )?small", r"small \1"),
     (r"(\S{1,6}) (?:is )?(?:negligible|neglected)|negligible (\S{1,6})", r"\1\2 -> 0"),
     (r"(?:held|kept|hanging|standing|holding) still", "in equilibrium"),
@@ -126,6 +131,11 @@ _AT = re.compile(r"\A(?:at|when|where)\s+")
 _WORDY = re.compile(r"[A-Za-z][\w'-]*(?:\s+[\w'-]+)+")
 _NAME = re.compile(r"[A-Z][a-z]+(?<!ing)")
 _SYMBOL = re.compile(r"(?:\\[a-z]+|[^\W\d])(?:\d|_\w+|_\{\w+\})?[′']*")
+_ARE_SMALL = re.compile(
+    rf"((?:\A|(?<=[,:;(]))\s*|\b(?:if|when|where|with|for|as)\s+)((?:{_SYMBOL.pattern}\s*(?:,|\band\b)\s*)+{_SYMBOL.pattern})\s+(?:are\s+)?small\b"
+)
+"""``θ_1, θ_2 small``."""
+_AND = re.compile(r"\s*\band\b\s*")
 
 
 def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
@@ -133,6 +143,7 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
     is. Names that are ``known`` are no words; ``of_what``: words that say of what an equation is, as the names of ``bodies`` do."""
     if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and RELATION.search(text.partition(";")[0])):
         return text
+    text = _ARE_SMALL.sub(lambda found: f" for small {_AND.sub(', ', found[2])}", text)
     plain = _SENTENCE.sub("", _BOXED.sub(r"\1", _BLANK.sub(" ", text.replace("$", ""))))
     pieces = [*pieces_of(plain, known)]
     colon = _label_ends(plain, pieces)

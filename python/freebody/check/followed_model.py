@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.core import State, Trajectory
+from freebody.core import Change, FreeBodies, State, Trajectory
 from freebody.model.errors import ModelProblem
-from freebody.solve.perturbed_states import independent
+from freebody.solve.perturbed_states import independent, same_mode
 
 from .arrangement import NOTHING, arranged
 from .asked_model import AskedModel
@@ -21,6 +21,7 @@ from .stretches import zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START, OF_TIME
 
 _EXACT = 1e-13  # tolerance of runs whose course matters
+JUST_BEFORE, JUST_AFTER = 1 - 1e-6, 1 + 1e-6  # of the time to a moment, which is not found more exactly
 _ROUND_OFF = 1e-12  # of what an expression typically changes by
 _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
 _LONG = 12.0  # of the time typical of the model: how long a run is followed at least
@@ -28,6 +29,22 @@ _INSIDE = 0.5, 0.3, 0.8  # parts of a stretch
 _ZEROS = 4  # of an expression on a stretch, that are looked at
 _ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
 """What is asked of more than the start."""
+
+
+@dataclass(frozen=True)
+class Course:
+    """How a motion goes: of which kind each thing is that switches, what does so and how it slides in an impact; and what acts at the end."""
+
+    switches: list[tuple[str, tuple[str, ...], tuple[float, ...]]]
+    acts: FreeBodies
+
+    @property
+    def impacts(self) -> list[tuple[str, ...]]:
+        return [of for kind, of, _ in self.switches if kind == "impact"]
+
+    def is_of(self, other: Course) -> bool:
+        """Whether another goes alike."""
+        return self.switches == other.switches and same_mode(self.acts, other.acts)
 
 
 class FollowedModel(AskedModel):
@@ -90,9 +107,12 @@ class FollowedModel(AskedModel):
                 return
             start = motion.end
 
-    def impacts(self, start: State, found: State) -> list[tuple[str, ...]]:
-        """Between what the impacts are on the way from a start to a state of its motion."""
-        return [change.of for change in self.run(start, found.t - start.t, _EXACT).changes if change.kind == "impact"]
+    def course(self, start: State, until: float, by: float = JUST_BEFORE) -> Course:
+        """What switches on the motion from a start up to just before or just after a time, and what acts there."""
+        if until <= start.t:
+            return Course([], self.core.free_bodies(start))
+        motion = self.run(start, by * (until - start.t), _EXACT)
+        return Course([*map(_switch, motion.changes)], self.core.free_bodies(motion.end))
 
     def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:
         """Whether an expression is 0 on all of a stretch."""
@@ -111,3 +131,7 @@ class FollowedModel(AskedModel):
                 if it_has_not_jumped and self.are_above(above, found):
                     return found
         return None
+
+
+def _switch(change: Change) -> tuple[str, tuple[str, ...], tuple[float, ...]]:
+    return change.kind, change.of, tuple(change.impulses.slides.values()) if change.impulses else ()

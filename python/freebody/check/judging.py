@@ -35,6 +35,7 @@ _FAR = 2.0  # size of a correction from which on one is looked for among the bal
 _SIZE = re.compile(r"\b(?:speed|hypot|abs|sqrt)\(")
 """What has no sign."""
 _GLANCE = 3  # states, on which most of what is wrong shows
+_SETS = 3  # of samples, where one has few at which there is a value
 _ROUND_OFF = 1e-9  # of the largest component of an equation: one that stays below is 0
 _DEPENDENT = 1e-8  # singular value, of rows whose largest entry is 1, below which equations depend on each other
 _ORDER = [Kind.TRUE, Kind.TRUE_IF, Kind.UNDECIDABLE, Kind.WRONG, Kind.DIMENSIONS, Kind.UNREADABLE]
@@ -78,7 +79,12 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         if stressed := [n.key for n in lost if case.meaning.solved(n)]:
             what = f"{', '.join(stressed)} is not determined by the balances of this model (its parts can be pre-stressed)"
             return Verdict(Kind.UNDECIDABLE, text, what)
-        if equation.relation != "=" or where.sum() < OFTEN:
+        if where.sum() < OFTEN:
+            case = _of_more(case)
+            found = case.residual(equation)
+            where = np.isfinite(found.ratio).all(axis=1)
+        few = where.sum() < OFTEN
+        if equation.relation != "=" or few or (len(where) > SAMPLES and np.abs(found.ratio[where]).max() >= HOLDS):
             return _without_value(case, equation, text)
         found = Residual(found.sides, np.where(where[:, None], found.ratio, 0.0))
     if equation.relation != "=":  # one side is not above the other, on every state
@@ -87,6 +93,8 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
             return Verdict(Kind.TRUE, text, f"holds on {len(gap)} random motions", evidence=evidence(found, case.values()))
         broken = Residual(found.sides, np.maximum(gap, 0.0))
         return Verdict(Kind.WRONG, text, "broken by an example", evidence=evidence(broken, case.values()))
+    if found.worst >= HOLDS and _vanishes(case, equation, found):
+        return Verdict(Kind.TRUE, text, "every term is 0 in every motion of which it is said")
     worst = found.worst
     if HOLDS <= worst <= FAILS:  # on fresh states, badly conditioned ones aside if they are few
         again = case.residual(equation, fresh=7)
@@ -101,6 +109,25 @@ def judged_one(case: Case, equation: Equation) -> Verdict:
         what = f"{', '.join(loose)} is not determined by the balances of this model: its parts can be pre-stressed"
         return Verdict(Kind.UNDECIDABLE, text, what, evidence=evidence(found, case.values()))
     return _not_true(case, equation, text, found)
+
+
+def _vanishes(case: Case, equation: Equation, found: Residual) -> bool:
+    """Whether where it is said all terms are 0 but for round-off of what they are elsewhere."""
+    given = case.hypothesis
+    if not given.vanishing or given.small or given.scaled:
+        return False
+    with suppress(NoMotion, StatementError):
+        usual = np.median(sizes(equation, case.values(ALL)), axis=0)
+        return bool((sizes(equation, case.values()) <= HOLDS * usual).all())
+    return False
+
+
+def _of_more(case: Case) -> Case:
+    """The same beside several sets of motions."""
+    sets = [case.values(fresh=i) for i in range(_SETS)]
+    return replace(
+        case, known={(case.hypothesis, 0, SAMPLES): {key: np.concatenate([each[key] for each in sets]) for key in sets[0]}}
+    )
 
 
 def _without_value(case: Case, equation: Equation, text: str) -> Verdict:
@@ -279,13 +306,16 @@ def _has_sizes(case: Case, equation: Equation) -> bool:
 
 
 def _as_figures(case: Case, equation: Equation) -> Verdict | None:
-    """That a measure alone on its side, ``a = 2.91 m/s²``, is that of the model's own numbers; else None."""
-    own = replace(case.hypothesis, numbers=True, zeros=False)
-    said = case.hypothesis == ALL and says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(case.program)))
-    if not said or not of_family(case, equation, own):
+    """That a measure alone on its side, ``a = 2.91 m/s²``, is that of the model's own numbers, of any motion or of those from its start;
+    else None."""
+    if not (case.hypothesis == ALL and says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(case.program)))):
         return None
-    verdict = judged_one(replace(case, hypothesis=own, known={}), equation)
-    return replace(verdict, assumption=OWN_NUMBERS) if verdict.ok else None
+    own = replace(case.hypothesis, numbers=True, zeros=False)
+    for family, assumed in ((own, OWN_NUMBERS), (replace(own, since="start"), f"{OWN_NUMBERS}, {FROM_START}")):
+        if of_family(case, equation, family):
+            verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
+            return replace(verdict, assumption=assumed) if verdict.ok else None
+    return None
 
 
 def _stays(case: Case, equation: Equation) -> bool:

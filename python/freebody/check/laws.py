@@ -11,7 +11,9 @@ from .language.glyphs import CONDITION
 _RELATION = re.compile(r"[=<>≤≥]|\\(?:leq?|geq?|approx)(?![A-Za-z])")
 _COLON = re.compile(r":(?!=)")
 _ARROW = re.compile(r"⇒|⟹|∴|→(?=[^=]*=)|\\(?:Rightarrow|implies|Longrightarrow|therefore)(?![A-Za-z])")
-_CONDITION = re.compile(rf"\s*\$?\s*(?:{CONDITION}|constant|limit|only|follows|shorter|report|same|no)\b")
+_CONDITION = re.compile(
+    rf"\s*\$?\s*(?:{CONDITION}|constant|limit|only|follows|shorter|report|same|no|near|small\b.*\babout|linear(?:is|iz)ed)\b"
+)
 _ITS_CONDITION = re.compile(rf"([^,]*),\s*((?:{CONDITION})\b.*)", re.S)
 """``(H_O)_1 = (H_O)_2, just after the impact``."""
 _WORDS = re.compile(r"\s*[A-Z]?[a-z]+(?:[ ,'-]+[A-Za-z]+)+\s+(?=(?:when|if|once)\b[^:]*:)")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from contextlib import suppress
 from copy import copy
@@ -12,9 +13,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import OutcomeKind
+from freebody.model.errors import ModelProblem
 
 from .assumptions import (
     SMALL,
+    SMALL_MOTIONS,
     WORDS,
     family,
     first_order,
@@ -44,6 +47,7 @@ if TYPE_CHECKING:
 
 _TIME = "(t) - 0"
 """What is small where it is the time since the start."""
+_AT_ZERO = re.compile(r"- \(?0\)?\Z")
 _SOON = (0.05, 0.005)  # of the time typical of the model
 _REACHED = 1e-8  # share of its terms that may be left at a moment, which is found to that
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
@@ -67,7 +71,7 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         given = replace(given, since="start")
         case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
-        return checker.check(statement, declared, replace(given, small=()))
+        return _swinging(checker, given, limits).check(statement, declared, replace(given, small=()))
     if given.small:
         return _small(case, statement, limits)
     near = replace(given, scaled=tuple((name, x ** (4 / 7)) for name, x in given.scaled), late=given.late ** (4 / 7))
@@ -91,6 +95,19 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _swinging(checker: Checker, given: Family, limits: str) -> Checker:
+    """The checker, of vibrations about the place that is said. Raises ``ModelProblem`` where it does not swing there."""
+    places = tuple(text for text, _ in given.small if not _AT_ZERO.search(text))
+    if not places or SMALL_MOTIONS in limits:
+        return checker
+    there = copy(checker)
+    there.vibration = checker.vibration.about(places)
+    if there.vibration.rest is None:
+        said = limits.replace(" -> ", " = ")
+        raise ModelProblem(f"this model does not swing about {said}", "it has no place of rest there, or no stable one")
+    return there
 
 
 def _extreme(checker: Checker, declared: Declared, words: str, others: Sequence[str]) -> Family | None:

@@ -24,7 +24,7 @@ from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated, with_parameters
 from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
-from .followed_model import FollowedModel
+from .followed_model import JUST_AFTER, Course, FollowedModel
 from .sides import changes_side
 from .steady import period_of, steady_state
 from .stretches import first_zero, stretches
@@ -42,8 +42,6 @@ _ENOUGH = 8  # samples to judge by
 _LATE_ENOUGH = 3  # the same of motions that last long, each of which takes time
 _STILL_SMALL = 10.0  # times as large as it was to be: round-off of what else was arranged
 _FAST = 20  # times the usual rate: beyond it a closed loop is near a dead point
-_JUST_BEFORE = 1 - 1e-6  # of the time to a moment, which is not found more exactly
-_SEVERAL = 2  # contacts and stops, of which one may come before another
 _FULL_SPEED = 1000  # the same where a speed is asked for at which something vanishes
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
@@ -74,7 +72,8 @@ class MotionSampler(FollowedModel):
         super().__init__(mechanism, **asked)
         self.seed = seed
         self._families: dict[tuple[Family, int], Samples] = {}
-        self._usual_impacts: dict[Family, list[tuple[str, ...]] | None] = {}
+        self._usual: dict[Family, Course | None] = {}
+        self._of_any_course: set[Family] = set()
         self._without: set[tuple[Family, int]] = set()  # families of which no state was found
 
     @cached_property
@@ -115,7 +114,9 @@ class MotionSampler(FollowedModel):
         first = 0  # tries that fail are followed by one nearer the start, and so are those of the next sample
         for i in range(count):
             spent = (thread_time() - began) / seconds
-            if (i >= _PATIENCE and not found) or spent > _MOST:
+            if not found and i == _PATIENCE and (family.through or "after" in self.moment):
+                self._of_any_course.add(family)
+            elif (not found and i >= _PATIENCE and i % _PATIENCE == 0) or spent > _MOST:
                 break
             if len(found) >= _FEWER and spent > _SHARE:
                 return found
@@ -157,7 +158,7 @@ class MotionSampler(FollowedModel):
         else:
             found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
-        if found and start and "after" in self.moment and not self._came_as_usual(values, start):
+        if found and start and "after" in self.moment and not self._came_as_usual(family, values, start):
             return None
         start = self.started(values) if family.since == BEFORE else start
         asked = self._asked_of_motion(start, family) if found and start else family.vanishing
@@ -384,33 +385,30 @@ class MotionSampler(FollowedModel):
         return (self._sampled(start) if at_start else None), start
 
     def _comes_as_usual(self, family: Family, start: State, found: State) -> bool:
-        """Whether what is asked comes through the impacts of the model's own motion: with other numbers a second one may come before."""
+        """Whether what is asked comes as on the model's own motion: with other numbers a second impact may come before, or a stop open."""
         if not (family.through and family.vanishing):
             return True
-        if family not in self._usual_impacts:
+        if family not in self._usual:
             try:
                 own, began = self._since_start(
                     np.random.default_rng(self.seed), self.free_parameters, replace(family, numbers=True)
                 )
             except (MotionError, ModelError, ModelProblem, ZeroDivisionError, Unreached):
                 own = None
-            self._usual_impacts[family] = self.impacts(began, own) if own else None
-        return self._usual_impacts[family] in (None, self.impacts(start, found))
+            self._usual[family] = self.course(began, own.t) if own else None
+        return self._usual[family] is None or self._is_alike(family, self._usual[family], self.course(start, found.t))
 
-    def _came_as_usual(self, values: Mapping[str, float], there: State) -> bool:
-        """Whether the moment comes through the impacts of the model's own motion, where there may be others."""
-        if len(self.spec["contacts"]) + len(self.spec["stops"]) < _SEVERAL:
-            return True
-        return self._impacts_before == self._impacts_until(self.started(values), there.t)
+    def _came_as_usual(self, family: Family, values: Mapping[str, float], there: State) -> bool:
+        """Whether the moment comes as on the model's own motion, and what holds behind it is the same."""
+        return self._is_alike(family, self._course_through, self.course(self.started(values), there.t, JUST_AFTER))
+
+    def _is_alike(self, family: Family, usual: Course, course: Course) -> bool:
+        """Whether two motions have one course; of impacts alone where none with the same course in all was found."""
+        return course.is_of(usual) or (family in self._of_any_course and usual.impacts == course.impacts)
 
     @cached_property
-    def _impacts_before(self) -> list[tuple[str, ...]]:
-        return self._impacts_until(self.first, self.own.t)
-
-    def _impacts_until(self, start: State, t: float) -> list[tuple[str, ...]]:
-        """Between what the impacts are on a motion before a time."""
-        motion = self.run(start, _JUST_BEFORE * (t - start.t)) if t > start.t else None
-        return [change.of for change in motion.changes if change.kind == "impact"] if motion else []
+    def _course_through(self) -> Course:
+        return self.course(self.first, self.own.t, JUST_AFTER)
 
     def _asked_of_motion(self, start: State, family: Family) -> list[str]:
         """What has to vanish on a motion itself: its start was put where it has to be."""

@@ -19,12 +19,14 @@ from freebody.stability.state_space import SingularConfiguration, StateSpace, st
 from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
 
-from .families import NoMotion
+from .arrangement import arranged
+from .families import Family, NoMotion
 from .user_symbols import Masses, Meaning, Values
 
 if TYPE_CHECKING:
     from .motion_sampler import MotionSampler
 
+AT_REST = Family(at_rest=True)
 _MOST = 6  # natural frequencies that have an index
 _QUANTITIES = {
     **{f"{name}_{i}": f"natural frequency {i}" for i in range(1, _MOST + 1) for name in ("ω", "natural_frequency")},
@@ -54,6 +56,7 @@ _ALIKE = 1e-6  # of what moves in a vibration, below which it does not change wh
 _APART = 0.1  # of what is typical of each coordinate, to a place where linear equations may be others
 _LATE = 0.37, 0.91  # of the typical time: later, when what goes on at one speed does so
 _NEWTON, _FOUND = 20, 1e-10  # steps to a place of rest, and the last of them, of what is typical of each coordinate
+_THERE = 1e-6  # of what an expression changes by within the model's sizes: a place that is said, as exactly as places of rest are found
 _LENGTHS = 3.0  # of the model, within which a place of rest is looked for
 
 
@@ -78,12 +81,16 @@ class OfVibration(Meaning):
 
 
 class Vibration:
-    """That of a sampler's model, about the place of rest next to the start that it swings about; or of that coordinate ``alone`` which
-    swings for itself, whatever the others do."""
+    """That of a sampler's model, about the place of rest next to the start that it swings about, or where ``places`` are 0; or of that
+    coordinate ``alone`` which swings for itself, whatever the others do."""
 
-    def __init__(self, sampler: MotionSampler, alone: str = "") -> None:
-        self.sampler, self.parameters, self.alone = sampler, tuple(sampler.free_parameters), alone
+    def __init__(self, sampler: MotionSampler, alone: str = "", places: tuple[str, ...] = ()) -> None:
+        self.sampler, self.parameters, self.alone, self.places = sampler, tuple(sampler.free_parameters), alone, places
         self._known: dict[bytes, dict[str, float]] = {}
+
+    def about(self, places: tuple[str, ...]) -> Vibration:
+        """That where such expressions are 0."""
+        return Vibration(self.sampler, self.alone, places)
 
     def meanings(self, asked: Iterable[str]) -> dict[str, OfVibration]:
         """What those of the ``asked`` names mean that are used for it; nothing where the model has no such vibration."""
@@ -201,21 +208,30 @@ class Vibration:
             if core.metadata["states"] or sampler.is_held:
                 return None
             first = self._placed(self._undriven(sampler.own if self._later else sampler.first))
+            if self.places:
+                first = arranged(sampler, self.places, first, {}, AT_REST, sampler.free_parameters, ())
             free = _space(core, first).free
             if not free:
                 return None
             if len(free) > 1 or self._later or self._is_turned:
                 rest = self._at_rest(first)
-                return rest if rest and _swings(_space(core, rest).a) else None
+                return rest if rest and self._is_there(rest) and _swings(_space(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
             found = self._within(first, free[0], reach)
-        except (MotionError, ModelError, SingularConfiguration, ValueError, np.linalg.LinAlgError):
+        except (MotionError, ModelError, NoMotion, SingularConfiguration, ValueError, np.linalg.LinAlgError):
             return None
         swinging = [each.state for each in found if len(each.space.a) == 2 and np.linalg.det(each.space.a) > 0]
+        if self.places:
+            return next(filter(self._is_there, swinging), None)
         if not swinging and (far := self._at_rest(first)) and _swings(_space(core, far).a):
             return far
         return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
+
+    def _is_there(self, state: State) -> bool:
+        """Whether a place of rest is that which was said."""
+        left = self.sampler.core.evaluate(list(self.places), state).tolist() if self.places else []
+        return all(abs(x) <= _THERE * self.sampler.size_of(text, state) for text, x in zip(self.places, left, strict=True))
 
     def _within(self, first: State, name: str, reach: float) -> Sequence[Equilibrium]:
         """The places of rest that one coordinate comes to; none where something is in its way."""
@@ -305,7 +321,7 @@ class Vibration:
                 there = self._at_rest(self._placed(self.sampler.at_moment_with(values)))
             except (MotionError, ModelError, ModelProblem, SingularConfiguration):
                 return None
-            return a if there and _swings(a := _space(core, there).a) else None
+            return a if there and self._is_there(there) and _swings(a := _space(core, there).a) else None
         p = core.bind(values | self._amplitude)
         for stages in (1, _STAGES):
             state = rest
@@ -318,7 +334,9 @@ class Vibration:
                     state = None
                 if state is None:
                     break
-            if state is not None and _swings(a := _space(core, state).a) and self._is_reached(values, state):
+            if state is None or not self._is_there(state):
+                continue
+            if _swings(a := _space(core, state).a) and self._is_reached(values, state):
                 return a
         return None
 

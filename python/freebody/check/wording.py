@@ -29,6 +29,8 @@ LASTS = re.compile(
 """``while it slips``: words of a stretch of the motion."""
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""
+_ELSEWHERE = r"\b(?:top|inverted|highest|upside)\b"
+"""In words of a place where no model is of which nothing is said."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)"
 _WORDS = re.compile(r"[\w\s'-]+")
 _LOWER_WORDS = re.compile(r"[a-z]{2,}(?:\s+[a-z]{2,})+")
@@ -62,6 +64,8 @@ _GIVEN_IN_WORDS = re.compile(
     rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))"
 )
 """``engine off, no damping (Q = 0, c = 0):``."""
+_FREQUENCY = re.compile(r"\A(?:the )?natural (?:circular )?frequenc(?:y|ies):(?=.*(?:ω|\\?omega))")
+_OF_SMALL = re.compile(rf"\s*(?:(?:for|with|at)\s+)?small\b(?!.*{_ELSEWHERE})")
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
 OF_WHAT = re.compile(
     rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'–-]*"
@@ -247,13 +251,16 @@ def _conditional(word: str, words: str, statement: str) -> str:
         return f"{'just ' if ' ' in word else ''}{side} {said}: {statement}"
     said = "at the start" if is_start else said
     parts = _PARTS.split(said)
+    statement = _FREQUENCY.sub("frequencies:", statement)
     if statement.startswith("frequencies:"):  # they are of small motions
-        parts = [part for part in parts if not re.match(r"\s*(?:(?:for|with|at)\s+)?small\b", part)]
+        parts = [_OF_SMALL.sub("", part) for part in parts if "=" in part or not _OF_SMALL.match(part)]
         if not parts:
             return statement
     parts = [_condition(part) for part in parts]
     small = {part.removesuffix(" -> 0") for part in parts if part.endswith(" -> 0")}
     parts = [part for part in parts if part.rstrip("'") == part or part.rstrip("'") not in small]  # so are its rates
+    if any("->" in part for part in parts):  # these are the ones
+        parts = [part for part in parts if part != "small motions"]
     if any("->" in part or part == "small motions" for part in parts):
         inner = re.fullmatch(r"limit:\s*(.+)\s+as\s(.+)", as_claim(statement), re.S)
         statement, parts = (inner[1], [*parts, inner[2]]) if inner else (statement, parts)
@@ -287,7 +294,7 @@ def _condition(part: str) -> str:
         rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
     ):
         return "small motions"
-    if found := re.fullmatch(r"(small|large)\s+(.+?)(?:\s+about\s[^=]*)?", said):
+    if found := re.fullmatch(rf"(small|large)\s+(.+?)(?:\s+about\s(?!.*{_ELSEWHERE})[^=]*)?", said):
         return f"{found[2]} -> {'0' if found[1] == 'small' else 'inf'}"
     if _START.fullmatch(re.sub(rf"\A{INSTANT}(?:after|at|upon)\s+", "", said)):
         return "at the start"

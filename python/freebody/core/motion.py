@@ -53,12 +53,14 @@ class Impulses:
     """The impulses of an impact: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
     second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
     ``drives`` (motions and couplings) and ``locks`` along what they hold; ``works`` of motions in J. ``restitution`` is that of what
-    collided; ``spared`` was reached too, but would have had to pull."""
+    collided; what has friction sticks in the end where ``slides`` is 0, else slides in that sense; ``spared`` was reached too, but
+    would have had to pull."""
 
     contacts: Mapping[str, tuple[float, float]]
     joints: Mapping[str, tuple[float, float, float]]
     stops: Mapping[str, float] = field(default_factory=dict)
     restitution: Mapping[str, float] = field(default_factory=dict)
+    slides: Mapping[str, float] = field(default_factory=dict)
     spared: tuple[str, ...] = ()
     drives: Mapping[str, float] = field(default_factory=dict)
     locks: Mapping[str, float] = field(default_factory=dict)
@@ -152,6 +154,7 @@ class Motion:
             joints={name: tuple(p) for name, p in zip(names, joints, strict=True) if any(p)},
             stops={each["name"]: each["normal"] for each in contact_impulses if each["name"] in stops},
             restitution={each["name"]: each["restitution"] for each in contact_impulses},
+            slides={each["name"]: each["slides"] for each in contact_impulses if each["slides"] is not None},
             spared=tuple(spared),
             drives={name: p for name, p in drives if name not in locks},
             locks={name: p for name, p in drives if name in locks},

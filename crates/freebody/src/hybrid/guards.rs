@@ -64,6 +64,8 @@ impl SwitchingFunction {
 
 /// Gap, over the characteristic length, below which a unilateral constraint is reached.
 pub(super) const CLOSED_GAP: f64 = 1e-10;
+/// The same above which one that carries nothing is closed no more: beyond what is taken to be reached.
+const OPENED_GAP: f64 = 10.0 * CLOSED_GAP;
 /// Speed, over the mechanism's own, below which there is none.
 pub(super) const REST_SPEED: f64 = 1e-10;
 /// Gap, over the characteristic length, that what is kept off by another may lack: more than the other may.
@@ -132,7 +134,10 @@ impl HybridSystem<'_> {
                 let closing = self.workspace.closing_gap(l).map(|gap| gap / unit);
                 values[0] = closing.unwrap_or_else(occluded);
             }
-            ContactMode::ClosedUnloaded => values[0] = self.workspace.open_gap(l) / unit + CLOSED_GAP,
+            ContactMode::ClosedUnloaded => {
+                let gap = self.workspace.open_gap(l) / unit;
+                values[0] = (gap + CLOSED_GAP).min(OPENED_GAP - gap);
+            }
             ContactMode::Frictionless | ContactMode::Stick | ContactMode::PartialFriction(_) | ContactMode::Slip(_) => {
                 let margins = forces.map_or(vec![], |forces| self.workspace.margins(l, forces));
                 for (value, margin) in values.iter_mut().zip(margins) {

@@ -177,6 +177,11 @@ impl HybridSystem<'_> {
             normal: impact.normal[i] * self.workspace.lever(contacts.constraints[i]),
             tangent: impact.tangent[i],
             restitution: restitution[i],
+            slides: match mode.contacts[contacts.constraints[i]].mode {
+                ContactMode::Slip(sense) => Some(sense),
+                ContactMode::Stick => Some(0.0),
+                _ => None,
+            },
         });
         let (impacting, unloaded) = (impacting.collect(), self.names(&unloaded));
         let (drives, drive_works) = (impact.drives.clone(), impact.drive_works.clone());

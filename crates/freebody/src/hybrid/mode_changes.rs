@@ -57,6 +57,8 @@ pub struct ContactImpulse {
     pub tangent: f64,
     /// The coefficient of restitution.
     pub restitution: f64,
+    /// In which sense it slides at the end, or 0 where it sticks; none without friction.
+    pub slides: Option<f64>,
 }
 
 impl HybridSystem<'_> {

@@ -72,6 +72,11 @@ impl HybridSystem<'_> {
         self.place(t, y);
         let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
         let contact = &mut mode.contacts_mut()[l];
+        if contact.mode == ContactMode::ClosedUnloaded && self.workspace.open_gap(l) > 0.0 {
+            contact.mode = ContactMode::Open;
+            self.enter_mode(t, mode);
+            return Ok(());
+        }
         if guard == ContactGuard::Border {
             let (_, beyond) = self.workspace.border(l).expect("a guard of a border belongs to one");
             contact.feature.index = beyond;

@@ -100,7 +100,7 @@ fn state(m: &Mechanism, y: &[f64], mut record: Value) -> Value {
 }
 
 fn change(m: &Mechanism, c: &ModeChange) -> Value {
-    let impacting = |s: &ContactImpulse| json!({"name": s.name, "normal": s.normal, "tangent": s.tangent, "restitution": s.restitution});
+    let impacting = |s: &ContactImpulse| json!({"name": s.name, "normal": s.normal, "tangent": s.tangent, "restitution": s.restitution, "slides": s.slides});
     let impulses = c.impulses.as_ref().map(|i| {
         let groups: Vec<_> = i.groups.iter().map(|(name, p)| json!([name, [p.x, p.y]])).collect();
         let impacting: Vec<_> = i.contacts.iter().map(impacting).collect();

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import accumulate, pairwise, takewhile
+from itertools import accumulate, chain, pairwise, takewhile
 
 from freebody.symbolic.errors import Span, StatementError
 from freebody.symbolic.evaluate import FUNCTIONS
@@ -32,6 +32,7 @@ CALLS = {**{name: name for name in FUNCTIONS}, **ALIASES, "diff": "diff"}
 _SUFFIXES = {"dddot": 3, "ddot": 2, "dot": 1}
 _SHORT = re.compile(r"(?P<before>d{1,2})?(?P<name>.+?)(?(before)|(?P<after>d{1,2}))")
 """Rates as programs have them: dtheta, ddtheta, thetad, theta_dd."""
+_OF_LETTERS = re.compile(r"([2-9]|[1-9]\d)(e)([+-])(\d)")
 _LONGEST = 400  # glyphs of names without a sign between them
 _WORDS = {"with", "where", "and"}
 _OPERANDS = {"symbol", "number", "raised", ")", "]"}
@@ -106,7 +107,18 @@ class Names:
 
 def tokens(text: str, names: Names = Names()) -> list[Token]:
     """The tokens of a statement, plain or LaTeX, closed by one of kind ``end``. Raises ``StatementError``."""
-    return [*_Reader(glyphs(text), names).all(), Token("end", "", (len(text), len(text)))]
+    row = glyphs(text)
+    row = tuple(chain(*map(_of_letters, row))) if "e" in names.known else row
+    return [*_Reader(row, names).all(), Token("end", "", (len(text), len(text)))]
+
+
+def _of_letters(glyph: Glyph) -> Iterable[Glyph]:
+    """A number as ``5e-2`` as 5 e − 2, which it is where e is a letter; ``1e-3`` and ``2.5e-2`` nobody writes of one."""
+    parts = _OF_LETTERS.fullmatch(glyph.text) if glyph.kind is Kind.DIGIT else None
+    if parts is None:
+        return [glyph]
+    kinds, at = (Kind.DIGIT, Kind.WORD, Kind.SIGN, Kind.DIGIT), glyph.span[0]
+    return [Glyph(kind, parts[i], (at + parts.start(i), at + parts.end(i))) for i, kind in enumerate(kinds, 1)]
 
 
 @dataclass(frozen=True)
