@@ -17,6 +17,7 @@ _ROUND_OFF = 1e-9
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "tan": np.tan, "sqrt": np.sqrt, "exp": np.exp, "abs": np.abs, "atan2": np.arctan2}
 _FUNCTIONS |= {
     "ln": np.log,
+    "sign": np.sign,
     "asin": np.arcsin,
     "acos": np.arccos,
     "atan": np.arctan,

@@ -54,9 +54,10 @@ REMARKS = (
     ", which is positive", " (3a)", " at any time", r"\qquad\blacksquare", " (to the second law)",
 )  # fmt: skip
 BETWEEN = ("; ", ", ", "\n", " and ", r" \\ ", r",\quad ", ", so ", " ⇒ ", r" \Rightarrow ", "; hence ", " (1)\n")
-_CONDITION = re.compile(
-    r"\s*((?:constant|limit|if|at|just|after|before|for|when|as|initially|small|while|once|until|without|with|steady state|held still|[a-z]+ on the [a-z]+)\b[^:=]*(?:=[^:]*)?:(?!=))\s*"
-)
+_CONDITION = re.compile(r"\s*([^:=]*[a-z]{2}[^:=]*(?:=[^:]*)?:(?!=))\s*")
+"""Words may say of which motions it is."""
+_SAID_WITHIN = re.compile(r"\A\s*(?:at|when|if|where)\b|\(0\)")
+"""A condition behind a label, and what is of the start by a letter."""
 _BEHIND = re.compile(r"\s+as\s+\S+\s*(?:→|->).*$|\s*=\s*(?:\\text\{)?const\}?\s*$")
 
 
@@ -210,7 +211,7 @@ class Style:
         return f"{self.write(top, _PRODUCT)}/{self.write(bottom, _FACTOR)}"
 
     def symbol(self, symbol: Sym) -> str:
-        if symbol.name in ("i", "j", "k") and self.latex and self.hats:
+        if symbol.name in ("i", "j", "k") and not symbol.dots and self.latex and self.hats:
             return rf"{self.hats}{{{symbol.name}}}"
         found = _NAME.fullmatch(symbol.name)
         if not found or (len(found[1]) > 1 and found[1] not in GREEK and found[1] not in GREEK.values()):
@@ -287,6 +288,8 @@ def rewritten(rng: random.Random, checker: Checker, says: str, dressed: bool = T
     if found := _BEHIND.search(body):
         behind, body = found[0], body[: found.start()]
     constant = before.startswith("constant") or "const" in behind
+    if _SAID_WITHIN.search(body) or (constant and "=" in body):
+        return None
     try:
         program = checker.case(body + " = 0" * constant).program
     except (StatementError, ModelProblem):

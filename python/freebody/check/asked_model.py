@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 """A name in an expression of the model language, also of a part of the model."""
 _AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
+EXACT = 1e-13  # tolerance of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment
@@ -120,7 +121,8 @@ class AskedModel:
         """The state at the moment of the motion from a start, with ``rates`` or those there."""
         if rates is not None:
             state, _ = self.core.assemble(state.p, state.t, guess=self._named(state.q), rates=rates)
-        found = state if self.stated else state_of(self.mechanism, state, self.core, **self.moment, max_steps=_TO_MOMENT)
+        there = {**self.moment, "max_steps": _TO_MOMENT, "rtol": EXACT}
+        found = state if self.stated else state_of(self.mechanism, state, self.core, **there)
         is_new = found.history is None and self.restricted  # what holds there shows as it begins to move
         return replace(self.run(found, 1e-6 / self.rate).state(found.t), moment=found.moment) if is_new else found
 

@@ -19,6 +19,7 @@ from .stated import Correction
 _DIRECTIONS = {Sym(name) for name in ("i", "j", "k")}
 _FIGURE = Sym("the figure")
 _SIGNIFICANT = 3  # digits of a whole number that count though they are zeros
+_COMPUTED = 8  # digits, more than anybody measures
 ROUND = 1e-9
 """Of half a digit, so that a figure that lies on the edge is accepted."""
 
@@ -51,6 +52,12 @@ def says_a_measure(equation: Equation) -> bool:
     """Whether one side is a measured figure alone, as in a = 2.91 m/s²."""
     sides = ((equation.left, equation.right), (equation.right, equation.left))
     return any(not symbols_in(side) and symbols_in(other) and says_a_figure(Equation(other, side)) for side, other in sides)
+
+
+def is_computed(equation: Equation) -> bool:
+    """Whether a figure has so many digits that it was computed, of one model's numbers."""
+    digits = (re.split("[eE]", figure.text)[0].replace(".", "").strip("0") for figure in figures(equation))
+    return says_a_figure(equation) and any(len(each) >= _COMPUTED for each in digits)
 
 
 def _alone(equation: Equation) -> list[Node]:

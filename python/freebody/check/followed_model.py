@@ -13,14 +13,13 @@ from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent, same_mode
 
 from .arrangement import NOTHING, arranged
-from .asked_model import AskedModel
+from .asked_model import EXACT, AskedModel
 from .families import BEFORE, Family, Samples
 from .moments import Moments
 from .sides import turns_over
 from .stretches import zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START, OF_TIME
 
-_EXACT = 1e-13  # tolerance of runs whose course matters
 JUST_BEFORE, JUST_AFTER = 1 - 1e-6, 1 + 1e-6  # of the time to a moment, which is not found more exactly
 _ROUND_OFF = 1e-12  # of what an expression typically changes by
 _FEW_STEPS = 150  # on all of them, beyond which it is followed no farther
@@ -100,7 +99,7 @@ class FollowedModel(AskedModel):
         takes few steps; each, and whether it goes on."""
         begins, steps = start.t, 0
         for long in longs:
-            motion = self.run(start, long / self.rate, _EXACT)
+            motion = self.run(start, long / self.rate, EXACT)
             goes_on, steps = motion.end.t >= start.t + 0.99 * long / self.rate, steps + len(motion.steps)
             yield motion, goes_on
             if not goes_on or (steps > _FEW_STEPS and motion.end.t > begins + _LONG / self.rate):
@@ -111,7 +110,7 @@ class FollowedModel(AskedModel):
         """What switches on the motion from a start up to just before or just after a time, and what acts there."""
         if until <= start.t:
             return Course([], self.core.free_bodies(start))
-        motion = self.run(start, by * (until - start.t), _EXACT)
+        motion = self.run(start, by * (until - start.t), EXACT)
         return Course([*map(_switch, motion.changes)], self.core.free_bodies(motion.end))
 
     def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:

@@ -21,7 +21,7 @@ from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order
 from .case import Case
 from .correction import MOST, SECOND, corrections
 from .families import ALL, Family, NoMotion, Samples
-from .figures import corrected_figures, rounding, says_a_figure, says_a_measure
+from .figures import corrected_figures, is_computed, rounding, says_a_figure, says_a_measure
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import SAMPLES
@@ -306,9 +306,10 @@ def _has_sizes(case: Case, equation: Equation) -> bool:
 
 
 def _as_figures(case: Case, equation: Equation) -> Verdict | None:
-    """That a measure alone on its side, ``a = 2.91 m/s²``, is that of the model's own numbers, of any motion or of those from its start;
-    else None."""
-    if not (case.hypothesis == ALL and says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(case.program)))):
+    """That a measure alone on its side, ``a = 2.91 m/s²``, or one that was computed is that of the model's own numbers, of any motion or of
+    those from its start; else None."""
+    measured = says_a_measure(equation) and any(map(case.meaning.is_answer, symbols_in(case.program)))
+    if case.hypothesis != ALL or not (measured or is_computed(equation)):
         return None
     own = replace(case.hypothesis, numbers=True, zeros=False)
     for family, assumed in ((own, OWN_NUMBERS), (replace(own, since="start"), f"{OWN_NUMBERS}, {FROM_START}")):

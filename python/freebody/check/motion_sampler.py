@@ -22,6 +22,7 @@ from freebody.symbolic.dimensions import ANGLE, LENGTH
 
 from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated, with_parameters
+from .asked_model import EXACT
 from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
 from .followed_model import JUST_AFTER, Course, FollowedModel
@@ -46,7 +47,6 @@ _FULL_SPEED = 1000  # the same where a speed is asked for at which something van
 _FACTOR = (0.3, 3.0)
 _LOOP_FACTOR = (0.7, 1.4)  # of lengths of closed loops, which have to close
 _ANGLE_FACTOR = (0.4, 1.6)  # of angles, which are not free to grow
-_EXACT = 1e-13  # tolerance of runs whose course matters
 _SHARE, _MOST, _FEWER = 0.1, 0.4, 16
 """Of the time for a statement: when fewer samples are enough, and when no more are looked for."""
 _SHORT_LOOP = 4  # coordinates, up to which a loop is taken far
@@ -146,7 +146,7 @@ class MotionSampler(FollowedModel):
         start, reach = None, reach * (_NEXT if family.near else 1.0)
         if family.steady:
             values = self._tied(values, family)
-            return (found, None) if (found := steady_state(self, rng, values, _EXACT)) else None
+            return (found, None) if (found := steady_state(self, rng, values, EXACT)) else None
         driven = bool(family.vanishing and self.spec["motions"]) and not self.free_rates.size
         if (family.since or driven) and not family.at_start:
             found, start = self._since_start(rng, values, family)

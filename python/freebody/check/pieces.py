@@ -17,8 +17,8 @@ _COMMON = re.compile(r"all|and|are|bar|end|for|has|its|let|not|off|one|out|rod|t
 """Words that are words, though letters of them may be symbols."""
 _NO_WORDS = {*CALLS, "const", "inf", "infinity", "lim", "min", "max", "deg", "rad", "rpm"}
 _WORD = re.compile(r"(?:\A|(?<=[\s,;:(]))[A-Za-z]+(?:-[a-z]+)*(?:(?<=[a-z]{3})['’]s?)?(?=[\s,;:)]|\Z)")
-_RATE = re.compile(r"d{0,2}dot\Z")
-"""Of the name of a rate, as programs have it."""
+_RATE = re.compile(r"d{0,2}dot\Z|['’]+\Z")
+"""Of the name of a rate, as programs have it or with primes."""
 _FIGURE = re.compile(r"(?<![^\W\d])(?<!_)[\d.]+\Z")
 """A number, behind which a unit may stand."""
 _OPERATORS = "=+*/^·<>≤≥≈→"

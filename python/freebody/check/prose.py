@@ -217,6 +217,9 @@ def plainly(
     return arranged(said, known, OF_WHAT, bodies), tuple(passed)
 
 
+_RATE = re.compile(r"d{0,2}dot\Z")
+
+
 def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
     """Whether what stands behind an equation, or a figure that is ``measured``, is words: one of them at least, and none nearly a name that
     is known; or the unit of a formula."""
@@ -228,7 +231,10 @@ def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
         [word for word in re.findall(r"[^\W\d_]{3,}", words) if word.isalpha()] if not re.search(r"[*/^·×_-]|\.\w", words) else []
     )
     return any(word not in CALLS for word in found) and not any(
-        nearest(folded(word), map(folded, known)) or word in CALLS or word.lower().startswith("const")
+        _RATE.sub("", word) in known
+        or nearest(folded(word), map(folded, known))
+        or word in CALLS
+        or word.lower().startswith("const")
         for word in found
         if word not in _CONNECTIVES
     )

@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from freebody.core import quote
-from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, walk
+from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, is_zero, walk
 
-from .language.statements import Equation, symbols_in
+from .language.statements import Equation, symbols_in, terms
 
 if TYPE_CHECKING:
     from .case import Case
     from .families import Family
 
+_BOTH = 2  # terms
 _SIZE = re.compile(r"speed\(|hypot\(")
 _DEPENDS = re.compile(r"\b(?:abs|sign)\(")
 _RUBBED = re.compile(r"\bsign\(((?:rate|omega|vx|vy)\([^()]*\))\)")
@@ -40,12 +41,20 @@ def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
 
 def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
     """The same of a rate that is said to be a root, θ' = √(…), and of those of which a size is made, v_B = L ω."""
-    known, pairs = case.meaning, ((equation.left, equation.right), (equation.right, equation.left))
+    known, pairs = case.meaning, said_of_each(equation)
     rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
     sizes = [other for one, other in pairs if isinstance(one, Sym) and any(map(_SIZE.match, known.texts(Sym(one.name))))]
     linear = (n for other in sizes for n in symbols_in(other) if known.vocabulary.is_rate(n))
     moving = {n: known.read_from(n) for n in linear if n not in known.vocabulary.parameters}
     return _as_at_start(case, {n: known.read_from(n) for n in rates} | moving)
+
+
+def said_of_each(equation: Equation) -> list[tuple[Node, Node]]:
+    """Each side with what it is said to be; of ω − √(…) = 0 each term."""
+    sides = [equation.left, equation.right]
+    if any(map(is_zero, sides)) and len(found := terms(equation)) == _BOTH:
+        sides = [each.of if isinstance(each, Negative) else each for each in found]
+    return [(sides[0], sides[1]), (sides[1], sides[0])]
 
 
 def holds_with_either_root(case: Case, equation: Equation) -> bool:

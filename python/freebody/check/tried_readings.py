@@ -18,7 +18,7 @@ from .case import Case
 from .judging import judged, of_wrong_dimensions
 from .language.dimensions import misfit
 from .language.statements import Program, symbols_in
-from .senses import is_root
+from .senses import is_root, said_of_each
 from .symbols import DOUBTFUL, Symbols
 from .usual_names import ENERGIES
 from .verdict import Verdict
@@ -85,7 +85,7 @@ def _readings(checker: Checker, text: str, letters: Declared) -> Iterator[tuple[
 
 def _rooted(case: Case, known: Symbols) -> dict[str, str]:
     """The sizes of letters that are said to be a root: v = √(2 g h); but no turn that goes on backwards."""
-    pairs = [pair for line in case.program.equations for pair in ((line.left, line.right), (line.right, line.left))]
+    pairs = [pair for line in case.program.equations for pair in said_of_each(line)]
     found = [one.name for one, other in pairs if isinstance(one, Sym) and not one.dots and is_root(other)]
     meanings = {name: known.meanings[name] for name in found if name in known.meanings}
     sized = {name: m for name, m in meanings.items() if len(m.texts) == 1 and m.kind in ("declared", "reading")}

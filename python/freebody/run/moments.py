@@ -61,10 +61,11 @@ def state_of(
     before: str | None = None,
     after: str | None = None,
     max_steps: int = MAX_STEPS,
+    **settings: float,
 ) -> State:
     """The state of the motion from ``start`` at a time, after what happens then, or just before or after the first event or mode
-    change of a name; without any the start, after the events there. ``source`` is the mechanism compiled. Raises ``Unreached`` for
-    what the motion does not reach within so many steps."""
+    change of a name; without any the start, after the events there. ``source`` is the mechanism compiled; ``settings`` overrule those of
+    the model's run. Raises ``Unreached`` for what the motion does not reach within so many steps."""
     if sum(each is not None for each in (at, before, after)) > 1:
         raise ValueError("at, before and after are one moment: give one of them")
     t, named = start.t if at is None else quantity("at", at, "s"), before or after
@@ -76,7 +77,7 @@ def state_of(
     if t == start.t and (named in (None, START) or named in happen):
         run = opening(mechanism, start, source)
         return replace(run.motion.state(t), moment=f"after {' and '.join(happen)}") if run else start
-    run = simulate(source, start, mechanism.run_plan(_end(mechanism, start) if named else t, {}), max_steps=max_steps)
+    run = simulate(source, start, mechanism.run_plan(_end(mechanism, start) if named else t, settings), max_steps=max_steps)
     if named:
         t = time_of(run, named)
     elif run.outcome.t < t:

@@ -17,7 +17,7 @@ const ROUNDS: usize = 100;
 const PATIENT_ROUNDS: usize = 50;
 /// How many moments ahead is looked where the present decides nothing, until that does: the nearest says most, but what
 /// grows slowly is hidden by round-off there.
-const LOOKAHEADS: [f64; 3] = [1.0, 10.0, 100.0];
+const LOOKAHEADS: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 
 /// A joint whose friction at rest is used up, and the sense in which it begins to slide.
 #[derive(Clone, Copy, Debug)]
