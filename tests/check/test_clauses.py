@@ -47,6 +47,14 @@ ARRANGED = {
     "at every instant F = k x": "F = k x",
     "wheel held: F = k x": "if wheel held: F = k x",
     "check: if m = 0, F = k x": "if m = 0: F = k x",
+    "top of the slice's flight: z = h": "at the highest point of the slice, after lift-off: z = h",
+    "parcel on the point of slipping: F = μ N": "just before it slips: F = μ N",
+    "mast standing still at θ = 0: N = W": "in equilibrium, θ = 0: N = W",
+    "rod passing θ = 0 for the first time, ↑: A = W": "when θ = 0, from the start: A = W",
+    "cart in motion, rod ΣM_A: J α = −W": "while the cart moves: rod ΣM_A: J α = −W",
+    "if θ and φ are small: J = k": "for small θ, φ: J = k",
+    "small oscillations about θ = π: ω² = k/J": "as θ -> π: ω² = k/J",
+    "when the speed no longer changes: F = W": "in the steady state: F = W",
 }
 AS_THEY_STAND = (
     "v = r ω",

@@ -287,11 +287,17 @@ class Checker:
     def beside(self, side: str, event: str, held: Mapping[str, float]) -> Checker:
         """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
         part that changes; with parameters that are ``held``. Raises ``ModelProblem``."""
-        name = self.happening(event)
-        key = (side, name, *held.items())
+        return self._of_moment(side, self.happening(event), held)
+
+    def at_time(self, t: float) -> Checker:
+        """The same of the model as its own motion has it at a time, s."""
+        return self._of_moment("at", t, {})
+
+    def _of_moment(self, side: str, moment: str | float, held: Mapping[str, float]) -> Checker:
+        key = (side, moment, *held.items())
         if key not in self._beside:
             asked = {word: given for word, given in {**self._asked, **held}.items() if word not in ("at", "before", "after")}
-            self._beside[key] = type(self)(self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: name})
+            self._beside[key] = type(self)(self.mechanism, self.declared, self._seed, self.seconds, **asked, **{side: moment})
         other = copy(self._beside[key])
         other.correcting, other.whole = self.correcting, self.whole
         return other

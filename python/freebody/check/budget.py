@@ -55,6 +55,14 @@ class Budget:
                 return
             yield each
 
+    def at_least(self, found: Iterable[T], part: float, share: float) -> Iterator[T]:
+        """What there is, as long as there is a ``part`` of the time left, or this itself has not taken a ``share`` of it."""
+        begins = thread_time()
+        for each in found:
+            if not self.lasts(part) and thread_time() - begins > share * self.seconds:
+                return
+            yield each
+
     def with_rest(self, part: float) -> float:
         """The part of the whole that is gone when a part of what is left is."""
         if math.isnan(self.begins) or math.isinf(self.seconds):

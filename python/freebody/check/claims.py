@@ -325,7 +325,9 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
 
 _JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
-_AT_BLOW = re.compile(rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*)\s*(?:,[^=<>:;\n]*)?:")
+_AT_BLOW = re.compile(
+    rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*(?:\s+(?:on|at|against|with|in)\s+(?:the\s+)?\w+)?)\s*(?:,[^=<>:;\n]*)?:"
+)
 """``impact:``, ``at the stroke:``."""
 _BESIDE_BLOW = re.compile(r"(?:\w+\s+)?(?:after|before|between|while|until|once|when|with|without|no|during)\b")
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")

@@ -62,10 +62,35 @@ _WORDS: tuple[tuple[str, str], ...] = (
         r"while \1 moves \2",
     ),
     (r"(at the (?:top|highest point)) of the (?:first )?(?:rebound|bounce)", r"\1, after the impact"),
+    (
+        r"(?:at )?(?:the )?(?:top|highest point) of (?:(?:the )?(\S+?)['’]s|(?:its|his|her)) flight",
+        r"at the highest point of the \1, after lift-off",
+    ),
+    (
+        r"(?:(?:the )?(?:[a-z]+ )?(?:is |are )?)(?:just )?(?:about to|on the (?:point|verge) of) (?:slip(?:ping)?|slid(?:e|ing))\b.*",
+        "just before it slips",
+    ),
+    (r"(?:[a-z]+ )*?(?:standing|hanging|lying|resting|sitting) still at (\S+ ?= ?\S+)", r"in equilibrium, \1"),
+    (
+        r"(?:once|when) (?:the )?(?:speed|velocity) (?:no longer changes|does not change any ?more|stays the same)",
+        "in the steady state",
+    ),
     (r"(?:at )?(?:the )?(?:first )?turning point( after .*)?", r"at the turning point,\1"),
     (r"(at (?:the|its) \S+ (?:point|position|place)) (after .*)", r"\1, \2"),
     (r"(?:from )?(t_?[1₁]) to (t_?[2₂])", r"from \1 to \2"),
     (r"(?:as a )?special case,? (.*=.*)", r"if \1"),
+    (
+        r"(?:(?:the )?\S+ )?(?:pass(?:ing|es)|swing(?:ing|s) through)(?: through)? (?:the (?:[a-z]+ )?(?:position|place|point) )?(\S+ ?= ?\S+)",
+        r"when \1",
+    ),
+    (
+        r"(?:(?:the )?[a-z]+ )?(?:[a-z]+ing )?(?:about|over|on|at) (?:the )?(?:edge|corner) ([A-Z]\w*)",
+        r"while it turns about \1",
+    ),
+    (r"(?:the )?(?!\w+ing\b)([a-z]+) on", r"once the \1 is on"),
+    (r"for the first time", "from the start"),
+    (r"(?:going|moving|sliding|running) (up|down)(?:wards?|hill)?", r"while it moves \1"),
+    (r"(?:the )?([a-z]+) (?:is )?in motion", r"while the \1 moves"),
     (r"(?:and )?before (?:the )?(?:second|next|third)\b.*", ""),
     (r"after (?:a |the )?(?:time )?t (?:from rest|if the start is at rest)", "if the start is at rest"),
     (r"after (?:a|an|one|half|two|three|\d+)\b[^()=]*\(([^()]*=[^()]*)\)", r"when \1"),
@@ -107,7 +132,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
 _IDLE = re.compile(
     r"(?:as\s+a\s+)?special\s+case|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
     r"|for\s+an\s+observer\b.*|(?:solving|using|eliminating|substituting|combining|inserting)\b.*|1:?\s.*\bbefore|2:?\s.*\bafter"
-    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|(?:as\s+a\s+)?check|(?:both|the\s+two|these)\s+equations|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
+    r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|[→←↑↓]|(?:as\s+a\s+)?check|(?:both|the\s+two|these)\s+equations|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
     re.I,
 )
 """Clauses that say nothing of it."""

@@ -18,7 +18,7 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 from .coefficients import more, multiplied, product, tidied
 from .conventions import conventions
 from .correction import EQUAL, MOST
-from .edits import Edit, depth, edits, forgotten_factors
+from .edits import Edit, depth, edits, exchanged, forgotten_factors
 from .energy_terms import lacking_energies
 from .fitted_edits import FittedEdits
 from .language.dimensions import dimension
@@ -298,6 +298,17 @@ class _Search:
                 for length in (n for n in known.parameters if known.dimension(n) == LENGTH):
                     stretch = Add((Fn("sqrt", (node,)), Negative(length)))
                     yield Edit.at(self.equation, "symbol", node, Pow(stretch, _TWO, span=node.span), 0.1)
+        yield from self._stretches()
+
+    def _stretches(self) -> Iterator[Edit]:
+        """Every square of a length that changes that of what it is more than a length at rest, as of two springs."""
+        known = self.vocabulary
+        moving = lambda n: isinstance(n, Sym) and n not in known.parameters and not n.dots and known.dimension(n) == LENGTH
+        found = [n for n in walk(self.node) if isinstance(n, Pow) and n.exponent == _TWO and moving(n.base)]
+        for rest in [n for n in known.parameters if known.dimension(n) == LENGTH] if len({*found}) > 1 else []:
+            changes = {n: Pow(Add((n.base, Negative(rest))), _TWO) for n in found}
+            words = f"each length of a spring should be its stretch, less `{spell(rest)}`"
+            yield Edit("convention", None, None, exchanged(self.equation, changes), words=words)
 
 
 def _addends(node: Node, before: Node) -> Iterator[tuple[Node, Node]]:

@@ -84,8 +84,12 @@ def _products(equation: Equation) -> Iterator[Edit]:
 
 
 def _functions(equation: Equation) -> Iterator[Edit]:
-    """Sine and cosine of an angle exchanged wherever they stand, where they do more than once, or those of two terms."""
+    """Sine and cosine of an angle exchanged wherever they stand, where they do more than once, or those of two terms; those of all angles."""
     calls = [n for n in walk(equation) if isinstance(n, Fn) and n.name in OTHER]
+    if len({n.args for n in calls}) > 1 == len({n.name for n in calls}):  # as where a law is differentiated
+        name = calls[0].name
+        words = f"`{name}` should be `{OTHER[name]}` each time"
+        yield _everywhere(equation, {n: Fn(OTHER[name], n.args) for n in calls}, words)
     for angle in dict.fromkeys(n.args for n in calls):
         found = [n for n in calls if n.args == angle]
         if len(found) > 1:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -72,6 +73,8 @@ class Samples:
     states: list[State]
     starts: list[State] = field(default_factory=list)
     """Where the motion of each state began, if that is known."""
+    own_start: State | None = None
+    """Where the model's own motion begins, which shows how others come to a moment."""
     stress: float = 1.0
     loose: set[str] = field(default_factory=set)
     known: dict[str, Array] = field(default_factory=dict)
@@ -86,11 +89,15 @@ class Samples:
             self.known |= {text: rows[:, i] for i, text in enumerate(new)}
         return {text: self.known[text] for text in texts}
 
+    @cached_property
+    def _usual(self) -> Moments | None:
+        return Moments(self.core, self.own_start) if self.own_start else None
+
     def _row(self, k: int, texts: Sequence[str]) -> Array:
         """Expressions, loads and what is asked of the start, in one state."""
         state, start = self.states[k], self.starts[k] if self.starts else None
         since = state.t - start.t if start else 0.0
-        asked = Moments(self.core, start, since) if start else None
+        asked = Moments(self.core, start, since, self._usual) if start else None
         read = {text: asked.in_numbers(text) if asked else text for text in texts}
         plain = [
             t for t, of in read.items() if not (of.startswith((LOAD, SUMMED, AMPLITUDE)) or OF_START.search(of) or "(nan)" in of)

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from freebody.core import Change, FreeBodies, State, Trajectory
+from freebody.core import FreeBodies, State, Trajectory
 from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent, same_mode
 
 from .arrangement import NOTHING, arranged
 from .asked_model import EXACT, AskedModel
 from .families import BEFORE, Family, Samples
-from .moments import Moments
+from .moments import Moments, Switch, switches
 from .sides import turns_over
 from .stretches import zeros
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START, OF_TIME
@@ -34,7 +34,7 @@ _ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
 class Course:
     """How a motion goes: of which kind each thing is that switches, what does so and how it slides in an impact; and what acts at the end."""
 
-    switches: list[tuple[str, tuple[str, ...], tuple[float, ...]]]
+    switches: list[Switch]
     acts: FreeBodies
 
     @property
@@ -111,7 +111,7 @@ class FollowedModel(AskedModel):
         if until <= start.t:
             return Course([], self.core.free_bodies(start))
         motion = self.run(start, by * (until - start.t), EXACT)
-        return Course([*map(_switch, motion.changes)], self.core.free_bodies(motion.end))
+        return Course(switches(motion), self.core.free_bodies(motion.end))
 
     def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:
         """Whether an expression is 0 on all of a stretch."""
@@ -130,7 +130,3 @@ class FollowedModel(AskedModel):
                 if it_has_not_jumped and self.are_above(above, found):
                     return found
         return None
-
-
-def _switch(change: Change) -> tuple[str, tuple[str, ...], tuple[float, ...]]:
-    return change.kind, change.of, tuple(change.impulses.slides.values()) if change.impulses else ()

@@ -23,7 +23,7 @@ _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
 _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\$([A-Za-z])\$(?=\s+[a-z]{3,})", r"\1"),  # at the moment $B$ begins to slip
-    (r"(?<==)([^=→\n:]*[^=→\n:\s])\s+→\s+(?=[^=→:\n]+=)", r"\1 ⇒ "),  # v = r ω → v² = r² ω²
+    (r"(?<==)([^=→\n:]*[^=→\n:\s])\s+→\s+(?!(?:0|∞|inf\w*)\s*(?:,|and\b))(?=[^=→:\n]+=)", r"\1 ⇒ "),  # v = r ω → v² = r² ω²
     # let go at rest from y₀, θ = 0: …
     (
         r"\b(?:let\s+go|released|dropped|set\s+free)\s+(?:at|from)\s+rest\s+(?:from|at|in|where)\s+(?:\$?\\?[^\W\d]\w*\$?,\s*)?(?=[^:]*=[^:]*:(?!=))",

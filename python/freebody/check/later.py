@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ from .assumptions import FROM_START
 from .families import SINCE_START
 from .language.spelling import spell
 from .language.statements import terms
+from .phases import kind_of
 from .prose import plainly
 from .residual import magnitude
 from .verdict import Kind, Verdict
@@ -24,7 +26,12 @@ from .wording import with_condition_first
 if TYPE_CHECKING:
     from .api import Checker, Declared
 
+AT_FIRST = "It holds as the model is at first"
 _ROUND_OFF = 1e-9  # of the terms of an equation, below which one of them is 0
+_DOING = re.compile(
+    r"\b(?!(?:s?p?r?ing|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
+)
+_GOES_ON = re.compile(r"\b(?:still|until|before)\b")
 _SETS_FREE = ("lift-off ", "slack ", "released ")  # what switches so that more moves
 _SWITCHES = 2  # of these, after which corrections are tried
 
@@ -39,10 +46,24 @@ def also_later(checker: Checker, verdict: Verdict, text: str, letters: Declared 
             if later.kind is not Kind.WRONG:
                 continue
             if not verdict.untested:
-                return replace(verdict, notes=(*verdict.notes, f"It holds as the model is at first, not after {name}."))
+                told = replace(verdict, notes=(*verdict.notes, f"{AT_FIRST}, not after {name}."))
+                return only_at_first(told) if _says_what_happens(checker, text) else told
             if _stays_zero(checker, verdict, text, letters):
                 return replace(later, notes=(*later.notes, f"At first, where {said} is 0, it holds; not so after {name}."))
     return verdict
+
+
+def only_at_first(verdict: Verdict) -> Verdict:
+    """True under the assumption that it is said of the model as it is at first, of which words that are passed over may not speak."""
+    only = "as the model is at first"
+    return replace(verdict, kind=Kind.TRUE_IF, assumption=only, reason=f"true only {only}")
+
+
+def _says_what_happens(checker: Checker, text: str) -> bool:
+    """Whether in a label something does what is not understood: ``frame going over:``."""
+    label, colon, _ = text.rpartition(":")
+    doing = {*_DOING.findall(label)} - {*checker.symbols().bodies} if colon else set()
+    return bool(doing) and kind_of(label) is None and _GOES_ON.search(label) is None
 
 
 def corrected_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:

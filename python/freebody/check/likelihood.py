@@ -13,7 +13,7 @@ from freebody.symbolic.tree import Add, Fn, Negative, Node, Num, Pow, Quotient, 
 
 from .edits import FIGURES, Edit
 from .language.dimensions import dimension
-from .language.statements import Equation
+from .language.statements import Equation, terms
 from .powers import powers_of
 from .slips import is_constraint
 from .taken_away import TakenAway, cancels, cancels_within, numbers, terms_of
@@ -111,10 +111,18 @@ class Likelihood:
             case "symbol", Sym() as old, Sym() as new if {old.key, new.key} <= self.values.keys():
                 sums = [side for side in (edit.after.left, edit.after.right) if isinstance(side, Add)]
                 twice = any(len({*each.terms}) < len(each.terms) for each in sums)  # 2 T is not written T + T
+                if (
+                    new.dots
+                    and is_constraint(edit.after, self.vocabulary)
+                    and all(new in each.symbols for each in terms(edit.after))
+                ):
+                    return math.inf  # a law of places, times a rate
                 return self._of_symbol(old, new) + _ODD * (twice or any(cancels_within(each, self.values) for each in sums))
             case "symbol", _, new:
                 if not (new.symbols & self.its.answers).issubset(() if edit.old is None else edit.old.symbols):
                     return math.inf  # what it is solved for, for something else
+                if isinstance(edit.old, Pow) and edit.old in self.its.sides and edit.old.symbols.isdisjoint(edit.after.symbols):
+                    return math.inf  # the same
                 undoes = isinstance(new, Add) and self.taken.by(edit.after)
                 solved = edit.old not in self.vocabulary.parameters and any(side is edit.old for side in self.its.sides)
                 return (

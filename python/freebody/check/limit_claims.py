@@ -70,6 +70,8 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
     if given.scaled and not given.since and any(map(case.meaning.speaks_of_start, case.equations)):
         given = replace(given, since="start")
         case = checker.case(statement, declared, given)
+    if given.held and not (given.scaled or given.small or given.late or any(map(says_zero, case.equations))):
+        return checker.check(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
         return _swinging(checker, given, limits).check(statement, declared, replace(given, small=()))
     if given.small:

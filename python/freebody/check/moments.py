@@ -19,13 +19,19 @@ _EXACT = 1e-13  # tolerance of the motion on which something is waited for
 _DOUBLED, _STEPS = 14, 5000  # how often it is followed twice as long, and how many steps that may take
 
 
+Switch = tuple[str, tuple[str, ...], tuple[float, ...]]
+"""Of which kind something is that switches, what does so, and how it slides in an impact."""
+
+
 @dataclass
 class Moments:
-    """The moments of the motion from a start, which is ``since`` seconds ago; each is looked for once."""
+    """The moments of the motion from a start, which is ``since`` seconds ago; each is looked for once. One to which it comes otherwise than
+    the ``usual`` motion, that of the model itself, is none."""
 
     core: CompiledModel
     start: State
     since: float = 0.0
+    usual: Moments | None = None
     known: dict[str, State | None] = field(default_factory=dict)
     reached: dict[str, tuple[Trajectory, float] | None] = field(default_factory=dict)
 
@@ -45,14 +51,21 @@ class Moments:
     def _state(self, moment: str) -> State | None:
         """The state at a time, or just before or after the first of what happens under a name."""
         name = moment.removeprefix(BEFORE)
-        if name not in self.reached:
-            self.reached[name] = self._reached(name)
-        if (found := self.reached[name]) is None:
+        if (found := self.coming_to(name)) is None:
             return None
         motion, t = found
         if moment == name:
             return motion.state(t)
         return self.start if t == self.start.t else motion.state(float(np.nextafter(t, -np.inf)))
+
+    def coming_to(self, name: str) -> tuple[Trajectory, float] | None:
+        """The motion up to a moment and that; None where it does not come to it, or not as the usual one does."""
+        if name not in self.reached:
+            self.reached[name] = found = self._reached(name)
+            own = self.usual.coming_to(name) if self.usual and found else None
+            if found and own and switches(*found) != switches(*own):
+                self.reached[name] = None
+        return self.reached[name]
 
     def _reached(self, name: str) -> tuple[Trajectory, float] | None:
         """The motion up to a moment and that; None where it does not come to it."""
@@ -70,3 +83,9 @@ class Moments:
             if until is not None or motion.end.t < start.t + span * 2**doubled:
                 break
         return None
+
+
+def switches(motion: Trajectory, until: float = np.inf) -> list[Switch]:
+    """What switches on a motion up to a time."""
+    slides = lambda change: tuple(change.impulses.slides.values()) if change.impulses else ()
+    return [(change.kind, change.of, slides(change)) for change in motion.changes if change.t <= until]

@@ -86,7 +86,9 @@ class MotionSampler(FollowedModel):
         key = (family, 1000 * fresh + count)
         if key not in self._families:
             made = self._drawn_samples(family, count, fresh)
-            self._families[key] = Samples(self.core, [state for state, _ in made], [start for _, start in made if start])
+            self._families[key] = Samples(
+                self.core, [state for state, _ in made], [start for _, start in made if start], self._begins(family)
+            )
         if not self._families[key].states:
             try:
                 _ = self.own
@@ -97,6 +99,11 @@ class MotionSampler(FollowedModel):
             why = "is not singular, on a limit or of another mode than its start"
             raise NoMotion(f"no motion of this model was found that {there}{why}")
         return self._families[key]
+
+    def _begins(self, family: Family) -> State | None:
+        """Where the model's own motion begins, as those of a family do; None where nothing switches."""
+        switches = self.spec["contacts"] or self.spec["stops"] or self.spec["strings"]
+        return (self.first if family.since == BEFORE else self.own) if switches and (family.since or family.at_start) else None
 
     def has(self, family: Family) -> bool:
         """Whether there are motions of a family."""
@@ -235,9 +242,10 @@ class MotionSampler(FollowedModel):
 
     def _adjustable(self, family: Family) -> list[str]:
         """The parameters of which one may have another value so that something vanishes: none with which loops close."""
-        if family.held or family.numbers or not family.vanishing:
+        held = dict(family.held)
+        if any(isinstance(value, str) for value in held.values()) or family.numbers or not family.vanishing:
             return []
-        return [name for name in self.free_parameters if not (self.loops and name in self._closing)]
+        return [name for name in self.free_parameters if name not in held and not (self.loops and name in self._closing)]
 
     @cached_property
     def _closing(self) -> set[str]:

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 _COMMON = 2  # terms that a statement has of a balance at least, to be one that lacks some
 _MOST_MISSING = 4
 _PART = 0.9  # of the budget, at which no more is looked for
+_AT_LEAST = 0.1  # of it, for the nearest whatever the time
 _MOST_DIFFERENT = 6  # terms that are told
 _EACH = 0.2  # by which a correction is larger for each term
 _MOST = 150  # balances that are looked at, those of few bodies first
@@ -76,8 +77,6 @@ class _True:
 
 def nearest(case: Case, equation: Equation) -> Nearest | None:
     """The nearest true equation; None where none holds an unknown of the statement."""
-    if not case.budget.lasts(_PART):
-        return None
     try:
         state = case.samples().states[0]
     except NoMotion:
@@ -100,14 +99,15 @@ def nearest(case: Case, equation: Equation) -> Nearest | None:
     dimensions = {dimension(term, case.meaning.vocabulary.dimensions) for term in terms(equation, expand=True)}
     asked = _questions(problem([free]), points, touched, {joint["name"] for joint in joints}, FORCE in dimensions)
     found = []
-    for words, question in case.budget.within(islice(asked, _MOST), _PART):
+    for words, question in case.budget.at_least(islice(asked, _MOST), _PART, _AT_LEAST):
         (answer,) = core.symbolic_answers(state, [{**question, "terms": False, "momentum": False}]).answers
         there = frozenset(read(each["symbol"]) for each in answer["linear"]["coefficients"])
         left, right = read(answer["left"]), read(answer["right"])
         if there & wanted:
             beside = difference(own, [*letters.terms(left, right)]) if letters and own else None
             found.append(_True(words, left, right, there, beside))
-    for row in stated.answers[0]:  # what loops ask of the configuration, the rates or the accelerations
+    kinematic = all(its is None or not its.mass for its in dimensions)
+    for row in stated.answers[0] if kinematic else ():  # what loops ask of the configuration, the rates or the accelerations
         if (stated_there := row[_LEVELS[level]]) is None:
             continue  # what sticks or rolls holds rates, and no place
         tree = read(stated_there)

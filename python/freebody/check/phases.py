@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from freebody.core import GROUND
+import numpy as np
+
+from freebody.core import GROUND, quote
 from freebody.run.moments import ORDINALS
 
 from .asked_model import does
@@ -30,7 +33,7 @@ _KINDS = {
     r"|blow|impact|collision|shock"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on (?:the|its|his|her) (?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
-    "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|(?:loses?|lost)\s+(?:contact|touch)"
+    "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|separation|(?:loses?|lost)\s+(?:contact|touch)"
     r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+still)|open(?:s|ed|ing)?|blows\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
@@ -68,6 +71,11 @@ _NUMBERED = re.compile(rf"\b({'|'.join(ORDINALS)})\s+([A-Za-z]\w*)")
 _IS_ON = re.compile(r"(?<!\bis )(?<!\bare )\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
 _Change = tuple[float, str, str]
 """When something changes, s, what does, and the name of that change."""
+_MOVES = re.compile(
+    r"(?:while|(?P<comes>once|when|after)|as long as)\s+(?:the\s+)?(?P<body>\w+)\s+(?:still\s+)?"
+    r"(?:(?P<moves>moves|(?:is\s+)?(?:moving|in\s+motion|under\s+way))|stands(?:\s+still)?|does\s+not\s+move|(?:is|stays)\s+(?:still\s+)?at\s+rest)"
+)
+_SEEN, _STANDS = 7, 1e-18  # moments of a stretch that are looked at; of the largest energy, below which a body stands
 _STEM = 3  # letters that words of one meaning begin with
 
 
@@ -109,6 +117,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
     limits = checker.sampler.core.instant(checker.sampler.own).limits
     words = with_names(words, limits)
+    if moving := _moving(checker, words):
+        return moving
     if joins := _joining(checker, words):
         return Phase(False, (joins,), False)
     kind, place = kind_of(words), _ON.match(words)
@@ -147,6 +157,24 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return None
     of_moment = not lasts and is_moment(words, kind)
     return Phase(at_first and not of_moment, tuple(reversed(changes.values())), of_moment) if changes or at_first else None
+
+
+def _moving(checker: Checker, words: str) -> Phase | None:
+    """The first stretch on which a body moves, ``while the cart moves``, or stands; a later one where it comes to that."""
+    found = _MOVES.fullmatch(words)
+    if found is None or found["body"] not in checker.symbols().bodies:
+        return None
+    run, energy = checker.own_motion, f"kinetic({quote(found['body'])})"
+    begins = {run.t[0]: ""} | {
+        change.t: f"{change.kind} {change.of[0]}" for change in reversed(run.changes) if change.t > run.t[0]
+    }
+    times = sorted(begins)
+    within = [np.linspace(one, other, _SEEN)[1:-1] for one, other in pairwise([*times, run.t[-1]])]
+    largest = np.array([run.evaluate(energy, each).max() for each in within])
+    fits = (largest > _STANDS * largest.max()) == bool(found["moves"])
+    comes = found["comes"] is not None and not fits[0]
+    k = next((k for k in range(len(fits)) if fits[k] and (k or not comes)), None)
+    return None if k is None else Phase(k == 0, (begins[times[k]],) if k else (), False)
 
 
 def _firsts(run: Any, begins: float, kind: str, begun: Sequence[_Change], again: bool) -> dict[str, tuple[float, str]]:

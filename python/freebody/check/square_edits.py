@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import combinations
 
 import numpy as np
@@ -22,6 +23,7 @@ from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
 _NEARLY = 1e-5  # relative spread below which a factor is meant to be one number, or a sum what is needed
+_ACCELERATION = LENGTH.times(TIME, -2)
 _SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
 
 
@@ -34,15 +36,16 @@ class SquareEdits:
     _made: dict[Dimension, tuple[list[Node], Array]] = field(default_factory=dict)
 
     def edits(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """The square of a speed that is that of something else, and of one that lacks a part: that of the ground, or of a rotation."""
+        """The square of a speed that is that of something else, and of one that lacks a part: that of the ground, or of a rotation; of a
+        component of an acceleration that lacks its centripetal part."""
         node, base = required.node, required.node.base if isinstance(required.node, Pow) else None
         its = None if base is None else dimension(base, self.vocabulary.dimensions)
-        if base is None or its not in _SPEEDS or node.exponent != Num(2.0) or required.needed.ndim != 1:
+        if base is None or its not in (*_SPEEDS, _ACCELERATION) or node.exponent != Num(2.0) or required.needed.ndim != 1:
             return
         value, lost = sampled(base, self.values), required.missing
         if not np.isfinite(lost).all() or not lost.any():
             return
-        nodes, rows = self._parts_of_speeds(its)
+        nodes, rows = self._parts_of_accelerations if its == _ACCELERATION else self._parts_of_speeds(its)
         alike = (np.abs(rows**2 - required.needed) <= _NEARLY * np.abs(required.needed)).all(axis=1)
         for other in (nodes[place] for place in np.flatnonzero(alike) if not isinstance(nodes[place], Sym)):
             yield Edit.at(equation, "symbol", node, Pow(other, node.exponent, span=node.span), 0.02 * depth(other))
@@ -116,6 +119,15 @@ class SquareEdits:
         rates = [n for n in parts if isinstance(n, Sym)]
         found = [speed, *rates, *(more(speed, part) for n in parts if n not in rates for part in (n, Negative(n)))]
         return found, np.array([sampled(node, self.values) ** 2 for node in found])
+
+    @cached_property
+    def _parts_of_accelerations(self) -> tuple[list[Node], Array]:
+        """Lengths times squares of rates, and their values."""
+        known = self.vocabulary
+        turns = [n for n in (*known.parameters, *(Sym(q.name, 1) for q in known.coordinates)) if known.dimension(n) == _SPEEDS[1]]
+        lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
+        found = [Mul((length, Pow(turn, Num(2.0, "2")))) for turn in turns for length in lengths]
+        return found, np.array([sampled(node, self.values) for node in found]).reshape(len(found), -1)
 
     def _parts_of_speeds(self, its: Dimension) -> tuple[list[Node], Array]:
         """Rates, and rates times a length, of a dimension, and their values."""

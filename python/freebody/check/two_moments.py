@@ -86,8 +86,8 @@ def across_impact(checker: Checker, declared: Declared, label: str, statement: s
         return f" {beside(dotted, name, index)} "
 
     def signed(found: re.Match[str]) -> str:
-        letter = re.sub(r"\\(?:var)?(?!d*dot)|\\d*dot|[^A-Za-z0-9₀-₉]", "", found[1])
-        is_after, dot = re.search("[+⁺]", found[2]) is not None, "dot" * (re.search(r"dot|'", found[1]) is not None)
+        letter = re.sub(r"\\(?:var)?(?!d*dot)|\\d*dot|[\W_]", "", found[1])
+        is_after, dot = re.search("[+⁺]", found[2]) is not None, "dot" * (re.search("dot|'|\u0307", found[1]) is not None)
         name = f"{letter}{dot}_{'after' if is_after else 'before'}".translate(_FIGURES)
         letters[name] = f"{known.expression(found[1])} @ {'' if is_after else 'before '}{happening}"
         return f" {name} "

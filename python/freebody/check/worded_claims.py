@@ -18,9 +18,11 @@ from freebody.symbolic.tree import Sym
 
 from . import timed_claims
 from .assumptions import WORDS
+from .corners import on_corner
 from .described import described, way_of
 from .families import BEFORE, SINCE_START
 from .language.statements import symbols_in
+from .later import AT_FIRST, only_at_first
 from .phases import NOT_FIRST, Phase, is_moment, kind_of, phase
 from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
@@ -39,6 +41,9 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
         under = f"if {others}: {statement}" if others else statement
         if beside := _BESIDE.fullmatch(part):
             return beside_words(checker, declared, beside[1], beside[2], beside[3], under)
+        if there := on_corner(checker, part):
+            verdict = there.check(under, declared, correcting=checker.correcting)
+            return replace(verdict, notes=(*verdict.notes, f"`{part}` is read as while it stays on that corner."))
         if IN_WORDS.fullmatch(part) and (found := phase(checker, part)):
             return _of_phase(checker, declared, found, part, under, problem)
     known = _letters(checker, declared)
@@ -129,6 +134,8 @@ def _label_or_stretch(checker: Checker, declared: Declared, words: str, statemen
         return _later(checker, declared, words, statement, verdict, problem)
     at_first = (lasts or placed) and others
     how = "at first" if at_first else "a label, and not judged"
+    if not at_first and verdict.kind is Kind.TRUE and any(note.startswith(AT_FIRST) for note in verdict.notes):
+        verdict = only_at_first(verdict)
     return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as {how}."))
 
 

@@ -29,6 +29,10 @@ LASTS = re.compile(
 """``while it slips``: words of a stretch of the motion."""
 _GOES_ON = re.compile(r"(?:it|he|she|they|(?:the|both|all)\s+\w+)\s+[a-z]+(?!.*(?:->|=))")
 """``as it slides down:``."""
+_AT_ONCE = re.compile(
+    r"\b(?:leaves?|hits?|strikes?|touch(?:es)?|lands?|reach(?:es)?|pass(?:es)?|meets?|clears?|lets?\s+go|begins?|starts?|loses?)\b"
+)
+"""``as the coin leaves``: a moment."""
 _ELSEWHERE = r"\b(?:top|inverted|highest|upside)\b"
 """In words of a place where no model is of which nothing is said."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)"
@@ -210,7 +214,9 @@ def as_claim(text: str) -> str:
     if not found:
         return text
     word, words = " ".join(found[1].split()), " ".join(_plainly(found[2]).split())
-    return _conditional("while" if word == "as" and _GOES_ON.match(words) else word, words, found[3])
+    if word == "as" and _GOES_ON.match(words):
+        word = "when" if _AT_ONCE.search(words) else "while"
+    return _conditional(word, words, found[3])
 
 
 def _conditional(word: str, words: str, statement: str) -> str:

@@ -155,7 +155,7 @@ impl HybridSystem<'_> {
         }
         self.place(t, y);
         let lost = energy + self.add_drive_works(y, &impact.drive_works) - self.workspace.kinetic_energy();
-        if lost.abs() <= NOTHING_LOST * energy {
+        if lost.abs() <= NOTHING_LOST * energy.max(self.strength * self.workspace.length) {
             return Ok(());
         }
         let joints = impact.joints.iter().map(|l| [l.force.x, l.force.y, l.couple]).collect();
