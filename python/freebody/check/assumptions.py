@@ -60,6 +60,7 @@ _NO_FORCE = re.compile(r"\(+([\w ]+)\.N\)+ - \(?0\)?")
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
 FROM_REST = f"{FROM_START} at rest"
+_ABOUT = re.compile(r".*\babout\s+(.+?)\s*(?:->|→)\s*0")
 OWN_NUMBERS = "these numbers of the model"
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""
@@ -360,6 +361,10 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
         return replace(given, held=(*given.held, *((name, 0.0) for name in lost)))
     if found := re.fullmatch(r"(\S+)\s*(?:->|→)\s*(.+)", part):
         return _with_limit(given, found[1], found[2], checker, declared)
+    if found := _ABOUT.fullmatch(part):
+        raise ModelProblem(
+            f"`{found[1]}` is no place that is known", "say it by a coordinate, like `small oscillations about θ = 180°`"
+        )
     if found := _OTHER_THAN.fullmatch(part):
         return replace(given, above=(*given.above, f"abs({_meant(f'({found[1]}) - ({found[2]})', checker, declared)}) - {SMALL}"))
     if found := _ABOVE.fullmatch(part):
