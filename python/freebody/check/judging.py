@@ -15,7 +15,7 @@ from freebody.model.errors import ModelProblem
 from freebody.symbolic.differentiate import rate
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import is_zero
-from freebody.symbolic.tree import Sym
+from freebody.symbolic.tree import Column, Node, Sym
 
 from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, nearer, of_family, tiny
 from .case import Case
@@ -174,7 +174,8 @@ def _in_figures(case: Case, equations: Iterable[Equation]) -> tuple[Correction, 
 
 
 def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
-    values, unseen = case.values(), unreached(equation, case.values())
+    values = case.values()
+    unseen = [term for term in unreached(equation, values) if not _is_nothing(term)]
     blind = [spell(term) for term in unseen]
     idle = {
         n.key: owner for term in unseen for n in symbols_in(term) if (owner := case.meaning.limit(n)) and not values[n.key].any()
@@ -182,7 +183,7 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
     if idle:
         what = f"{', '.join(idle)} is 0 on all motions that were tried, which leave {', '.join({*idle.values()})} as at the start"
         return Verdict(Kind.UNDECIDABLE, text, f"{what}: nothing is known of others", untested=tuple(blind))
-    if blind and len(blind) == len(terms(equation, expand=True)):
+    if blind and len(blind) == sum(not _is_nothing(term) for term in terms(equation, expand=True)):
         motions = "of this model" if case.hypothesis == ALL else "of which it is said"
         alone = len(blind) == 1  # it says that this is 0, and so it is
         return Verdict(Kind.TRUE, text, f"every term is 0 in every motion {motions}", untested=() if alone else tuple(blind))
@@ -194,6 +195,11 @@ def _true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict
     numbers = "the model's own numbers" if case.hypothesis.numbers else "random parameters"
     reason = f"holds on {len(found.ratio)} random motions {which}with {numbers}, to {share}"
     return Verdict(Kind.TRUE, text, reason, evidence=evidence(found, case.values()), untested=tuple(blind))
+
+
+def _is_nothing(term: Node) -> bool:
+    """Whether it is a column of zeros, as on the right side of a constraint."""
+    return isinstance(term, Column) and all(map(is_zero, term.items))
 
 
 def _not_true(case: Case, equation: Equation, text: str, found: Residual) -> Verdict:
