@@ -288,7 +288,7 @@ def rewritten(rng: random.Random, checker: Checker, says: str, dressed: bool = T
     if found := _BEHIND.search(body):
         behind, body = found[0], body[: found.start()]
     constant = before.startswith("constant") or "const" in behind
-    if _SAID_WITHIN.search(body) or (constant and "=" in body):
+    if _SAID_WITHIN.search(body) or (constant and "=" in body):  # a chain would fall into lines
         return None
     try:
         program = checker.case(body + " = 0" * constant).program

@@ -195,7 +195,7 @@ def test_what_is_printed_of_a_random_model_is_true(seed: str, moment: str) -> No
         state = mechanism.solve(**asked).state
     except (fb.MotionError, ValueError) as error:  # it does not start, or does not come there
         pytest.skip(str(error))
-    checker = Checker(mechanism, **asked).at_first()
+    checker = Checker(mechanism, **asked).at_first()  # what is printed is of that mode
     if not checker.sampler.has(ALL):
         assert not mechanism.simulate(state.t + 0.01).outcome.ok, "it moves, and yet no motion was found"
         pytest.skip("no motion goes on from there")

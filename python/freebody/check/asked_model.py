@@ -21,6 +21,7 @@ from freebody.solve.perturbed_states import independent
 from freebody.symbolic.dimensions import LENGTH, Dimension
 
 from .families import NoMotion
+from .integrals import EXACT
 from .sides import changes_side, squares
 
 if TYPE_CHECKING:
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 WORD = re.compile(r"[^\W\d][\w.\[\]]*")
 """A name in an expression of the model language, also of a part of the model."""
 _AT_REST = 1e-6  # of the rate of vibrations: below it a rate is the root of an acceleration that is round-off
-EXACT = 1e-13  # tolerance of runs whose course matters
 _RTOL = 1e-7  # of runs: every state on them is solved anew, so that they need not be accurate
 _STEPS = 2000  # of a run, which is short
 _TO_MOMENT = 20_000  # of one up to a moment

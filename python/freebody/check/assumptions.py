@@ -57,10 +57,11 @@ _OTHER_THAN = re.compile(r"([^=<>≤≥≠]+)(?:≠|\\neq?(?![a-z])|!=)([^=<>≤
 _STILL = re.compile(r"(?:\\d?dot\s*\{?\s*\\?\w+\s*\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))\s*=\s*0")
 """``x'' = 0``, which is so in equilibrium."""
 _NO_FORCE = re.compile(r"\(+([\w ]+)\.N\)+ - \(?0\)?")
+_ABOUT = re.compile(r".*\babout\s+(.+?)\s*(?:->|→)\s*0")
+"""What is small about a place in words: ``oscillations about the top -> 0``."""
 _WORDS_ALONE = re.compile(r"(?:an?|the)\s+[a-z]+(?:[\s-]+[a-z]+)*")
 FROM_START = "motions from the start of this model"
 FROM_REST = f"{FROM_START} at rest"
-_ABOUT = re.compile(r".*\babout\s+(.+?)\s*(?:->|→)\s*0")
 OWN_NUMBERS = "these numbers of the model"
 SMALL_MOTIONS = "small motions"
 """About where the model swings, or where all coordinates are 0."""

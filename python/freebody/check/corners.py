@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _ABOUT = re.compile(
     r"\b(?:turn|tip|rock|pivot|swing|roll|rotat|sink|climb)\w*\s+(?:about|over|on|round|around)\s+(?:the\s+)?(?:(?:edge|corner)\s+)?([A-Z]\w*)\Z"
 )
+"""``while the wheel turns about A``, ``tipping over the edge A``."""
 _MOMENTS, _ENOUGH = 400, 5  # of the model's own run that are looked at; of them, on which it stays there at least
 _THERE = 1e-9  # of the size of the model, within which a contact is at a point
 

@@ -13,8 +13,9 @@ from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent, same_mode
 
 from .arrangement import NOTHING, arranged
-from .asked_model import EXACT, AskedModel
+from .asked_model import AskedModel
 from .families import BEFORE, Family, Samples
+from .integrals import EXACT
 from .moments import Moments, Switch, switches
 from .sides import turns_over
 from .stretches import zeros
@@ -32,7 +33,7 @@ _ELSE = re.compile(f"{MOMENT}|⟦(?:{LARGEST}|{LEAST}): ")
 
 @dataclass(frozen=True)
 class Course:
-    """How a motion goes: of which kind each thing is that switches, what does so and how it slides in an impact; and what acts at the end."""
+    """How a motion goes: what switches on it, in its order, and what acts at the end."""
 
     switches: list[Switch]
     acts: FreeBodies
@@ -41,8 +42,8 @@ class Course:
     def impacts(self) -> list[tuple[str, ...]]:
         return [of for kind, of, _ in self.switches if kind == "impact"]
 
-    def is_of(self, other: Course) -> bool:
-        """Whether another goes alike."""
+    def is_like(self, other: Course) -> bool:
+        """Whether the same switches on both, in the same order, and the same acts at the end."""
         return self.switches == other.switches and same_mode(self.acts, other.acts)
 
 

@@ -21,7 +21,7 @@ from .user_symbols import AMPLITUDE, LARGEST, SUMMED, Masses, Meaning, Values
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _PANELS = 12
-_EXACT = 1e-13  # tolerance of the motion along which is summed up
+EXACT = 1e-13  # tolerance of runs whose course matters
 _SAME = 1e-9  # by how much two places may differ, relative
 _DOUBLED = 10  # times that a motion is followed twice as long, until something on it has had its largest value
 _LOOKS, _FINER, _NEARLY = 129, 4, 0.03
@@ -98,7 +98,7 @@ def summed(text: str, core: CompiledModel, start: State, state: State) -> float:
             return float("nan")
     if state.t <= start.t:
         return 0.0
-    motion = core.simulate(start, state.t, rtol=_EXACT, max_steps=5000)
+    motion = core.simulate(start, state.t, rtol=EXACT, max_steps=5000)
     edges = np.linspace(start.t, state.t, _PANELS + 1)
     half = np.diff(edges)[:, None] / 2
     times = (edges[:-1, None] + half * (1 + _NODES)).ravel()
@@ -112,7 +112,7 @@ def extreme(text: str, core: CompiledModel, start: State, typical: float) -> flo
     word, of = text.split(": ", 1)
     sign = 1.0 if word == LARGEST else -1.0
     for doubled in range(2, _DOUBLED):
-        motion = core.simulate(start, start.t + typical * 2**doubled, rtol=_EXACT, max_steps=5000)
+        motion = core.simulate(start, start.t + typical * 2**doubled, rtol=EXACT, max_steps=5000)
         ends = min([motion.end.t, *(change.t for change in motion.changes if change.t > start.t)])
         times, most = np.linspace(start.t, ends, _LOOKS), -np.inf
         values = sign * motion.evaluate([of], times)[:, 0]

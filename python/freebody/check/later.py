@@ -29,9 +29,11 @@ if TYPE_CHECKING:
 AT_FIRST = "It holds as the model is at first"
 _ROUND_OFF = 1e-9  # of the terms of an equation, below which one of them is 0
 _DOING = re.compile(
-    r"\b(?!(?:s?p?r?ing|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
+    r"\b(?!(?:ring|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
 )
+"""Words of what something does."""
 _GOES_ON = re.compile(r"\b(?:still|until|before)\b")
+"""Words by which a label is of the model as it is at first."""
 _SETS_FREE = ("lift-off ", "slack ", "released ")  # what switches so that more moves
 _SWITCHES = 2  # of these, after which corrections are tried
 

@@ -48,6 +48,7 @@ if TYPE_CHECKING:
 _TIME = "(t) - 0"
 """What is small where it is the time since the start."""
 _AT_ZERO = re.compile(r"- \(?0\)?\Z")
+"""Of what is small by itself: for small θ it need not rest at θ = 0."""
 _SOON = (0.05, 0.005)  # of the time typical of the model
 _REACHED = 1e-8  # share of its terms that may be left at a moment, which is found to that
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
@@ -70,6 +71,7 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
     if given.scaled and not given.since and any(map(case.meaning.speaks_of_start, case.equations)):
         given = replace(given, since="start")
         case = checker.case(statement, declared, given)
+    # What can be 0 is so: nothing is left that would have to shrink.
     if given.held and not (given.scaled or given.small or given.late or any(map(says_zero, case.equations))):
         return checker.check(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m

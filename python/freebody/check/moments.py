@@ -12,10 +12,9 @@ from freebody.core.compiled import BEFORE
 from freebody.model.start import quantity
 from freebody.run.moments import Unreached, time_of
 
-from .integrals import extreme
+from .integrals import EXACT, extreme
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
 
-_EXACT = 1e-13  # tolerance of the motion on which something is waited for
 _DOUBLED, _STEPS = 14, 5000  # how often it is followed twice as long, and how many steps that may take
 
 
@@ -75,7 +74,7 @@ class Moments:
             until = quantity("a moment", name, "s")
             span = until - start.t
         for doubled in range(_DOUBLED):
-            motion = core.simulate(start, start.t + span * 2**doubled, rtol=_EXACT, max_steps=_STEPS)
+            motion = core.simulate(start, start.t + span * 2**doubled, rtol=EXACT, max_steps=_STEPS)
             with suppress(Unreached):
                 t = time_of(motion, name) if until is None else until
                 if t <= motion.end.t:

@@ -22,10 +22,10 @@ from freebody.symbolic.dimensions import ANGLE, LENGTH
 
 from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated, with_parameters
-from .asked_model import EXACT
 from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
 from .followed_model import JUST_AFTER, Course, FollowedModel
+from .integrals import EXACT
 from .sides import changes_side
 from .steady import period_of, steady_state
 from .stretches import first_zero, stretches
@@ -121,10 +121,11 @@ class MotionSampler(FollowedModel):
         first = 0  # tries that fail are followed by one nearer the start, and so are those of the next sample
         for i in range(count):
             spent = (thread_time() - began) / seconds
-            if not found and i == _PATIENCE and (family.through or "after" in self.moment):
-                self._of_any_course.add(family)
-            elif (not found and i >= _PATIENCE and i % _PATIENCE == 0) or spent > _MOST:
+            patience = _PATIENCE * (2 if family.through or "after" in self.moment else 1)
+            if (not found and i >= patience) or spent > _MOST:
                 break
+            if not found and i == _PATIENCE:  # of the model's own course are none
+                self._of_any_course.add(family)
             if len(found) >= _FEWER and spent > _SHARE:
                 return found
             for failed in range(first, first + (_FEW_TRIES if family.scaled or family.held else _TRIES)):
@@ -412,7 +413,7 @@ class MotionSampler(FollowedModel):
 
     def _is_alike(self, family: Family, usual: Course, course: Course) -> bool:
         """Whether two motions have one course; of impacts alone where none with the same course in all was found."""
-        return course.is_of(usual) or (family in self._of_any_course and usual.impacts == course.impacts)
+        return course.is_like(usual) or (family in self._of_any_course and usual.impacts == course.impacts)
 
     @cached_property
     def _course_through(self) -> Course:

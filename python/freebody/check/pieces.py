@@ -17,7 +17,7 @@ _COMMON = re.compile(r"all|and|are|bar|end|for|has|its|let|not|off|one|out|rod|t
 """Words that are words, though letters of them may be symbols."""
 _NO_WORDS = {*CALLS, "const", "inf", "infinity", "lim", "min", "max", "deg", "rad", "rpm"}
 _WORD = re.compile(r"(?:\A|(?<=[\s,;:(]))[A-Za-z]+(?:-[a-z]+)*(?:(?<=[a-z]{3})['’]s?)?(?=[\s,;:)]|\Z)")
-_RATE = re.compile(r"d{0,2}dot\Z|['’]+\Z")
+RATE = re.compile(r"d{0,2}dot\Z|['’]+\Z")
 """Of the name of a rate, as programs have it or with primes."""
 _FIGURE = re.compile(r"(?<![^\W\d])(?<!_)[\d.]+\Z")
 """A number, behind which a unit may stand."""
@@ -79,7 +79,7 @@ def _is_word(word: str, before: str, after: str, known: Collection[str]) -> bool
         return False
     if len(word) < 3:
         return _SHORT.fullmatch(word) is not None
-    named = _RATE.sub("", word) in {*known, *LATEX_WORDS}
+    named = RATE.sub("", word) in {*known, *LATEX_WORDS}
     return re.search("[aeiouyAEIOUY]", word) is not None and not named and not {*word} <= {*known, "'", "’"}
 
 

@@ -15,6 +15,7 @@ from .clauses import arranged
 from .idioms import usual
 from .language.glyphs import CONDITION
 from .language.tokens import CALLS
+from .pieces import RATE
 from .wording import OF_WHAT
 
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
@@ -217,9 +218,6 @@ def plainly(
     return arranged(said, known, OF_WHAT, bodies), tuple(passed)
 
 
-_RATE = re.compile(r"d{0,2}dot\Z")
-
-
 def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
     """Whether what stands behind an equation, or a figure that is ``measured``, is words: one of them at least, and none nearly a name that
     is known; or the unit of a formula."""
@@ -231,7 +229,7 @@ def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:
         [word for word in re.findall(r"[^\W\d_]{3,}", words) if word.isalpha()] if not re.search(r"[*/^·×_-]|\.\w", words) else []
     )
     return any(word not in CALLS for word in found) and not any(
-        _RATE.sub("", word) in known
+        RATE.sub("", word) in known
         or nearest(folded(word), map(folded, known))
         or word in CALLS
         or word.lower().startswith("const")

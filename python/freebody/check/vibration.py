@@ -26,7 +26,7 @@ from .user_symbols import Masses, Meaning, Values
 if TYPE_CHECKING:
     from .motion_sampler import MotionSampler
 
-AT_REST = Family(at_rest=True)
+_AT_REST = Family(at_rest=True)
 _MOST = 6  # natural frequencies that have an index
 _QUANTITIES = {
     **{f"{name}_{i}": f"natural frequency {i}" for i in range(1, _MOST + 1) for name in ("ω", "natural_frequency")},
@@ -209,7 +209,7 @@ class Vibration:
                 return None
             first = self._placed(self._undriven(sampler.own if self._later else sampler.first))
             if self.places:
-                first = arranged(sampler, self.places, first, {}, AT_REST, sampler.free_parameters, ())
+                first = arranged(sampler, self.places, first, {}, _AT_REST, sampler.free_parameters, ())
             free = _space(core, first).free
             if not free:
                 return None

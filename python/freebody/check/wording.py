@@ -69,6 +69,7 @@ _GIVEN_IN_WORDS = re.compile(
 )
 """``engine off, no damping (Q = 0, c = 0):``."""
 _FREQUENCY = re.compile(r"\A(?:the )?natural (?:circular )?frequenc(?:y|ies):(?=.*(?:ω|\\?omega))")
+"""Behind it ω is one of several."""
 _OF_SMALL = re.compile(rf"\s*(?:(?:for|with|at)\s+)?small\b(?!.*{_ELSEWHERE})")
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
 OF_WHAT = re.compile(

@@ -53,8 +53,8 @@ class Impulses:
     """The impulses of an impact: ``contacts`` and strings on their first body (x, y in N·s, fixed axes), ``joints`` on their
     second body (x, y in N·s, couple in N·m·s about the joint's point), ``stops`` along what they limit (N·s; N·m·s at an angle).
     ``drives`` (motions and couplings) and ``locks`` along what they hold; ``works`` of motions in J. ``restitution`` is that of what
-    collided; what has friction sticks in the end where ``slides`` is 0, else slides in that sense; ``spared`` was reached too, but
-    would have had to pull."""
+    collided; ``slides`` is the sign of the speed of sliding at its end, 0 where it sticks, of what has friction; ``spared`` was reached
+    too, but would have had to pull."""
 
     contacts: Mapping[str, tuple[float, float]]
     joints: Mapping[str, tuple[float, float, float]]

@@ -72,6 +72,7 @@ impl HybridSystem<'_> {
         self.place(t, y);
         let (constraint, mut mode) = (&self.workspace.m.unilateral[l], self.mode.clone());
         let contact = &mut mode.contacts_mut()[l];
+        // Without a load it opens without a change of any force.
         if contact.mode == ContactMode::ClosedUnloaded && self.workspace.open_gap(l) > 0.0 {
             contact.mode = ContactMode::Open;
             self.enter_mode(t, mode);

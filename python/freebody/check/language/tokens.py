@@ -33,6 +33,7 @@ _SUFFIXES = {"dddot": 3, "ddot": 2, "dot": 1}
 _SHORT = re.compile(r"(?P<before>d{1,2})?(?P<name>.+?)(?(before)|(?P<after>d{1,2}))")
 """Rates as programs have them: dtheta, ddtheta, thetad, theta_dd."""
 _OF_LETTERS = re.compile(r"([2-9]|[1-9]\d)(e)([+-])(\d)")
+"""``5e-2`` where e is a letter."""
 _LONGEST = 400  # glyphs of names without a sign between them
 _WORDS = {"with", "where", "and"}
 _OPERANDS = {"symbol", "number", "raised", ")", "]"}
