@@ -14,57 +14,74 @@ const HOPELESS: f64 = 1e9;
 const EASED: f64 = 0.2;
 const STIFFENED: f64 = 1.0 / EASED;
 
-/// Rows to close: loops, drives and what is held.
-pub(super) fn rows(workspace: &mut Workspace, held: &[(String, ModelExpr, f64)]) -> Vec<(Row, f64)> {
+/// Rows to close, loops, drives and what is held, and what is open at them.
+pub(super) fn rows(workspace: &mut Workspace, held: &[(String, ModelExpr, f64)]) -> (Vec<Row>, Vec<f64>) {
     workspace.update_rows();
-    let mut rows: Vec<(Row, f64)> =
-        workspace.rows().iter().filter_map(|row| workspace.gap(row).map(|gap| (row.clone(), gap))).collect();
-    for (_, gauge, value) in held {
+    let closing = workspace.rows().iter().filter_map(|row| Some((row.clone(), workspace.gap(row)?)));
+    let targets = held.iter().map(|(_, gauge, value)| {
         let row = workspace.target_row(gauge, *value, 0.0);
         let gap = row.value.unwrap_or(0.0);
-        rows.push((row, gap));
+        (row, gap)
+    });
+    closing.chain(targets).unzip()
+}
+
+/// The present rows, and how far they are open, each in its own unit: at most, and by their squares.
+struct Open {
+    rows: Vec<Row>,
+    gaps: Vec<f64>,
+    worst: f64,
+    norm: f64,
+}
+
+impl Open {
+    fn at(workspace: &mut Workspace, held: &[(String, ModelExpr, f64)]) -> Self {
+        let (rows, gaps) = rows(workspace, held);
+        let sizes = rows.iter().zip(&gaps).map(|(row, gap)| (gap / workspace.row_unit(row)).abs());
+        let (worst, square) = sizes.fold((0.0_f64, 0.0), |(worst, sum), size| (worst.max(size), sum + size * size));
+        Open { rows, gaps, worst, norm: square.sqrt() }
     }
-    rows
 }
 
-fn worst(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
-    rows.iter().map(|(row, gap)| gap.abs() / workspace.row_unit(row)).fold(0.0, f64::max)
-}
-
-/// Damped least squares on all rows; returns the largest gap left.
-pub(super) fn descend(workspace: &mut Workspace, t: f64, held: &[(String, ModelExpr, f64)], q: &mut Vec<f64>) -> f64 {
+/// Damped least squares on all rows; returns the largest gap left. A step that lessens the gaps by no more than a part of `stalled` is the
+/// last.
+pub(super) fn descend(
+    workspace: &mut Workspace,
+    t: f64,
+    held: &[(String, ModelExpr, f64)],
+    q: &mut Vec<f64>,
+    stalled: f64,
+) -> f64 {
     let at_rest = vec![0.0; q.len()];
     workspace.move_to(t, q, &at_rest);
-    let mut present = rows(workspace, held);
+    let mut present = Open::at(workspace, held);
     // Near the solution full steps converge quadratically; where they do not help, the assembly is singular or far.
     let mut damping = 0.0;
     for _ in 0..DESCENTS {
-        let (gap, size) = (worst(workspace, &present), norm(workspace, &present));
-        if gap <= CLOSED || !gap.is_finite() {
+        if present.worst <= CLOSED || !present.worst.is_finite() {
             break;
         }
-        let step = workspace.damped_motion(&present, damping);
+        let step = workspace.damped_motion(&present.rows, &present.gaps, damping);
         let mut user = vec![0.0; q.len()];
         workspace.to_user(&step, &mut user);
         let longest = user.iter().zip(workspace.units()).map(|(d, unit)| (d / unit).abs()).fold(1.0, f64::max);
         let trial: Vec<f64> = q.iter().zip(&user).map(|(q, d)| q + d / longest).collect();
         workspace.move_to(t, &trial, &at_rest);
-        let next = rows(workspace, held);
-        if norm(workspace, &next) < size {
+        let next = Open::at(workspace, held);
+        if next.norm < present.norm {
+            let is_stalled = next.norm > (1.0 - stalled) * present.norm;
             (*q, present) = (trial, next);
             damping = if damping < UNDAMPED { 0.0 } else { EASED * damping };
+            if is_stalled {
+                break;
+            }
         } else {
             workspace.move_to(t, q, &at_rest);
-            if gap <= OPEN || damping > HOPELESS {
+            if present.worst <= OPEN || damping > HOPELESS {
                 break;
             }
             damping = (STIFFENED * damping).max(DAMPED);
         }
     }
-    worst(workspace, &present)
-}
-
-fn norm(workspace: &Workspace, rows: &[(Row, f64)]) -> f64 {
-    let square = |(row, gap): &(Row, f64)| (gap / workspace.row_unit(row)) * (gap / workspace.row_unit(row));
-    rows.iter().map(square).sum::<f64>().sqrt()
+    present.worst
 }

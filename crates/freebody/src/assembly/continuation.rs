@@ -89,7 +89,7 @@ impl<'a> Way<'a> {
     fn go_to(&self, workspace: &mut Workspace, part: f64, q: &mut Vec<f64>) -> bool {
         let given: Vec<(usize, f64)> = self.given.iter().map(|&(i, ends)| (i, between(ends, part))).collect();
         workspace.rebind(&workspace.m.parameters_with(&given));
-        descend(workspace, between(self.t, part), &self.held_at(part), q) <= OPEN
+        descend(workspace, between(self.t, part), &self.held_at(part), q, 0.0) <= OPEN
     }
 }
 
@@ -113,7 +113,7 @@ struct Independence {
 impl Independence {
     /// Of the present state: of loops, drives and what is held.
     fn of(workspace: &mut Workspace, held: &[(String, ModelExpr, f64)]) -> Self {
-        let present: Vec<_> = rows(workspace, held).into_iter().map(|(row, _)| row).collect();
+        let (present, _) = rows(workspace, held);
         let (rows, rank) = workspace.independence_of(&present);
         let largest = (0..rows.rows()).map(|i| size(rows.row(i))).fold(0.0, f64::max);
         Independence { rank: rank.rank, least: rank.kept * largest, rows }

@@ -78,6 +78,8 @@ pub struct Assembled {
 const SAME_PLACE: f64 = 1e-6;
 /// Attempts from other starts.
 const ATTEMPTS: usize = 64;
+/// Part by which a step must lessen the gaps there: one that does not nears a place where they are least, but open.
+const STALLED: f64 = 1e-5;
 
 /// Assembles a mechanism at time `t`.
 ///
@@ -110,9 +112,12 @@ pub fn state(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Re
         Some(from) => follow(workspace, t, request, from)?,
         None => {
             let start = released::start(workspace, t, request);
-            match attempt(workspace, t, request, &start) {
+            match attempt(workspace, t, request, &start, 0.0) {
                 Ok(q) if on_branch(workspace, t, &q, request) => q,
-                first => search(workspace, t, request, first)?,
+                first => {
+                    let first = first.map_err(|q| cannot_assemble(workspace, t, request, &q));
+                    search(workspace, t, request, first)?
+                }
             }
         }
     };
@@ -120,23 +125,24 @@ pub fn state(workspace: &mut Workspace, t: f64, request: &AssemblyRequest) -> Re
     Ok([q, u])
 }
 
-/// One attempt from one start: first drawn to what should be near, then closed exactly.
+/// One attempt from one start, given up where it is `stalled`: first drawn to what should be near, then closed exactly, or as nearly as it
+/// goes.
 fn attempt(
     workspace: &mut Workspace,
     t: f64,
     request: &AssemblyRequest,
     start: &[f64],
-) -> Result<Vec<f64>, DynamicsError> {
+    stalled: f64,
+) -> Result<Vec<f64>, Vec<f64>> {
     let mut q = start.to_vec();
     if !request.near.is_empty() {
         let all: Vec<_> = request.held.iter().chain(&request.near).cloned().collect();
-        descend(workspace, t, &all, &mut q);
+        descend(workspace, t, &all, &mut q, 0.0);
     }
-    let gap = descend(workspace, t, &request.held, &mut q);
-    if gap <= OPEN {
-        return Ok(q);
+    match descend(workspace, t, &request.held, &mut q, stalled) <= OPEN {
+        true => Ok(q),
+        false => Err(q),
     }
-    Err(cannot_assemble(workspace, t, request, &q))
 }
 
 fn on_branch(workspace: &mut Workspace, t: f64, q: &[f64], request: &AssemblyRequest) -> bool {
@@ -154,7 +160,7 @@ fn search(
 ) -> Result<Vec<f64>, DynamicsError> {
     for k in 1..=ATTEMPTS {
         let start = scattered(workspace, request, k);
-        if let Ok(q) = attempt(workspace, t, request, &start) {
+        if let Ok(q) = attempt(workspace, t, request, &start, STALLED) {
             if on_branch(workspace, t, &q, request) {
                 return Ok(q);
             }
@@ -188,7 +194,7 @@ fn other_assemblies(workspace: &mut Workspace, t: f64, request: &AssemblyRequest
         return vec![];
     }
     workspace.move_to(t, q, &vec![0.0; q.len()]);
-    let determined = rows(workspace, &request.held);
+    let (determined, _) = rows(workspace, &request.held);
     if workspace.rank_of(&determined) < q.len() {
         return vec![];
     }
@@ -196,7 +202,7 @@ fn other_assemblies(workspace: &mut Workspace, t: f64, request: &AssemblyRequest
     let mut found = vec![q.to_vec()];
     for k in 1..=ATTEMPTS / 4 {
         let start = scattered(workspace, request, k);
-        if let Ok(other) = attempt(workspace, t, &open, &start) {
+        if let Ok(other) = attempt(workspace, t, &open, &start, STALLED) {
             if !found.iter().any(|known| same(workspace, known, &other)) {
                 found.push(other);
             }
@@ -240,7 +246,8 @@ fn cannot_assemble(workspace: &mut Workspace, t: f64, request: &AssemblyRequest,
     workspace.move_to(t, q, &vec![0.0; q.len()]);
     // Name and, for what is no wish, place in the model; how far open.
     let mut gaps: Vec<(String, Option<String>, f64)> = vec![];
-    for (i, (row, gap)) in rows(workspace, &request.held).iter().enumerate() {
+    let (rows, open) = rows(workspace, &request.held);
+    for (i, (row, gap)) in rows.iter().zip(&open).enumerate() {
         let closing = workspace.rows().iter().filter(|r| workspace.gap(r).is_some()).count();
         let (name, path) = match i.checked_sub(closing) {
             None => (row.source.name(workspace.m).to_string(), Some(row.source.path(workspace.m))),

@@ -138,7 +138,8 @@ impl Workspace<'_> {
             // them.
             if self.m.closures.is_empty() && gap <= OPEN && self.size_of(&step) > FAR * gap {
                 let open_rows = self.rows.iter().filter_map(|row| Some((row.clone(), self.gap(row)?)));
-                step = self.rates_of(&self.damped_motion(&open_rows.collect::<Vec<_>>(), DAMPING));
+                let (rows, gaps): (Vec<_>, Vec<_>) = open_rows.unzip();
+                step = self.rates_of(&self.damped_motion(&rows, &gaps, DAMPING));
             }
             moved = moved.max(self.size_of(&step));
             q.iter_mut().zip(&step).for_each(|(q, d)| *q += d);
@@ -318,27 +319,24 @@ impl Workspace<'_> {
     }
 
     /// Number of independent rows.
-    pub(crate) fn rank_of(&self, rows: &[(Row, f64)]) -> usize {
-        let rows: Vec<Row> = rows.iter().map(|(row, _)| row.clone()).collect();
+    pub(crate) fn rank_of(&self, rows: &[Row]) -> usize {
         if rows.is_empty() {
             return 0;
         }
-        Orthogonal::factor(&self.scaled(&rows).0).rank().rank
+        Orthogonal::factor(&self.scaled(rows).0).rank().rank
     }
 
     /// The motion that lessens the gaps of rows, damped (in scaled coordinates).
-    pub(crate) fn damped_motion(&self, rows: &[(Row, f64)], damping: f64) -> Vec<f64> {
-        let asked: Vec<f64> = rows.iter().map(|(_, gap)| -gap).collect();
-        let rows: Vec<Row> = rows.iter().map(|(row, _)| row.clone()).collect();
+    pub(crate) fn damped_motion(&self, rows: &[Row], gaps: &[f64], damping: f64) -> Vec<f64> {
         if damping == 0.0 {
-            return self.least_motion(&rows, &asked);
+            return self.least_motion(rows, &gaps.iter().map(|gap| -gap).collect::<Vec<_>>());
         }
         // Weighed by the units in which gaps are compared, so that a short enough step lessens them.
-        let (g, scales, columns) = self.scaled(&rows);
+        let (g, scales, columns) = self.scaled(rows);
         let weights: Vec<f64> = rows.iter().zip(&scales).map(|(row, s)| 1.0 / (s * self.row_unit(row))).collect();
         let g = Matrix::from_fn(g.rows(), g.cols(), |i, j| g[(i, j)] * weights[i]);
         let n = g.cols();
-        let side: Vec<f64> = asked.iter().zip(&rows).map(|(a, row)| a / self.row_unit(row)).collect();
+        let side: Vec<f64> = gaps.iter().zip(rows).map(|(gap, row)| -gap / self.row_unit(row)).collect();
         let normal = Matrix::from_fn(n, n, |i, j| {
             let sum: f64 = (0..g.rows()).map(|r| g[(r, i)] * g[(r, j)]).sum();
             sum + if i == j { damping } else { 0.0 }
