@@ -100,6 +100,14 @@ impl Form {
     }
 }
 
+/// Factors less others of them; None where they are not all there.
+fn without(mut factors: Vec<AtomId>, others: &[AtomId]) -> Option<Vec<AtomId>> {
+    for other in others {
+        factors.remove(factors.iter().position(|factor| factor == other)?);
+    }
+    Some(factors)
+}
+
 /// The arena of one recording.
 #[derive(Default)]
 pub(super) struct Recorder {
@@ -175,9 +183,8 @@ impl Recorder {
             [(atom, factor)] if form.constant.hi == 0.0 => (atom, factor),
             _ => {
                 let lead = form.terms[0].1;
-                let unit = form.scaled(DoubleDouble::one() / lead);
-                let terms = unit.terms.iter().map(|&(atom, x)| (atom, bits(x))).collect();
-                (self.atom(Atom::Sum(bits(unit.constant), terms)), lead)
+                let terms = form.terms.iter().map(|&(atom, x)| (atom, bits(x / lead))).collect();
+                (self.atom(Atom::Sum(bits(form.constant / lead), terms)), lead)
             }
         }
     }
@@ -224,6 +231,44 @@ impl Recorder {
                 self.atom(Atom::Product(factors))
             }
         }
+    }
+
+    /// A sum with what its products have in common before brackets.
+    fn bracketed(&mut self, mut sum: Form) -> Form {
+        while let Some(common) = self.most_in_common(&sum.terms) {
+            let (mut inner, mut rest) = (Form::default(), Form { constant: sum.constant, terms: Terms::new() });
+            for &(atom, x) in &sum.terms {
+                match without(self.factors(atom), &common) {
+                    None => rest.terms.push((atom, x)),
+                    Some(left) if left.is_empty() => inner.constant = x,
+                    Some(left) => inner.terms.push((self.monomial(left), x)),
+                }
+            }
+            inner.terms.sort_unstable_by_key(|term| term.0);
+            let inner = self.bracketed(inner);
+            let (bracket, lead) = self.factor(&inner);
+            let mut factors = [common, self.factors(bracket)].concat();
+            factors.sort_unstable();
+            sum = rest.plus(&Form::atom(self.monomial(factors)), lead);
+        }
+        sum
+    }
+
+    /// The most factors that two terms share, if any.
+    fn most_in_common(&self, terms: &[(AtomId, DoubleDouble)]) -> Option<Vec<AtomId>> {
+        let mut most = vec![];
+        for (i, &(a, _)) in terms.iter().enumerate() {
+            let factors = self.factors(a);
+            for &(b, _) in &terms[..i] {
+                let mut others = self.factors(b);
+                let is_shared = |x: &&AtomId| others.iter().position(|y| y == *x).map(|at| others.remove(at)).is_some();
+                let common: Vec<AtomId> = factors.iter().filter(is_shared).copied().collect();
+                if common.len() > most.len() {
+                    most = common;
+                }
+            }
+        }
+        Some(most).filter(|most| !most.is_empty())
     }
 
     pub fn divide(&mut self, a: FormId, b: FormId) -> FormId {
@@ -287,8 +332,11 @@ impl Recorder {
         let op = match self.atoms[atom as usize].clone() {
             Atom::Input => unreachable!("inputs have rows"),
             Atom::Sum(constant, terms) => {
-                let terms = terms.iter().map(|&(atom, x)| Term { row: of(self, atom), factor: number(x) }).collect();
-                Op::Sum { constant: number(constant), terms }
+                let terms = terms.iter().map(|&(atom, x)| (atom, number(x))).collect();
+                let sum = self.bracketed(Form { constant: number(constant), terms });
+                let mut of = |recorder: &mut Self, atom| recorder.lower(atom, rows, tape);
+                let terms = sum.terms.iter().map(|&(atom, factor)| Term { row: of(self, atom), factor }).collect();
+                Op::Sum { constant: sum.constant, terms }
             }
             Atom::Product(factors) => {
                 let (last, rest) = factors.split_last().expect("a product has factors");

@@ -84,6 +84,19 @@ fn what_cancels_is_not_computed() {
     assert!(tape.ops.iter().all(|(_, op)| matches!(op, tape::Op::Sum { terms, .. } if terms.is_empty())), "{tape:?}");
 }
 
+#[test]
+fn what_products_have_in_common_stands_before_brackets_that_are_found_once() {
+    let tape = recorded([0.4, 0.3, 0.7, 1.1, 0.9], |x| {
+        let [a, b, c, d, e] = x[..] else { unreachable!("five inputs") };
+        Ok::<_, ()>(vec![d * d * a + d * d * b, c + e * a + e * b])
+    });
+    let tape = tape.unwrap();
+    let count = |is: fn(&tape::Op<DoubleDouble>) -> bool| tape.ops.iter().filter(|(_, op)| is(op)).count();
+    // d² (a + b) and c + e (a + b).
+    assert_eq!(count(|op| matches!(op, tape::Op::Product(..))), 3, "{tape:?}");
+    assert_eq!(count(|op| matches!(op, tape::Op::Sum { .. })), 3, "{tape:?}");
+}
+
 /// Every operation; products that only a sum needs; parts that do not move; sines of each other, and many; more values at a time than
 /// there are registers.
 fn every_operation<S: Scalar>(x: &[S]) -> Vec<S> {
