@@ -33,8 +33,10 @@ impl Analytic for HybridSystem<'_> {
     fn expand(&mut self, t: f64, y: &[f64], order: usize, out: &mut [f64]) -> Result<(), DynamicsError> {
         let phase = self.phases.len();
         if self.series.as_ref().is_none_or(|(of, _)| *of != phase) {
-            let tape = equations(self.workspace.m, &self.works, &self.workspace.at().n.p, (t, y))?;
-            self.series = Some((phase, Solution::new(tape.rounded(), order)));
+            let (m, p) = (self.workspace.m, &self.workspace.at().n.p);
+            let record = || equations(m, &self.works, p, (t, y)).map(|tape| tape.rounded());
+            let tape = m.equations.of(p[..m.first_state()].to_vec(), record)?;
+            self.series = Some((phase, Solution::new(Tape::clone(&tape), order)));
         }
         let (_, series) = self.series.as_mut().expect("it was made");
         if !series.expand(t, y) {

@@ -26,7 +26,7 @@ use crate::gauges::{ModelExpr, ModelVariable};
 use crate::joints::Joint as _;
 use crate::plane::Turn;
 use crate::scalar::Scalar;
-use crate::series::Memo;
+use crate::series::{Latest, Memo, Tape};
 
 /// Index of a number of the model.
 pub type ValueId = usize;
@@ -97,6 +97,8 @@ pub struct Mechanism {
     pub notes: Vec<String>,
     /// What was recorded of its motion when it was needed first, by which bodies have no mass.
     pub recorded: Memo<(Recording, Vec<bool>)>,
+    /// Its equations for series, by the parameters.
+    pub equations: Latest<Vec<f64>, Tape<f64>>,
 }
 
 /// A parameter.
@@ -263,6 +265,7 @@ impl Mechanism {
             switches: 0,
             notes: vec![],
             recorded: Memo::default(),
+            equations: Latest::default(),
         }
     }
     /// Whether what holds it can change during a motion: unilateral constraints, friction, or parts that are released

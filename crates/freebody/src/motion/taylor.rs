@@ -24,6 +24,8 @@ pub(super) const METHOD: Method = Method {
 const ORDER: usize = 24;
 /// Part of the step at which the last term is the tolerance, since terms beyond are left out: theirs, e^(−0.7/(order − 1)).
 const SAFETY: f64 = 0.97;
+/// Components whose series are divided side by side.
+const SIDE: usize = 4;
 
 struct Taylor {
     /// Where the series begins; none before the first step.
@@ -61,20 +63,21 @@ impl Taylor {
     fn tolerated_step(&mut self, norm: &Norm, within: f64) -> f64 {
         for i in 0..self.weights.len() {
             let of = self.of(i);
-            let reached = of[1..].iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * within);
+            let terms = if within > 0.0 { &of[1..] } else { &[] };
+            let reached = terms.iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * within);
             self.weights[i] = norm.tolerated(i, of[0].abs(), reached);
         }
-        let mut step = f64::INFINITY;
+        let mut exponent = f64::INFINITY;
         for k in [ORDER - 1, ORDER] {
             for i in 0..self.terms.len() {
                 self.terms[i] = self.of(i)[k];
             }
             let size = measure(&self.terms, &self.weights);
             if size > 0.0 {
-                step = step.min(real::powf(size, -1.0 / k as f64));
+                exponent = exponent.min(-real::ln(size) / k as f64);
             }
         }
-        SAFETY * step
+        SAFETY * real::exp(exponent)
     }
 }
 
@@ -108,31 +111,31 @@ impl Stepper for Taylor {
         let (n, h) = (from.y.len(), to.t - from.t);
         let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy), ORDER - 3);
         let mut bends = vec![0.0; n * ORDER];
-        let mut left = [0.0; ORDER];
-        for i in 0..n {
-            let mut power = 1.0;
-            for (left, c) in left.iter_mut().zip(&self.of(i)[1..]) {
+        for first in (0..n).step_by(SIDE) {
+            let (beside, mut power) = (SIDE.min(n - first), 1.0);
+            let mut left = [[0.0; SIDE]; ORDER];
+            for (k, left) in left.iter_mut().enumerate() {
                 power *= h;
-                *left = c * power;
+                (0..beside).for_each(|i| left[i] = self.of(first + i)[k + 1] * power);
             }
             let mut left = &mut left[..];
             for index in 0..ORDER {
-                if index % 2 == 0 {
-                    // What is left less its value at 1, over 1 − θ: of each power the sum of all above, reversed.
-                    let mut above = 0.0;
-                    for term in left.iter_mut().rev() {
-                        (*term, above) = (-above, above + *term);
-                    }
-                    bends[index * n + i] = above;
+                // What is left less its value at 1, over 1 − θ: of each power the sum of all above, reversed.
+                let bend = if index % 2 == 0 {
+                    left.iter_mut().rev().fold([0.0; SIDE], |above, term| {
+                        let sum = std::array::from_fn(|i| above[i] + term[i]);
+                        *term = above.map(|x: f64| -x);
+                        sum
+                    })
                 } else {
-                    bends[index * n + i] = left[0];
+                    let first = left[0];
                     left = &mut left[1..];
-                }
+                    first
+                };
+                bends[index * n + first..][..beside].copy_from_slice(&bend[..beside]);
             }
         }
-        for (index, values) in bends.chunks_exact(n).enumerate().skip(3) {
-            segment.bend(index, values.iter().copied());
-        }
+        segment.bend(3, bends[3 * n..].iter().copied());
         Ok(segment)
     }
 

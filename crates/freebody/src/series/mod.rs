@@ -23,7 +23,7 @@ mod traced;
 mod tests;
 
 pub use alone::Alone;
-pub use memo::Memo;
+pub use memo::{Latest, Memo};
 pub use program::Program;
 pub use solution::{Coefficient, Solution};
 pub use tape::Tape;

@@ -9,35 +9,32 @@ const WIDTH: usize = 4;
 
 /// A number that series may have as coefficients.
 pub trait Coefficient: Scalar {
-    /// Σ aⱼ bⱼ of as many, a multiple of four.
-    fn dot(a: &[Self], b: &[Self]) -> Self;
     /// Fills a solution up to its order.
     fn fill(solution: &mut Solution<Self>, t: Self, y: &[Self]);
 }
 
 impl Coefficient for f64 {
-    #[inline(always)]
-    fn dot(a: &[f64], b: &[f64]) -> f64 {
-        let mut sums = [0.0; WIDTH];
-        for (a, b) in a.chunks_exact(WIDTH).zip(b.chunks_exact(WIDTH)) {
-            for ((sum, a), b) in sums.iter_mut().zip(a).zip(b) {
-                *sum += a * b;
-            }
-        }
-        (sums[0] + sums[2]) + (sums[1] + sums[3])
-    }
     fn fill(solution: &mut Solution<f64>, t: f64, y: &[f64]) {
         fill_doubles(solution, t, y);
     }
 }
 
 impl Coefficient for DoubleDouble {
-    fn dot(a: &[Self], b: &[Self]) -> Self {
-        a.iter().zip(b).fold(Self::zero(), |sum, (&a, &b)| sum + a * b)
-    }
     fn fill(solution: &mut Solution<Self>, t: Self, y: &[Self]) {
         solution.fill(t, y);
     }
+}
+
+/// Σ aⱼ bⱼ of as many, a multiple of [`WIDTH`], in parts that are to be added.
+#[inline(always)]
+fn dot<S: Scalar>(a: &[S], b: &[S]) -> [S; WIDTH] {
+    let mut sums = [S::zero(); WIDTH];
+    for (a, b) in a.chunks_exact(WIDTH).zip(b.chunks_exact(WIDTH)) {
+        for ((sum, &a), &b) in sums.iter_mut().zip(a).zip(b) {
+            *sum += a * b;
+        }
+    }
+    sums
 }
 
 /// In the widest registers that the machine has, to the same bits.
@@ -58,7 +55,7 @@ pub struct Solution<S> {
     inverse: Vec<S>,
     /// Where the factors of the inner terms begin, those of an operation behind those of the one before.
     factors: Vec<[usize; 2]>,
-    inner: Vec<S>,
+    inner: Vec<[S; WIDTH]>,
     memory: Vec<S>,
 }
 
@@ -98,10 +95,10 @@ impl<S: Coefficient> Solution<S> {
     pub fn new(tape: Tape<S>, order: usize) -> Self {
         let layout = Layout { order };
         let memory = vec![S::zero(); tape.rows as usize * layout.stride()];
-        let tape = tape.spread(layout.stride() as u32);
+        let tape = tape.divided().spread(layout.stride() as u32);
         let inverse = (1..=order).map(|k| S::one() / S::of(k as f64)).collect();
         let factors: Vec<_> = tape.ops.iter().flat_map(|(row, op)| factors(layout, *row, op)).collect();
-        Solution { tape, order, inverse, inner: vec![S::zero(); factors.len()], factors, memory }
+        Solution { tape, order, inverse, inner: vec![[S::zero(); WIDTH]; factors.len()], factors, memory }
     }
 
     /// Finds the coefficients of the motion through y at t; false where it has none.
@@ -183,9 +180,9 @@ impl<S: Coefficient> Memory<'_, S> {
 
     /// The inner terms of order k of all products.
     #[inline(always)]
-    fn write_inner(&self, factors: &[[usize; 2]], k: usize, inner: &mut [S]) {
+    fn write_inner(&self, factors: &[[usize; 2]], k: usize, inner: &mut [[S; WIDTH]]) {
         match (k - 1).next_multiple_of(WIDTH) {
-            0 => inner.fill(S::zero()),
+            0 => inner.fill([S::zero(); WIDTH]),
             4 => self.write_dots::<4>(factors, k, inner),
             8 => self.write_dots::<8>(factors, k, inner),
             12 => self.write_dots::<12>(factors, k, inner),
@@ -193,8 +190,8 @@ impl<S: Coefficient> Memory<'_, S> {
             20 => self.write_dots::<20>(factors, k, inner),
             24 => self.write_dots::<24>(factors, k, inner),
             count => {
-                for (sum, &[a, b]) in inner.iter_mut().zip(factors) {
-                    *sum = S::dot(&self.all[a..][..count], &self.all[b - k..][..count]);
+                for (sums, &[a, b]) in inner.iter_mut().zip(factors) {
+                    *sums = dot(&self.all[a..][..count], &self.all[b - k..][..count]);
                 }
             }
         }
@@ -202,10 +199,10 @@ impl<S: Coefficient> Memory<'_, S> {
 
     /// The same of a length that the compiler knows.
     #[inline(always)]
-    fn write_dots<const COUNT: usize>(&self, factors: &[[usize; 2]], k: usize, inner: &mut [S]) {
-        for (sum, &[a, b]) in inner.iter_mut().zip(factors) {
+    fn write_dots<const COUNT: usize>(&self, factors: &[[usize; 2]], k: usize, inner: &mut [[S; WIDTH]]) {
+        for (sums, &[a, b]) in inner.iter_mut().zip(factors) {
             let [a, b] = [a, b - k].map(|from| self.all[from..].first_chunk::<COUNT>().expect("rows are longer"));
-            *sum = S::dot(a, b);
+            *sums = dot(a, b);
         }
     }
 
@@ -232,32 +229,35 @@ impl<S: Coefficient> Memory<'_, S> {
     }
 
     /// Coefficient k > 0 of what an operation gives, from those before it, those of what it works on, and its inner terms, the first
-    /// of those given; returns how many it has. `share` is 1/k.
+    /// of those given; returns how many it has. `share` is 1/k. Each waits for a number that stands late on the tape, so that is added last.
     #[inline(always)]
-    fn advance(&mut self, row: Row, op: &Op<S>, k: usize, share: S, inner: &[S]) -> usize {
+    fn advance(&mut self, row: Row, op: &Op<S>, k: usize, share: S, inner: &[[S; WIDTH]]) -> usize {
+        let inner = |i: usize| (inner[i][0] + inner[i][2]) + (inner[i][1] + inner[i][3]);
         let (x, count) = match op {
             Op::Sum { terms, .. } => {
-                (terms.iter().fold(S::zero(), |sum, term| sum + self.get(term.row, k) * term.factor), 0)
+                let each = terms.iter().map(|term| self.get(term.row, k) * term.factor);
+                (each.reduce(|sum, x| sum + x).unwrap_or(S::zero()), 0)
             }
             Op::Product(a, b) => {
-                (inner[0] + (self.get(*a, 0) * self.get(*b, k) + self.get(*a, k) * self.get(*b, 0)), 1)
+                ((inner(0) + self.get(*a, k) * self.get(*b, 0)) + self.get(*b, k) * self.get(*a, 0), 1)
             }
-            Op::Inverse(b) => (-(inner[0] + self.get(*b, k) * self.get(row, 0)) * self.get(row, 0), 1),
+            Op::Inverse(b) => (-(inner(0) + self.get(*b, k) * self.get(row, 0)) * self.get(row, 0), 1),
             Op::Quotient(a, b) => {
-                ((self.get(*a, k) - inner[0] - self.get(*b, k) * self.get(row, 0)) / self.get(*b, 0), 1)
+                let above = self.get(*a, k) - inner(0) - self.get(*b, k) * self.get(row, 0);
+                (above * (S::one() / self.get(*b, 0)), 1)
             }
             Op::SinCos(angle) => {
                 let (cos, slope) = (self.second(row), self.get(*angle, k));
                 let (at_sin, at_cos) = (self.get(row, 0), self.get(cos, 0));
-                self.set(cos, k, -(inner[1] * share + slope * at_sin));
-                (inner[0] * share + slope * at_cos, 2)
+                self.set(cos, k, -(inner(1) * share + slope * at_sin));
+                (inner(0) * share + slope * at_cos, 2)
             }
-            Op::Sqrt(x) => ((self.get(*x, k) - inner[0]) / (self.get(row, 0) + self.get(row, 0)), 1),
-            Op::Exp(x) => (inner[0] * share + self.get(*x, k) * self.get(row, 0), 1),
-            Op::Ln(x) => ((self.get(*x, k) - inner[0] * share) / self.get(*x, 0), 1),
+            Op::Sqrt(x) => ((self.get(*x, k) - inner(0)) / (self.get(row, 0) + self.get(row, 0)), 1),
+            Op::Exp(x) => (inner(0) * share + self.get(*x, k) * self.get(row, 0), 1),
+            Op::Ln(x) => ((self.get(*x, k) - inner(0) * share) / self.get(*x, 0), 1),
             Op::Atan2 { y, x, radius2 } => {
                 let turned = self.get(*y, k) * self.get(*x, 0) - self.get(*x, k) * self.get(*y, 0);
-                let known = (inner[0] - inner[1] - inner[2]) * share;
+                let known = (inner(0) - inner(1) - inner(2)) * share;
                 ((turned + known) / self.get(*radius2, 0), 3)
             }
         };

@@ -126,6 +126,28 @@ impl<S: Copy> Tape<S> {
         Tape { ops, rows: self.rows, results: self.results.iter().map(|&result| row(result)).collect() }
     }
 
+    /// The same with quotients for products with inverses that nothing else needs.
+    pub(super) fn divided(mut self) -> Self {
+        let mut uses = vec![0; self.rows as usize];
+        let operands = self.ops.iter().flat_map(|(_, op)| op.operands());
+        operands.chain(self.results.iter().copied()).for_each(|row| uses[row.at()] += 1);
+        let mut below = vec![None; self.rows as usize];
+        for (row, op) in &mut self.ops {
+            match *op {
+                Op::Inverse(of) if uses[row.at()] == 1 => below[row.at()] = Some(of),
+                Op::Product(a, b) => {
+                    if let Some((above, by)) = [(a, b), (b, a)].into_iter().find(|(_, b)| below[b.at()].is_some()) {
+                        uses[by.at()] = 0;
+                        *op = Op::Quotient(above, below[by.at()].take().expect("it was found"));
+                    }
+                }
+                _ => {}
+            }
+        }
+        self.ops.retain(|(row, op)| !matches!(op, Op::Inverse(_)) || uses[row.at()] > 0);
+        self
+    }
+
     /// The same with rows this far apart.
     pub(super) fn spread(&self, stride: u32) -> Self {
         self.map(|row| Row(row.0 * stride), |x| x)
