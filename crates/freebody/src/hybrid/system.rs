@@ -302,6 +302,13 @@ impl System for HybridSystem<'_> {
         Ok(())
     }
 
+    fn moving(&self) -> usize {
+        match self.mode.is_free() && self.first_state() == self.dim() {
+            true => 2 * self.workspace.m.freedom() + self.works.count_while_free(),
+            false => self.dim(),
+        }
+    }
+
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<f64, DynamicsError> {
         self.workspace.enter(&self.mode);
         if !self.workspace.is_closed() || self.mode.resting {

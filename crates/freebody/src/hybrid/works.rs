@@ -28,7 +28,12 @@ impl Works {
 
     /// How many there are.
     pub fn count(&self) -> usize {
-        self.forces.len() + self.motions.len() + usize::from(self.friction) + usize::from(self.compliant)
+        self.count_while_free() + usize::from(self.friction) + usize::from(self.compliant)
+    }
+
+    /// How many of them, the first, are done while nothing touches or rubs.
+    pub fn count_while_free(&self) -> usize {
+        self.forces.len() + self.motions.len()
     }
 
     /// The entries of the ledger for them.

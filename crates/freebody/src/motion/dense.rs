@@ -35,10 +35,12 @@ impl Segment {
         Self { t0, t1, n, values }
     }
 
-    /// Adds the next F, replacing those beyond `index` (F₃ has index 3).
+    /// Adds the next F, replacing those beyond `index` (F₃ has index 3): of all components, one row or more, or of the first, with 0 for
+    /// the others.
     pub(super) fn bend(&mut self, index: usize, values: impl Iterator<Item = f64>) {
         self.values.truncate((index + 1) * self.n);
         self.values.extend(values);
+        self.values.resize(self.values.len().next_multiple_of(self.n), 0.0);
     }
 
     /// Writes the state at time `t`; exact at both ends.

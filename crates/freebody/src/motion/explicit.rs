@@ -38,6 +38,8 @@ pub(super) struct Explicit {
     errors: Vec<Weights>,
     more_a: Vec<Weights>,
     dense: Vec<Weights>,
+    /// How many components change in the step.
+    moving: usize,
     /// Rates at the stages, one after the other.
     k: Vec<f64>,
     /// State at the stage being evaluated.
@@ -67,6 +69,7 @@ impl Explicit {
             errors: rows(table.errors),
             more_a: rows(table.more_a),
             dense: rows(table.dense),
+            moving: n,
             k: vec![0.0; n * stages],
             y: vec![0.0; n],
             last: vec![0.0; n],
@@ -90,8 +93,8 @@ impl Explicit {
     fn error(&self, h: f64) -> f64 {
         let norm = |e: &Weights| {
             let mut squares = [0.0; 2];
-            combine(e, &self.k, self.y.len(), |i, sum| squares = noted(squares, sum * h / self.weights[i]));
-            norm::norm(squares, self.y.len())
+            combine(e, &self.k, self.moving, |i, sum| squares = noted(squares, sum * h / self.weights[i]));
+            norm::norm(squares, self.moving)
         };
         match &self.errors[..] {
             [] => 0.0,
@@ -139,8 +142,11 @@ fn combined<const N: usize>(a: &Weights, k: &[f64], from: &mut usize, take: &mut
 impl Stepper for Explicit {
     fn attempt(&mut self, system: &mut Counted, from: &Point, to: &mut Point, norm: &Norm) -> Result<f64, Failure> {
         let (table, h) = (self.table, to.t - from.t);
-        let (n, stages) = (from.y.len(), table.b.len());
-        self.k[..n].copy_from_slice(&from.dy);
+        let (n, stages) = (system.system.moving(), table.b.len());
+        self.moving = n;
+        self.k[..from.dy.len()].copy_from_slice(&from.dy);
+        self.y[n..].copy_from_slice(&from.y[n..]);
+        to.y[n..].copy_from_slice(&from.y[n..]);
         for (j, c) in table.c.iter().enumerate() {
             combine(&self.a[j], &self.k, n, |i, sum| self.y[i] = from.y[i] + h * sum);
             self.rate(system, j + 1, from.t + c * h)?;
@@ -158,7 +164,7 @@ impl Stepper for Explicit {
     }
 
     fn dense(&mut self, system: &mut Counted, from: &Point, to: &Point) -> Result<Segment, Failure> {
-        let (table, h, n, stages) = (self.table, to.t - from.t, from.y.len(), self.table.b.len());
+        let (table, h, n, stages) = (self.table, to.t - from.t, self.moving, self.table.b.len());
         let end = self.at(stages);
         self.k[end].copy_from_slice(&to.dy);
         if let Some(limit) = table.stability {
@@ -172,7 +178,7 @@ impl Stepper for Explicit {
         let mut segment = Segment::hermite((from.t, &from.y, &from.dy), (to.t, &to.y, &to.dy), self.dense.len());
         for (j, row) in self.dense.iter().enumerate() {
             combine(row, &self.k, n, |i, sum| self.y[i] = h * sum);
-            segment.bend(3 + j, self.y.iter().copied());
+            segment.bend(3 + j, self.y[..n].iter().copied());
         }
         Ok(segment)
     }

@@ -87,6 +87,11 @@ pub trait System {
     /// step; when that does not help, the run ends with this failure.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), DynamicsError>;
 
+    /// How many components may change now: those behind rest where they are until an event restarts the motion.
+    fn moving(&self) -> usize {
+        self.dim()
+    }
+
     /// Brings `y` back onto its invariants; called after each accepted step and at events.
     /// Returns the size of the correction, relative to [`System::scale`].
     ///
