@@ -285,11 +285,6 @@ impl<'m> Workspace<'m> {
         }
     }
 
-    /// Whether it is at a state, with the present numbers.
-    pub fn is_placed(&self) -> bool {
-        self.placed.is_known
-    }
-
     /// Gives the states with a rate of their own their values.
     pub fn set_states(&mut self, states: &[f64]) {
         let known = &mut self.n.p[self.m.first_state()..];

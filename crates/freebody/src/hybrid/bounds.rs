@@ -14,12 +14,19 @@ fn is_one_formula(law: &ModelExpr) -> bool {
     is_measured(law) && law.is_without_choice()
 }
 
-/// How many times as far as it goes in a step a motion may go before it is asked again what is near.
-const WIDER: f64 = 8.0;
+/// How many times as far as it goes from the middle of a step a motion must be able to go until it is asked again what is near,
+const LEAST_ROOM: f64 = 2.0;
+/// and may go at most.
+const MOST_ROOM: f64 = 1000.0;
+/// How many times as far as they go functions are from zero where they are far from it.
+const FAR: f64 = 1.1;
+/// Part of the way to where they are so no more that is tried, since bounds are not in proportion to it, and how often.
+const SAFETY: f64 = 0.95;
+const TRIES: usize = 5;
 
-/// Whether functions with these bounds are all far from zero, and would be if they went so many times as far.
-fn are_far(bounds: &[[f64; 2]], times: f64) -> bool {
-    bounds.iter().all(|[value, most]| value.abs() > 2.0 * times * most)
+/// How many times as far functions with these bounds may go and are far from zero.
+fn room(bounds: &[[f64; 2]]) -> f64 {
+    bounds.iter().map(|[value, most]| value.abs() / (FAR * most)).fold(MOST_ROOM, f64::min)
 }
 
 /// All states about one, in a phase of the motion, with the bounds of the switching functions there.
@@ -61,8 +68,8 @@ impl SwitchingFunction {
 }
 
 impl HybridSystem<'_> {
-    /// Writes of every switching function its value at a state, and how far it goes from there at most in a step; false where one has no
-    /// bound. The state is that where the mechanism happens to be, as long as all are far from zero by that; else in the middle of the step.
+    /// Writes of every switching function its value in the middle of a step, of this one or of another that the motion has made since it
+    /// came near, and how far it goes from there at most in this one; false where one has no bound.
     pub(super) fn bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> bool {
         if !self.may_have_bounds || self.mode.contacts.iter().any(|contact| contact.mode.touches()) {
             return false;
@@ -74,20 +81,14 @@ impl HybridSystem<'_> {
             out.copy_from_slice(&near.bounds);
             return true;
         }
-        self.workspace.enter(&self.mode);
-        let is_told = self.workspace.is_placed() && self.follow(on, out).is_some() && are_far(out, 1.0);
-        if !is_told {
-            let mut y = std::mem::take(&mut self.middle);
-            y.resize(self.scales.len(), 0.0);
-            on.at(0.5 * (on.t0 + on.t1), &mut y);
-            self.place(0.5 * (on.t0 + on.t1), &y);
-            self.middle = y;
-            if self.follow(on, out).is_none() {
-                return false;
-            }
-        }
-        self.neighbourhood = if are_far(out, WIDER) { self.neighbourhood(out.to_vec()) } else { None };
-        true
+        let (middle, mut y) = (0.5 * (on.t0 + on.t1), std::mem::take(&mut self.middle));
+        y.resize(self.scales.len(), 0.0);
+        on.at(middle, &mut y);
+        self.place(middle, &y);
+        self.middle = y;
+        let is_bounded = self.follow(on, out).is_some();
+        self.neighbourhood = if is_bounded { self.neighbourhood(out) } else { None };
+        is_bounded
     }
 
     /// The bounds in a step, from where the mechanism is.
@@ -102,22 +103,25 @@ impl HybridSystem<'_> {
         self.write_bounds(out)
     }
 
-    /// All states within some times as far as was followed last, as long as all functions are far from zero there.
-    fn neighbourhood(&mut self, mut bounds: Vec<[f64; 2]>) -> Option<Neighbourhood> {
-        let at = self.workspace.at();
-        let (reach, time): (Vec<f64>, _) =
-            (self.travel.changes().iter().map(|change| WIDER * change).collect(), WIDER * self.travel.time());
-        self.travel.follow(at, |i| [0.0, 0.0, 0.0, reach[i]], time);
-        self.write_bounds(&mut bounds)?;
-        let at = self.workspace.at();
-        are_far(&bounds, 1.0).then(|| Neighbourhood {
-            phase: self.phases.len(),
-            t: at.t,
-            q: at.q.to_vec(),
-            time,
-            reach,
-            bounds,
-        })
+    /// All states within as many times as far as was followed last as keep all functions, with these bounds there, far from zero.
+    fn neighbourhood(&mut self, bounds: &[[f64; 2]]) -> Option<Neighbourhood> {
+        let (step, time) = (self.travel.changes().to_vec(), self.travel.time());
+        let (mut bounds, mut times) = (bounds.to_vec(), 1.0);
+        for _ in 0..TRIES {
+            times *= SAFETY * room(&bounds);
+            if times < LEAST_ROOM {
+                return None;
+            }
+            let at = self.workspace.at();
+            self.travel.follow(at, |i| [0.0, 0.0, 0.0, times * step[i]], times * time);
+            self.write_bounds(&mut bounds)?;
+            if room(&bounds) > 1.0 {
+                let (at, reach) = (self.workspace.at(), self.travel.changes().to_vec());
+                let (phase, time) = (self.phases.len(), self.travel.time());
+                return Some(Neighbourhood { phase, t: at.t, q: at.q.to_vec(), time, reach, bounds });
+            }
+        }
+        None
     }
 
     fn write_bounds(&self, out: &mut [[f64; 2]]) -> Option<()> {

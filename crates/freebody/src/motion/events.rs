@@ -159,9 +159,9 @@ impl EventDetector {
             return false;
         }
         self.unresolved.clear();
-        for (memory, [value, most]) in self.memory.iter_mut().zip(&self.bounds) {
+        for (memory, [value, _]) in self.memory.iter_mut().zip(&self.bounds) {
             memory.size = memory.size.max(value.abs());
-            memory.stay(value.abs() - most);
+            memory.stay(value.abs());
         }
         true
     }

@@ -152,8 +152,8 @@ pub trait System {
         Ok(())
     }
 
-    /// Writes bounds of all switching functions on a step: the value of each at a state near by, and how far it goes from there
-    /// at most. False, and nothing is known, where one has no bound.
+    /// Writes bounds of all switching functions on a step: a value that each has had since it was zero, and how far it goes from
+    /// there at most. False, and nothing is known, where one has no bound.
     fn switch_bounds(&mut self, _on: &Segment, _out: &mut [[f64; 2]]) -> bool {
         false
     }
