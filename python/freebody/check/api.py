@@ -29,11 +29,11 @@ from .frequency_claims import OMEGA, PERIOD
 from .held import without_others
 from .language.glyphs import CONDITION
 from .language.statements import symbols_in
-from .later import also_later, corrected_later
+from .later import also_later, corrected_later, only_later
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
-from .phases import NOT_FIRST, called, kind_of, phase, with_names
+from .phases import NOT_FIRST, alike, called, kind_of, phase, with_names
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .symbols import Symbols
@@ -57,6 +57,7 @@ _WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
 _LIKELY = 2.0  # size of a correction by which a statement is wrong, whatever some words ask
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
+_SAME_TIME = 1e-6  # of a run: by less the moments of two runs of one motion differ
 _SMALL_ONE = re.compile(r"small\s+([^\s:,=]+)\s*:(?=.*(?:ω|omega|τ|tau|\b[Tf]\b|\b[Tf]_))", re.S)
 """``small θ_1: T_1 = …``."""
 Declared = Mapping[str, str | Sequence[str | float]]
@@ -111,7 +112,8 @@ class Checker:
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
         meaning = StatementSymbols(known, program, self.sampler, given.at_start)
         if meaning.needs_past and not given.since:
-            given = replace(given, since=BEFORE if meaning.names_moments else "start")
+            since_start = meaning.names_moments or (meaning.sums_up and self.sampler.moment)
+            given = replace(given, since=BEFORE if since_start else "start")
         return Case(program, meaning, self.sampler, given, self.correcting, self.budget)
 
     def check(
@@ -257,6 +259,8 @@ class Checker:
             if plainly_said and not (self.is_at_first or self.sampler.moment):
                 verdict = also_later(self, verdict, text, letters)
             as_said = not found and checker.hypothesis == ALL and not (self.is_at_first or self.sampler.moment)
+            if as_said and verdict.kind is Kind.WRONG:
+                verdict = only_later(self, verdict, text, letters)
             if as_said and verdict.kind is Kind.WRONG and verdict.mends:
                 verdict = corrected_later(self, verdict, text, letters)
             if verdict.moment or not self.sampler.has(checker.hypothesis):
@@ -353,6 +357,9 @@ class Checker:
                 return found[0]
         if len(alike_in_kind) == 1:
             return alike_in_kind[0]
+        several = [part for part in parts if any(alike(own, word) for own in part.split() for word in words)]
+        if several and kind_of(said) == "touch":  # the first of them
+            return several[0]
         times = [event.t for event in run.events]
         later = [change for change in run.changes if change.t > run.t[0] and change.t not in times]
         if len(self.impacts) == 1 and _BLOW.search(said):
@@ -375,24 +382,35 @@ class Checker:
 
     @property
     def switches(self) -> tuple[str, ...]:
-        """What switches on the model's own run after its start, by its kind and part."""
+        """What switches on the model's own run for the first time after its moment, by its kind and part."""
         run = self.own_motion
-        return tuple(
-            dict.fromkeys(f"{change.kind} {part}" for change in run.changes if change.t > run.t[0] for part in change.of)
-        )
+        begins = self.sampler.own.t + _SAME_TIME * float(run.outcome.t) if self.sampler.moment else run.t[0]
+        first: dict[str, float] = {}
+        for change in run.changes:
+            for part in change.of:
+                first.setdefault(f"{change.kind} {part}", change.t)
+        return tuple(name for name, t in first.items() if t > begins)
 
     @cached_property
     def impacts(self) -> set[str]:
-        """The parts at which there are impacts on the model's own run."""
-        return {change.of[0].partition(".")[0] for change in self.own_motion.changes if change.kind == "impact"}
+        """The parts at which there are impacts on the model's own run, and the strings that jerk when they first go taut."""
+        first = {part: change for change in reversed(self.own_motion.changes) for part in change.of}
+        found = (change for change in self.own_motion.impacts if change.kind == "impact" or first[change.of[0]] is change)
+        return {change.of[0].partition(".")[0] for change in found if change.kind in ("impact", "taut")}
 
     @cached_property
     def only_impact(self) -> str | None:
         """What the impacts on the model's own run are at, where it is one part, and nothing happens at its start."""
         if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
             return None
-        starts = any(change.t == self.own_motion.t[0] and change.kind == "impact" for change in self.own_motion.changes)
+        starts = any(change.t == self.own_motion.t[0] and change.of[0] in self.impacts for change in self.own_motion.impacts)
         return next(iter(self.impacts)) if len(self.impacts) == 1 and not starts else None
+
+    @property
+    def only_happening(self) -> str | None:
+        """The only impact on the model's own run, else the only event that changes the model; None where there are several."""
+        events = [event["name"] for event in self.sampler.spec["events"] if event["then"] not in ([], ["stop"])]
+        return self.only_impact or (events[0] if len(events) == 1 and not self.sampler.moment else None)
 
     def event_called(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import Array, CompiledModel, FreeBodies, MotionError, State, Trajectory, quote
+from freebody.model.errors import ModelProblem
 from freebody.model.start import Start, evaluate, initial_state
 from freebody.run.moments import START, state_of
 from freebody.solve.perturbed_states import independent
@@ -22,7 +23,7 @@ from freebody.symbolic.dimensions import LENGTH, Dimension
 
 from .families import NoMotion
 from .integrals import EXACT
-from .sides import changes_side, squares
+from .sides import changes_side, squares, strings_turn_over
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -191,8 +192,15 @@ class AskedModel:
         """The start with other parameters, its loops in the same assembly. Raises ``MotionError`` and ``ModelProblem``."""
         words = initial_state(self.start, self.core, self.changes | values)
         if self.loops:
-            words["guess"] |= self._named(self._closed(values, words["fixed"]))
-        return self.core.assemble(words.pop("p"), self.begins, **words)[0]
+            own = initial_state(self.start, self.core, self.changes)["guess"] if self.rolls_in_loop else words["guess"]
+            follow = {
+                name: q for name, q in words["guess"].items() if q != own[name]
+            }  # where what rolls begins is not closed by loops
+            words["guess"] |= self._named(self._closed(values, words["fixed"])) | follow
+        found = self.core.assemble(words.pop("p"), self.begins, **words)[0]
+        if self.spec["strings"] and strings_turn_over(self.core, self.spec, self.first, found):
+            raise ModelProblem("a string is turned over at the start", "take other numbers")
+        return found
 
     def _closed(self, values: Mapping[str, float], fixed: Mapping[str, float]) -> Array:
         """Where loops close with other parameters, in the assembly of the start; those that are far larger by strides, on which lengths grow with

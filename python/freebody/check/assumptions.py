@@ -287,13 +287,14 @@ def _is_size(case: Case, name: str) -> bool:
 
 def _limits(case: Case) -> Iterator[tuple[str, int]]:
     """Parameters with the power of the factor by which they go to ∞ or to 0, as a person would name it: no size goes to 0, nor to ∞ where
-    bodies turn, and no inertia to ∞."""
+    bodies turn, and no inertia or gravity to ∞."""
     given, free = case.hypothesis, case.sampler.free_parameters
     turns = not all(body["particle"] for body in case.sampler.metadata["bodies"])
     for name in mattering(case):
         if not given.since and free[name] != 0 and name not in dict(given.held):
             its = _of(case, name)
-            yield from ((name, 1),) if its != INERTIA and not (its == LENGTH and turns) else ()
+            grows = its != INERTIA and not (its == LENGTH and turns) and name not in case.sampler.gravities
+            yield from ((name, 1),) if grows else ()
             yield from ((name, -1),) if not _is_size(case, name) and name not in case.sampler.frictions else ()
 
 

@@ -30,7 +30,7 @@ from .language.statements import Equation, Program, inlined, symbols_in
 from .motion_sampler import SAMPLES, MotionSampler
 from .residual import Residual, residual
 from .symbols import Symbols
-from .user_symbols import AMPLITUDE, LARGEST, LEAST, MOMENT, Meaning
+from .user_symbols import AMPLITUDE, LARGEST, LEAST, MOMENT, WORK, Meaning
 from .vocabulary import Vocabulary
 
 _FORCES = "Fx|Fy|M|F|Fs|Fn|F1|F2|tension|N|T"
@@ -44,8 +44,6 @@ _SOLVED = re.compile(rf"\b(accel|ax|ay|alpha|tension)\(|\.({_FORCES})\b")
 """What reads an acceleration or an unknown force."""
 _UNIFORM = re.compile(r"[^\W\d]\w*\s*\*\s*t|t\s*\*\s*[^\W\d]\w*")
 """The law of what moves uniformly, which has a letter for its rate."""
-_SUMMED = re.compile(r"\.work\b|\bfriction_work\(")
-"""What is summed up from the start of a motion on."""
 _TENSION = re.compile(r"\btension\(([^()]*)\)")
 _BRACKETS = re.compile(r"^\(((?:[\w.\[\]]|'[^']+')+)\)$")
 _ADMISSIBLE = 24  # states at which no balance holds
@@ -119,7 +117,12 @@ class StatementSymbols:
     def needs_past(self) -> bool:
         """Whether it reads works, or where a motion started, which a state has only as one of a motion from the start."""
         read = [self._one(n) for n in self.required]
-        return any(one.kind in ("initial", "integral") or any(map(_SUMMED.search, one.texts)) for one in read)
+        return self.sums_up or any(one.kind in ("initial", "integral") for one in read)
+
+    @property
+    def sums_up(self) -> bool:
+        """Whether it reads works, which are done from the model's start on."""
+        return any(map(WORK.search, (text for n in self.required for text in self._one(n).texts)))
 
     @property
     def names_moments(self) -> bool:

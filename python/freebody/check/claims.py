@@ -31,11 +31,11 @@ from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .limit_claims import limit
-from .phases import phase
+from .phases import phase, stretch_of
 from .residual import jacobian, magnitude, residual
 from .two_moments import BETWEEN, PLACES, across_impact, between, between_places, changes
 from .verdict import Evidence, Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, beside_words, in_phase, in_words, labelled, on_later_stretch
+from .worded_claims import beside_words, in_phase, in_words, labelled, on_later_stretch
 from .wording import BLOW, as_claim, named, with_condition_first
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ _FEWEST = 8  # places at which they have to be
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
     given, claim = _defined(with_condition_first(text))
-    if (found := _JUST.match(claim)) and (happening := checker.only_impact):
+    if (found := _JUST.match(claim)) and (happening := checker.only_happening):
         claim = f"{found[1]} {happening}:{claim[found.end() :]}"
     claim = as_claim(claim)
     if found := of_amplitudes(checker, {**declared, **given}, claim):
@@ -64,16 +64,8 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
             said = ((part or "").strip() for part in found.groups())
             return judge(checker, {**declared, **given}, *said)
     label, colon, said = claim.partition(":")
-    for words in (part.strip(_BESIDE_WORDS) for part in label.split(",") if colon):  # rolling, power: …
-        is_part = words in checker.symbols(declared).bodies  # a roll, and not what rolls
-        if (
-            IN_WORDS.fullmatch(words)
-            and not is_part
-            and (found := phase(checker, words))
-            and found.changes
-            and not found.is_moment
-        ):
-            return in_phase(checker, {**declared, **given}, found, words, said)
+    if colon and (stretch := stretch_of(checker, declared, [part.strip(_BESIDE_WORDS) for part in re.split("[,()]", label)])):
+        return in_phase(checker, {**declared, **given}, *stretch, said)
     for word, form in _WHOLE.items():
         if re.match(rf"{word}\s*:", claim):
             raise ModelProblem(f"a part of this claim is missing: `{' '.join(claim.split())}`", f"write `{form}`")
@@ -116,7 +108,12 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     if found := with_held(checker, declared, condition):
         there, others, read = found
         verdict = there.check(f"if {others}: {statement}" if others else statement, declared, correcting=checker.correcting)
-        return replace(verdict, notes=(*verdict.notes, read))
+        stands = (
+            phase(checker, _IS_HELD.sub("stands still", f"while {condition}")) if verdict.of_no_motion else None
+        )  # it moves at first
+        if stands is None:
+            return replace(verdict, notes=(*verdict.notes, read))
+        return in_phase(checker, declared, stands, condition, f"if {others}: {statement}" if others else statement)
     try:
         given = family(condition, checker, declared)
     except ModelProblem as problem:
@@ -323,13 +320,15 @@ def _follows(checker: Checker, declared: Declared, statement: str, premises: str
     return Verdict(Kind.WRONG, statement, f"does not follow: `{premises}` can hold without it", evidence=evidence(found, there))
 
 
-_JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:just|immediately|right|shortly)\s+(?:after|before))\s*:")
+_JUST = re.compile(r"(?:[^=<>:;\n]*:\s*)?((?:(?:just|immediately|right|shortly)\s+)?(?:after|before))\s*:")
 """Of what happens, where only one thing does."""
 _AT_BLOW = re.compile(
-    rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*(?:\s+(?:on|at|against|with|in)\s+(?:the\s+)?\w+)?)\s*(?:,[^=<>:;\n]*)?:"
+    rf"\s*(?:(?:at|in|on|during)\s+)?((?:\w+\s+){{0,3}}?\w*(?:{BLOW}|stroke)\w*(?:\s+(?:on|at|against|with|in)\s+(?:the\s+)?\w+)?)\s*(?:,[^=<>:;\n]*)?:",
+    re.IGNORECASE,
 )
 """``impact:``, ``at the stroke:``."""
 _BESIDE_BLOW = re.compile(r"(?:\w+\s+)?(?:after|before|between|while|until|once|when|with|without|no|during)\b")
+_IS_HELD = re.compile(r"\b(?:(?:is|are)\s+)?held\b(?:\s+still)?")
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")
 """What comes to 0 on a motion from the start, as a speed where something stops."""
 _PLACES = re.compile(r"\bthe [\w\s-]+(?=,|\Z)")

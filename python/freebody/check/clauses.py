@@ -5,11 +5,19 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
+from .clause_words import MOTION, in_words_of_claims
 from .language.glyphs import CONDITION
 from .pieces import RELATION, Piece, pieces_of, relates
 from .wording import INSTANT
 
+_LEADS = re.compile(
+    r"\b(?:(?:so|such|find|finds|shows?|says|means|follows) that|according to|(?:falls?|grows?|rises?|drops?|decreases?|increases?|goes|changes?|varies|reads|moves\b.*) (?:as|by|with)"
+    r"|equal to|(?:leads|reduces|amounts) to|(?:follows|results|comes|found|obtained) from|(?:given|expressed) (?:by|as)"
+    r"|(?:pulls?|push(?:es)?|press(?:es)?|acts?|moves?|turns?|starts?|begins?|leaves?|swings?|slides?|rolls?|falls?|runs?|hits?|strikes?|rebounds?|flies|lands?|arrives?|vibrates?|oscillates?)\b.* with)\Z"
+)
+"""What ends words, behind which stands what is said, whatever else that is like."""
 _FEWEST = 2  # words of a clause that stands directly before an equation
+_SENTENCE_WORDS = 4  # of one, at least
 _JOINED = "…"
 _BLANK = re.compile(r"(?<!\\)\\(?:q?quad\b|[,;:!> ])")
 _BOXED = re.compile(r"\\boxed\s*\{(.*)\}(?=\s*\Z)", re.S)
@@ -22,115 +30,32 @@ _CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same a
 
 # -- what a clause is
 
-_NEAR = "(?:about|around|near|for)"
-_HELD = r"(?:is |are )?(?:held|fixed|locked|clamped|blocked)(?: (?:still|fixed|fast|in place))?"
-_MOTION = (
-    r"(?:turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
-)
 _HEAD = re.compile(
-    rf"(?!in\s+(?!(?:the\s+)?(?:\w+\s+)?(?:equilibrium|steady|flight|air|limit|end)\b))(?:{CONDITION}|only|from(?=\s+t_?[1₁]))\b",
+    rf"(?!in\s+(?!(?:the\s+)?(?:\w+\s+)?(?:equilibrium|steady|flight|air|limit|end)\b))(?:{CONDITION}|only|on(?=\s+(?:the|its)\s+(?:way|swing|stroke)\s+back)|from(?=\s+t_?[1₁]))\b",
     re.I,
 )
 """With which a condition begins."""
 _BEHIND = re.compile(
     rf"(?:{INSTANT})?(?:after|before)\b|(?:at|when|once|if|for|while|during|until|initially|(?:as|so) long as|provided|assuming)\b"
-    rf"|in the {_MOTION}\b|in (?:the )?(?:free )?(?:flight|air)\b|(?:the whole time|all the time|throughout)\b"
+    rf"|in the {MOTION}\b|in (?:the )?(?:free )?(?:flight|air)\b|(?:the whole time|all the time|throughout)\b"
     r"|in\s+(?:the\s+)?(?:static\s+)?(?:steady|equilibrium)\b"
 )
 """With which one begins behind an equation."""
 _WITHIN = re.compile(
-    rf"\s+(?={INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\s+\S|(?:at|in)\s+the\s+(?:moment|instant|start|end|{_MOTION})\b"
+    rf"\s+(?={INSTANT}(?:after|before)\b|(?:after|before|while|until|once|when|if)\s+\S|(?:at|in)\s+the\s+(?:moment|instant|start|end|{MOTION})\b"
     r"|for\s+small\b|(?:for|with)\s+\S+\s*=|released\b|from\s+rest\b)"
 )
 """Where one begins in a clause that first says of what it is: ``energy just after the impact``."""
-_ASIDE = re.compile(r"([^()]*[A-Za-z\s])\s*\(([^()]+)\)")
-_WORDS: tuple[tuple[str, str], ...] = (
-    (rf"in (?:the|its|his|her) ({_MOTION})", r"during the \1"),
-    (
-        r"(?:the )?((?:recovery|coasting|rebound|(?:free )?flight|(?:second|next|later|last|final) (?:phase|stage|part|stretch|stroke))"
-        r"(?: (?:of|on|with|by) [a-z ]+)?)",
-        r"during \1",
-    ),
-    (
-        rf"(?!(?:{CONDITION})\b)((?:the )?[A-Za-z]+(?: [a-z]+)?) (in (?:the )?(?:flight|air)|off the [a-z]+|airborne)",
-        r"while \1 is \2",
-    ),
-    (r"(?:with |while )?(?:the )?([a-z]+) (?:is )?(?:still )?(?:whole|intact|uncut|unbroken)", r"before the \1 is cut"),
-    (
-        r"(?:the )?([a-z]+) (?:sliding|coming|going|moving|falling|sinking|climbing|rising) (?:back )?"
-        r"(up|down|to the left|to the right)(?:wards?|hill)?",
-        r"while \1 moves \2",
-    ),
-    (r"(at the (?:top|highest point)) of the (?:first )?(?:rebound|bounce)", r"\1, after the impact"),
-    (
-        r"(?:at )?(?:the )?(?:top|highest point) of (?:(?:the )?(\S+?)['’]s|(?:its|his|her)) flight",
-        r"at the highest point of the \1, after lift-off",
-    ),
-    (
-        r"(?:(?:the )?(?:[a-z]+ )?(?:is |are )?)(?:just )?(?:about to|on the (?:point|verge) of) (?:slip(?:ping)?|slid(?:e|ing))\b.*",
-        "just before it slips",
-    ),
-    (r"(?:[a-z]+ )*?(?:standing|hanging|lying|resting|sitting) still at (\S+ ?= ?\S+)", r"in equilibrium, \1"),
-    (
-        r"(?:once|when) (?:the )?(?:speed|velocity) (?:no longer changes|does not change any ?more|stays the same)",
-        "in the steady state",
-    ),
-    (r"(?:at )?(?:the )?(?:first )?turning point( after .*)?", r"at the turning point,\1"),
-    (r"(at (?:the|its) \S+ (?:point|position|place)) (after .*)", r"\1, \2"),
-    (r"(?:from )?(t_?[1₁]) to (t_?[2₂])", r"from \1 to \2"),
-    (r"(?:as a )?special case,? (.*=.*)", r"if \1"),
-    (
-        r"(?:(?:the )?\S+ )?(?:pass(?:ing|es)|swing(?:ing|s) through)(?: through)? (?:the (?:[a-z]+ )?(?:position|place|point) )?(\S+ ?= ?\S+)",
-        r"when \1",
-    ),
-    (
-        r"(?:(?:the )?[a-z]+ )?(?:[a-z]+ing )?(?:about|over|on|at) (?:the )?(?:edge|corner) ([A-Z]\w*)",
-        r"while it turns about \1",
-    ),
-    (r"(?:the )?(?!\w+ing\b)([a-z]+) on", r"once the \1 is on"),
-    (r"for the first time", "from the start"),
-    (r"(?:going|moving|sliding|running) (up|down)(?:wards?|hill)?", r"while it moves \1"),
-    (r"(?:the )?([a-z]+) (?:is )?in motion", r"while the \1 moves"),
-    (r"(?:and )?before (?:the )?(?:second|next|third)\b.*", ""),
-    (r"after (?:a |the )?(?:time )?t (?:from rest|if the start is at rest)", "if the start is at rest"),
-    (r"after (?:a|an|one|half|two|three|\d+)\b[^()=]*\(([^()]*=[^()]*)\)", r"when \1"),
-    (r"(?:pure )?(rolling|rolls|sliding|slides|slipping|slips) \([^()=]+=[^()]+\)", r"while \1"),
-    (rf"({INSTANT}(?:after|at)|at) ((?:the )?(?:release|start|beginning))(?: from rest)? ?\([^()1-9]*=[^()1-9]*\)", r"\1 \2"),
-    (rf"((?:{INSTANT})?(?:after|before) .*[a-z]) \([^()=<>→]*\)", r"\1"),
-    (r".*\bfrom \S+ \(at rest\)", "if the start is at rest"),
-    (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?(?:\(|at )\s*(\S+?) ?= ?([^(),]+?)\)?", r"\2 held at \3"),
-    (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD} ?\((\S+?) ?= ?([^(),]+?), ([^()]+)\)", r"\2 held at \3, \4"),
-    (rf"(?:with )?(?:the )?([\w' -]+?) {_HELD}", r"\1 held"),
-    (
-        rf"(?:linear(?:is|iz)ed {_NEAR}|near|close to|(?:for )?small \S+ {_NEAR}) (?:the (?:place|position) )?([^\s=]+) ?= ?([^\s=]+)",
-        r"as \1 -> \2",
-    ),
-    (r"(\S{1,6}) (?:is )?small", r"small \1"),
-    (r"(\S{1,6}) (?:is )?(?:negligible|neglected)|negligible (\S{1,6})", r"\1\2 -> 0"),
-    (r"(?:held|kept|hanging|standing|holding) still", "in equilibrium"),
-    (r"(?:the )?steady[ -]state|steady (?:motion|vibration|response)", "in the steady state"),
-    (r"(?:the )?(?:static )?equilibrium", "in equilibrium"),
-    (
-        r"(?:for )?small(?: (?:[a-z]+ing|oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)(?: about [^\s=]+)?)?",
-        "for small motions",
-    ),
-    (r"(?:without|neglecting|ignoring) [a-z ]*\(([^()=]+=[^()]+)\)", r"if \1"),
-    (r"(?:the )?natural (?:circular )?frequencies(?: of the \w+)?", "frequencies"),
-    (r"(?:the )?natural (?:circular )?frequency of the \w+", "natural frequency"),
-    (r"((?:in (?:the )?steady[ -]state|in (?:static )?equilibrium|at rest)) the .*", r"\1"),
-    (r"(?:if|where|for|with) (?!.*\b(?:kept|prevented)\b)[a-z'’ -]+ \(([^()]*(?:[=<>→]|->|\\to)[^()]*)\)", r"if \1"),
-    (r"((?:in (?:the )?(?:flight|air)|during (?:the )?(?:[a-z]+ )?flight)) (?:only|nothing|no|there|it|the) .*", r"\1"),
-    (r"(?:once|when|after) (?:the )?\S+ (?:is|has become) (?:steady|constant)", "in the steady state"),
-    (
-        r"((?:the|an?|it|he|she) .*[a-z]{3}) (?:at|when|where)(?: the (?:instant|time|moment))?",
-        r"when \1",
-    ),  # it blows off at t = …
-    (r"(?:the )?([a-z]+ [a-z]+|[a-z]+) at(?: the (?:instant|time|moment))?", r"just before the \1"),  # first impact at t = …
-    (r"(.*[a-z]{3}) (?:at|when|where)(?: the (?:instant|time|moment))?", r"when \1"),
+_EMBEDDED = re.compile(
+    rf"\b(?:{INSTANT})?(?:after|before|during)\s+the\s+\w+\Z|\b(?:{INSTANT})?(?:after|before|during)\s+the\s+\w+(?=\s+(?:is|are)\b)"
+    rf"|\b(?:(?:{INSTANT})?(?:after|before)|while|until|once|when|as long as)\s+(?:it|he|she|they|both|all|the\s+\w+)\s+(?!is\b|are\b)\S+"
+    r"(?:\s+(?!is\b|are\b|has\b|gives?\b|the\b)\S+)*|\b(?:at|with)\s+(?:constant|steady|uniform)\s+(?:speed|velocity)"
+    r"|\bin\s+(?:the\s+)?(?:steady\s+state|equilibrium|flight|air)|\bthe\s+steady\s+(?:motion|vibration|response)"
 )
-"""Clauses in words of exercise books, and what is read for them."""
+"""Those in the words for that whose value an equation gives: ``the tension while they slide is T = …``."""
+_ASIDE = re.compile(r"([^()]*[A-Za-z\s])\s*\(([^()]+)\)")
 _IDLE = re.compile(
-    r"(?:as\s+a\s+)?special\s+case|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
+    r"(?:as\s+a\s+)?special\s+case|(?:since|because)\s+[^=<>]*|(?:as\s+)?(?:seen|viewed|measured)\s+(?:from|in|by)\b.*|(?:both\s+)?before\b.*\band\s+after\s+(?:it|that)"
     r"|for\s+an\s+observer\b.*|(?:solving|using|eliminating|substituting|combining|inserting)\b.*|1:?\s.*\bbefore|2:?\s.*\bafter"
     r"|(?:from|about|near)\s+(?:the\s+)?(?:static\s+)?(?:equilibrium|rest)(?:\s+position)?|(?:anti)?symmetric\s+mode|(?:as\s+a\s+)?check|(?:both|the\s+two|these)\s+equations|in\s+the\s+end|eventually|finally|at\s+last|[→←↑↓↺↻⟲⟳]\s*\+?|\+\s*[→←↑↓↺↻⟲⟳]|the\s+whole\s+time|all\s+the\s+time|throughout|\+?\s*(?:(?:(?:counter|anti)-?)?clockwise|c?cw)\b.*|positive\b.*",
     re.I,
@@ -141,18 +66,23 @@ _SO = re.compile(r"(?:so|hence|thus|therefore|and\s+so)\b\s*(?:that\b)?\s*")
 _SUM = re.compile(r"(?:[↺↻↑↓→←+()]\s*)*(?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)")
 _ENERGIES = re.compile(r"(?=.*[+12₁₂])[\sTVUEKWΔ+=_{}()\d₁₂→\\to-]+(?:const\.?)?")
 _LAW = re.compile(
-    r".*[A-Za-z]{2,}\s*=\s*(?:just\s+)?[a-z]{3,}.*|.*\bbefore\s*=.*\bafter\b.*|\S+\s*=\s*[a-z]{3,}\s+[a-z]{2,}.*|.*\bsince\s+t\s*=.*|.*\bfrom\s+t\s*=\s*0(?!\.).*|.*=.*\b(?:along|across)\b.*|with\s+(?:its\b|the\s+(?:inertia|term)\b).*"
+    r".*[A-Za-z]{2,}\s*=\s*(?:just\s+)?[a-z]{3,}.*|.*\bbefore\s*=.*\bafter\b.*|\S+\s*=\s*[a-z]{3,}\s+[a-z]{2,}.*|.*(?:∂|\\partial).*|.*\bsince\s+t\s*=.*|.*\bfrom\s+t\s*=\s*0(?!\.).*|.*=.*\b(?:along|across)\b.*|with\s+(?:its\b|the\s+(?:inertia|term)\b).*"
     r"|(?:everything|all)\s+that\s+moves|(?!.*\bsmall\b)(?:.*\s)?about\s+(?:[a-z]+\s+[a-z]+\s+at\s+)?\S+\s*=.*|(?:.*\W)?(?:and|along|across)\s+[A-Z]{1,2}|.*=.*(?:×|\\times).*"
 )
 """``momentum before = momentum after``, ``a_B = a_A + a_{B/A} along AB``."""
 _DIRECTION = re.compile(r"(?:vertical|horizontal|tangential|radial|transverse)(?:ly)?|[xynrtθ]-(?:part|component|direction)")
 _ALONG = re.compile(r"along|across|throughout|again|always|at all times")
+_BACK = re.compile(r"on (?:the|its) (?:way|swing|stroke) back\Z")
+_RATE_SIGN = re.compile(r"(?:['′\u0307]|dot\b[^<>]*)\s*[<>]")
 _SMALL = re.compile(r"(?:for\s+|with\s+)?small\b")
+_LIST_OF_SMALL, _NAMED = re.compile(r"(?:for\s+)?small\b.*,"), re.compile(r"[A-Za-z]{3,}\s+[A-Z]{1,2}\Z")
+"""``small θ, φ``, ``bar DC``."""
 _VALUE = re.compile(
     r"(?:\\?[^\W\d][\w'′″{}\u0307\u0308]*\s*=\s*)+(?:0|[\d.]+\s*°|[\d.]*\s*(?:π|\\pi)(?:/\d)?)|[^\W\d][\w'′″{}\u0307\u0308]*\s*[<>]\s*0|(?:\\d*dot\s*\{?\\?\w+\}?\s*=\s*)+0"
 )
 """``φ' = φ'' = 0``, ``N = 0``."""
 _AT = re.compile(r"\A(?:at|when|where)\s+")
+_KIND = re.compile(r"(?:(?:very|perfectly)\s+)?(?:rigid|stiff|soft|light|heavy|massless|smooth|rough)\b[^=<>→]*")
 _WORDY = re.compile(r"[A-Za-z][\w'-]*(?:\s+[\w'-]+)+")
 _NAME = re.compile(r"[A-Z][a-z]+(?<!ing)")
 _SYMBOL = re.compile(r"(?:\\[a-z]+|[^\W\d])(?:\d|_\w+|_\{\w+\})?[′']*")
@@ -192,7 +122,9 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
     if (
         begins and conditions and conditions[-1] == said[-1] and not _is_condition(said[-1])
     ):  # whose value it is that an equation gives
-        conditions.pop()
+        conditions[-1:] = [in_words_of_claims(found[0]) or found[0] for found in _EMBEDDED.finditer(conditions[-1])]
+    if any(map(_RATE_SIGN.search, conditions)):  # that says which way
+        conditions = [clause for clause in conditions if not _BACK.match(clause)]
     behind = [part for clause in around[2] for part in _parts(clause, is_label)]
     changed = [*said, *behind] != [*around[0], *around[1], *around[2]]
     is_law = any(relates(label) or _LAW.fullmatch(label) for label in labels)
@@ -200,6 +132,9 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
     unsaid = any(" held" in clause and not _HEAD.match(clause) for clause in conditions)
     if not (begins or changed or is_law or at_once or behind or unsaid or (labels and any(map(_is_condition, conditions)))):
         return text
+    if any(map(_LIST_OF_SMALL.match, conditions)):  # a name is none of the list
+        named = [clause for clause in conditions if _NAMED.match(clause)]
+        labels, conditions = [*named, *labels], [clause for clause in conditions if clause not in named]
     labels = [label for label in labels if not (relates(label) or _LAW.fullmatch(label))]
     if not any(map(_is_condition, [*conditions, *behind])):
         labels, conditions = [*conditions, *labels], []
@@ -244,7 +179,7 @@ def _explained(clauses: Sequence[str], is_label: re.Pattern[str]) -> list[str]:
             tells = (
                 _is_condition(before)
                 or _SMALL.match(before)
-                or _read(before)
+                or in_words_of_claims(before)
                 or _is_of_what(before, is_label)
                 or _WITHIN.search(before)
             )
@@ -266,44 +201,56 @@ def _parts(clause: str, is_label: re.Pattern[str]) -> Iterator[str]:
     """What a clause says, in the words that are read: what it is of, and of which motions, each for itself."""
     if clause.startswith(_JOINED):
         clause = clause.removeprefix(_JOINED)
-        if not (_is_condition(clause) or _read(clause) or _is_of_what(clause, is_label)):
+        if not (_is_condition(clause) or in_words_of_claims(clause) or _is_of_what(clause, is_label)):
             return  # if R → ∞ nothing is lost: …
     within = _WITHIN.search(clause.partition("(")[0])
     first = clause[: within.start()] if within else ""
-    if within and not _HEAD.match(clause) and (_is_of_what(first, is_label) or _read(first)):
+    if within and not _HEAD.match(clause) and (_is_of_what(first, is_label) or in_words_of_claims(first) or first.isalpha()):
         yield from (part for each in (first, clause[within.end() :]) for part in _parts(each, is_label))
         return
-    if (read := _read(clause)) is not None:
+    if (read := in_words_of_claims(clause)) is not None:
         yield from filter(None, map(str.strip, read.split(",")))
         return
     aside = _ASIDE.fullmatch(clause)
-    if aside and (_read(aside[1]) or all(_IDLE.fullmatch(each.strip()) for each in aside[2].split(","))):
+    if aside and (
+        in_words_of_claims(aside[1]) or _explains(aside) or all(_IDLE.fullmatch(each.strip()) for each in aside[2].split(","))
+    ):
         yield from _parts(aside[1].strip(), is_label)
-    elif aside and not (_HEAD.match(clause) or _is_of_what(aside[2], is_label)) and _is_condition(aside[2]):
+    elif (
+        aside
+        and not (_HEAD.match(clause) or _is_of_what(aside[2], is_label))
+        and (_is_condition(aside[2]) or _SMALL.match(aside[2]))
+    ):
         what = (
-            [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or _read(aside[1]) else []
+            [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or in_words_of_claims(aside[1]) else []
         )  # else in brackets is what the words mean
-        yield from (part for each in (*what, *aside[2].split(",")) for part in _parts(each.strip(), is_label))
+        yield from (part for each in (*what, *_listed(aside[2])) for part in _parts(each.strip(), is_label))
     elif clause and not _IDLE.fullmatch(clause):
         yield clause
 
 
-def _read(clause: str) -> str | None:
-    """What is read for a clause in words of exercise books; None where it is none of these."""
-    said = " ".join(clause.split())
-    found = next((found for written, read in _WORDS if (found := re.fullmatch(written, said, re.I))), None)
-    return found.expand(dict(_WORDS)[found.re.pattern]) if found else None
+def _explains(aside: re.Match[str]) -> bool:
+    """Whether words in brackets only explain a relation before them: ``k → ∞ (rigid strut PC)``."""
+    return relates(aside[1]) and _KIND.fullmatch(aside[2].strip()) is not None
+
+
+def _listed(said: str) -> list[str]:
+    """The conditions in brackets; what is small is one."""
+    parts = [part for part in said.split(",") if not _IDLE.fullmatch(part.strip())]
+    small = _SMALL.match(said)
+    return [f"for {','.join(parts)[small.end() - len('small') :].strip()}"] if small else parts
 
 
 def _headed(conditions: Iterable[str]) -> list[str]:
     """The conditions with one first that begins with a word for that."""
     ranked = sorted(conditions, key=lambda clause: _SMALL.match(clause) is not None)
-    first = next((clause for clause in ranked if _HEAD.match(clause) and not _SMALL.match(clause)), None)
+    heads = [clause for clause in ranked if _HEAD.match(clause) and not _SMALL.match(clause)]
+    first = next((clause for clause in heads if _BACK.match(clause)), heads[0] if heads else None)  # then what is so there
     ranked = [*([first] if first else []), *(clause for clause in ranked if clause is not first)]
     is_bare = bool(ranked) and not (_HEAD.match(ranked[0]) or _SMALL.match(ranked[0])) and any(map(_is_condition, ranked))
     if is_bare:
         ranked.sort(key=lambda clause: not _is_condition(clause))
-    return [f"if {ranked[0]}", *ranked[1:]] if is_bare else ranked
+    return [f"if {ranked[0]}", *ranked[1:]] if is_bare and not _HEAD.match(ranked[0]) else ranked
 
 
 def _is_condition(clause: str) -> bool:
@@ -327,17 +274,37 @@ def _core(text: str, body: Sequence[Piece]) -> int | None:
     """Where among the pieces behind the label the equation begins; None where they state none."""
     said = ""
     for i, piece in enumerate(body):
+        last = said.rpartition(" ")[2]
         if piece.kind == "words":
-            said = text[piece.start : piece.stop]
+            said = f"{said} {text[piece.start : piece.stop]}".lstrip()
         elif piece.kind in ",;:":
             said = ""
-        elif piece.relation and said not in _AT_TIME and not _INTRODUCES.search(said):
+        elif piece.relation and (
+            said == "and" or _is_last(said, body, i) or _LEADS.search(said) or not (last in _AT_TIME or _INTRODUCES.search(last))
+        ):
             return i
-        elif piece.relation and said in _AT_TIME and i == len(body) - 1 and _is_moment(text, body[:i]):
+        elif piece.relation and last in _AT_TIME and i == len(body) - 1 and _is_moment(text, body[:i]):
             return i  # the first impact at t = …, the box slides when …
         else:
             said = "" if piece.relation else said
-    return None
+    return _given_with(text, body)
+
+
+def _is_last(said: str, body: Sequence[Piece], i: int) -> bool:
+    """Whether a relation is the only one behind a sentence that goes on with it: ``during the flight it turns uniformly and θ = …``."""
+    return (
+        said.endswith((" and", " with"))
+        and said.count(" ") > _SENTENCE_WORDS
+        and not any(piece.relation for piece in [*body[:i], *body[i + 1 :]])
+    )
+
+
+def _given_with(text: str, body: Sequence[Piece]) -> int | None:
+    """Where the only relation begins, if it stands at the end of a sentence: ``the pin slides along the slot with s' = …``."""
+    relations = [i for i, piece in enumerate(body) if piece.relation]
+    words = [text[piece.start : piece.stop] for piece in body if piece.kind == "words"]
+    is_last = relations == [len(body) - 1] == [len(words)]
+    return relations[0] if is_last and len(words) > _FEWEST and words[-1] == "with" and not _HEAD.match(words[0]) else None
 
 
 def _is_moment(text: str, before: Sequence[Piece]) -> bool:

@@ -85,7 +85,8 @@ def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
         above = (f"{text} - {least!r}" for text in second)
         return replace(given, vanishing=(*given.vanishing, first), above=(*given.above, *above), since="start")
     tops = found is not None and found.lastgroup == "greatest" and _HEIGHT.search(words) is not None
-    if (tops or _STOPS.search(words)) and (name := _coming_to_rest(checker)):
+    presses = _OF_SPRING["least"].search(words) is not None  # a contact
+    if (tops or presses or _STOPS.search(words)) and (name := _coming_to_rest(checker)):
         place = f"x({quote(body)}.G)" if (body := _body(words, checker)) else ""
         side = [
             f"{sign}({place} - ⟦{place}⟧)" for way, sign in (("right", ""), ("left", "-")) if place and f"on the {way}" in words

@@ -134,7 +134,8 @@ def _changes(node: Node, vocabulary: Vocabulary) -> Iterator[tuple[str, Node]]:
                 yield from (
                     ("function", Add((_ONE, Negative(Fn(each, (argument,)))), **at)) for each in (function, OTHER[function])
                 )
-            yield from (("angle", Fn(function, (angle,), **at)) for angle in _angles(argument, vocabulary))
+            kind = "factor" if function == "sqrt" else "angle"
+            yield from ((kind, Fn(function, (angle,), **at)) for angle in _angles(argument, vocabulary))
         case Pow(base=base, exponent=Num(value=n)):
             yield from (("power", Pow(base, Num(m, f"{m:g}"), **at)) for m in (n - 1, n + 1) if m > 1)
             yield "power", base

@@ -13,10 +13,11 @@ from freebody.core import CompiledModel, State
 from freebody.model.names import unquote
 from freebody.run.records import Array, quote
 
-from .integrals import amplitude, summed
+from .integrals import EXACT, amplitude, summed
 from .moments import Moments
-from .user_symbols import AMPLITUDE, LOAD, OF_START, SUMMED
+from .user_symbols import AMPLITUDE, LOAD, OF_START, SUMMED, WORK
 
+_STEPS = 5000  # of a run from the start to a state
 _SINGULAR = 1e-9  # of the largest singular value: below it a combination of loads moves nothing
 
 
@@ -76,6 +77,10 @@ class Samples:
     own_start: State | None = None
     """Where the model's own motion begins, which shows how others come to a moment."""
     stress: float = 1.0
+    whole: bool = False
+    """Whether what is summed up is so from the model's start on, and not from its moment."""
+    repeats: bool = False
+    """Whether the states are on motions that repeat, of which something may be largest."""
     loose: set[str] = field(default_factory=set)
     known: dict[str, Array] = field(default_factory=dict)
     weighed: dict[str, tuple[Array, Array]] = field(default_factory=dict)
@@ -96,13 +101,18 @@ class Samples:
     def _row(self, k: int, texts: Sequence[str]) -> Array:
         """Expressions, loads and what is asked of the start, in one state."""
         state, start = self.states[k], self.starts[k] if self.starts else None
-        since = state.t - start.t if start else 0.0
-        asked = Moments(self.core, start, since, self._usual) if start else None
-        read = {text: asked.in_numbers(text) if asked else text for text in texts}
+        asked = Moments(self.core, start or state, state.t - start.t if start else 0.0, self._usual)
+        in_numbers = asked.in_numbers if start else asked.of_repeating if self.repeats else str
+        read = {text: in_numbers(text) for text in texts}
         plain = [
             t for t, of in read.items() if not (of.startswith((LOAD, SUMMED, AMPLITUDE)) or OF_START.search(of) or "(nan)" in of)
         ]
         found = self.core.evaluate([read[text] for text in plain], state)
+        if start and self.whole and any(worked := [WORK.search(text) is not None for text in plain]):  # since before the moment
+            run = self.core.simulate(start, state.t, rtol=EXACT, max_steps=_STEPS)
+            found[worked] = run.evaluate(
+                [read[text] for text, sums in zip(plain, worked, strict=True) if sums], np.array([state.t])
+            )[0]
         if len(plain) == len(texts):
             return found
         known = dict(zip(plain, found.tolist(), strict=True))

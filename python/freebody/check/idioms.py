@@ -17,12 +17,47 @@ _ABROAD = {
 }
 """Words of other languages with which a condition begins."""
 _LETTER = r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?"
+_SHORT = r"(?:\\[A-Za-z]+|[^\W\d_]\w{0,2})(?:_\{?\w+\}?)?(?!\w)"
 _NAME = rf"({_LETTER})"
 _FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
 _RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
 _SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
 _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\$([A-Za-z])\$(?=\s+[a-z]{3,})", r"\1"),  # at the moment $B$ begins to slip
+    (r"\bsqrt(\d+)\b", r"sqrt(\1)"),
+    # m_1, m_2 → 0: each of them
+    (
+        rf"(?<![\w\\])(?<!small )(?<!small \$)({_SHORT}(?:\s*(?:,|\band\b)\s*{_SHORT})+)\s*(?:→|->|\\(?:right)?to\b|\\rightarrow\b)\s*(0|∞|inf(?:inity)?\b|\\infty)",
+        lambda found: ", ".join(f"{name.strip()} → {found[2]}" for name in re.split(r",|\band\b", found[1])),
+    ),
+    # since β = θ, x = …; differentiating, x' = …
+    (r"\A\s*(?:[Ss]ince|[Bb]ecause)\s+([^,;:=]+=[^,;:=]+),\s*(?=[^,;:]*=)", r"if \1: "),
+    (r";\s*(?:[Dd]ifferentiat(?:ing|e)(?:\s+(?:once|again|this))?)[,:]?\s+(?=[^;]*=)", "\n"),
+    # start → first touch: …
+    (r"\bstart\s*(?:→|->|\\to\b)\s*(?:the\s+)?(?=[a-z]{3})([a-z][a-z ]*?)(?=\s*[:,])", r"at the \1"),
+    # … holds while the clutch slips
+    (r"\s+(?:holds|is\s+true)\s+(?=(?:while|when|as\s+long\s+as|once|after|until|if)\b)", " "),
+    # (8) Main bearing, with (4) and (5): …
+    (r"\A\s*\(\d{1,2}\)\s+(?=[A-Z][a-z])", ""),
+    (r",?\s*\b(?:with|from|by|using|see)\s+(?:[Ee]qs?\.?\s*)?\(\d{1,2}\)(?:\s*(?:,|and)\s*\(\d{1,2}\))*(?=\s*:)", ""),
+    (r"(\bat\s+rest\s+on\s+(?:the\s+)?\w+)\s+and\s+moves?\s+(?:along\s+)?with\s+(?:it|him|them)\b", r"\1"),
+    # While they touch we have y = a tan θ, and differentiating twice I get y'' = …
+    (
+        r",?\s+and\s+(?:then\s+)?(?:by\s+)?differentiating(?:\s+(?:once|again|twice|this))*,?\s+(?:(?:I|we|one)\s+(?:get|find|obtain)s?\s+)?(?=[^=]+=)",
+        "\n",
+    ),
+    (r"\A([^:=]*[a-z]{2,})\s+(?:I|we)\s+(?:have|get|find|obtain|know)\s+(?:that\s+)?(?=[^:]*=)", r"\1: "),
+    # Energy between just after the impact and the highest point gives …
+    (
+        r"\A([A-Z][a-z]+(?:\s[a-z]+)*?)\s+between\s+(?:(?:just|right)\s+)?(?:after\s+)?(?:the\s+)?[a-z]+\s+and\s+(the\s+[^:=()]+?(?:\s*\([^()]*\))?)\s*(?:gives|:)\s+",
+        r"\1, at \2: ",
+    ),
+    (r"\b(?:[Ii]n\s+the\s+)?[Ll]imit\s+(?=\$?\\?[^\W\d]\w*\$?\s*(?:→|->|\\to\b))", ""),
+    (r"\A([a-z]+\s+just\s+[a-z]+s)\.\s+(?=[a-z]+:)", r"\1, "),  # weight just lands. energy: …
+    (r",?\s+and\s+its\s+(?:time\s+)?derivative\s+is\s+(?=[^=]+=)", "\n"),
+    (r"\A\s*(?:\([a-z]\)\s*)?[A-Z][^?=:]*\?\s+(?=[A-Z])", ""),  # Does the rope stay taut? For …
+    (r"\A\s*([^\W\d]\w*\s*=\s*[^\W\d]\w*)\s*:(?!=)\s*(?=[^:=]+=)", r"when \1: "),  # y = h: …
+    (r"\btill\b(?=[^:\n]*:)", "until"),
     (r"(?<==)([^=→\n:]*[^=→\n:\s])\s+→\s+(?!(?:0|∞|inf\w*)\s*(?:,|and\b))(?=[^=→:\n]+=)", r"\1 ⇒ "),  # v = r ω → v² = r² ω²
     # let go at rest from y₀, θ = 0: …
     (
@@ -39,6 +74,18 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     ),
     # (shoe B, moments about the pin)  F c = …
     (r"\A\s*\(((?=[^()]*\b[a-z]{4})[A-Za-z]+(?:[\s,']+[A-Za-z]+)+)\)\s+(?=[^\s:])", r"\1: "),
+    # At the end, when both are at rest, …
+    (
+        r"\A\s*[Aa]t\s+the\s+end,?\s+(?:when|where|once)\s+(?:both|all|they|it|everything)\s+(?:is|are|has|have)\s+(?:come\s+to|at)\s+rest\b",
+        "once it has come to rest",
+    ),
+    # the rod passes θ = 0 with θ' = …
+    (
+        r"(?:\b[Tt]he\s+)?\b[a-z]+\s+passes\s+(?:through\s+)?(\$?\\?[^\s=,:]+\s*=\s*[^\s=,:]+)\s+with\s+(?=[^:=]+=[^:=]+\Z)",
+        r"when \1: ",
+    ),
+    # (foot on the ground) in upright letters
+    (r"\\text\s*\{\s*(\([a-z]+(?:\s+[a-z]+)+\))\s*\}", r" \1"),
     (r"\A\s*constant,?\s+(if\b[^:\n]*?)\s*:(?!=)\s*", r"\1: constant: "),
     # … with tan φ = c ω/(k − m ω²), of a phase
     (
@@ -48,7 +95,13 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # h = 0 for the first time at t = …
     (r"\A\s*([^:=]+=[^:=]+?)\s+(?:for the first time|first|again)\s+at\s+(\$?t\s*=[^:]+)\Z", r"when \1, from the start: \2"),
     # no outer force → …
-    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)[^=<>:;\n→]*→\s*(?=[^:;\n]*=)", ""),
+    (r"\A(?=[^=<>:;\n]*\b[a-z]{2,}\s+[a-z]{2,}\b)([^=<>:;\n→]*[^=<>:;\n→\s])\s*→(?!\s*(?:0|∞|inf))\s*(?=[^:;\n]*=)", r"\1: "),
+    # the period is T = …, swings with the period T = …
+    (
+        r"\A\s*((?:[Aa]fter|[Ww]hile|[Aa]s long as|[Ww]hen|[Oo]nce|[Ff]or)\b[^:=]*?),?\s+(?:(?:the|its)\s+)?(?:(?:[a-z]+\s+)*?with\s+(?:the|a)\s+)?period"
+        r"(?:\s+of\s+[a-z ]+?)?\s+(?:is\s+|becomes\s+)?\$?(?:T|τ|\\tau)\s*=(?=[^=:]+\Z)",
+        r"\1: period: ",
+    ),
     # B and C go apart; after the impact …
     (r"\A(?=[A-Z][^=<>:;\n]*\b[a-z]{3,}\s+[a-z]{3,}\b)[^=<>:;\n\\]*;\s*(?=[^;\n]*=)", ""),
     (r"\}\s*\\[;,:!]\s*(?=\d)", r"} \\cdot "),  # \frac{m}{M}\;2k
@@ -96,14 +149,15 @@ def _ranged(text: str) -> str:
     if not colon or said.startswith("=") or _SAYS_WHEN.match(label) or re.search(r"(?<![<>])=", label):
         return text
     plain = label.replace("$", "").strip()
-    found = next((found[1] for pattern in _IN_LABEL if (found := pattern.search(plain))), None)
-    if found is None or _LONG_WORD.search(found):
+    found = next((found for pattern in _IN_LABEL if (found := pattern.search(plain))), None)
+    if found is None or _LONG_WORD.search(found[1]):
         return text
-    signs, sides = re.findall(_LESS, found), [side.strip() for side in re.split(_LESS, found)]
+    signs, sides = re.findall(_LESS, found[1]), [side.strip() for side in re.split(_LESS, found[1])]
     if not all(sides):
         return text
     parts = (f"{one} {sign} {other}" for one, sign, other in zip(sides[:-1], signs, sides[1:], strict=True))
-    return f"if {', '.join(parts)}:{said}"
+    others = f"{plain[: found.start()]}{plain[found.end() :]}".strip(" ,;")
+    return f"if {', '.join(parts)}: {f'{others}:' if others else ''}{said}"
 
 
 def _by_place(found: re.Match[str]) -> str:

@@ -134,15 +134,21 @@ def extreme(text: str, core: CompiledModel, start: State, typical: float) -> flo
 
 
 def amplitude(text: str, core: CompiledModel, state: State) -> float:
-    """Half of what something goes to and fro between where it turns on the motion from a state on, if it comes back as far; else NaN."""
-    of, rate = text.removeprefix(AMPLITUDE), core.free_bodies(state).usual_rate(core.metadata["coordinates"], state.u)
+    """Half of what something goes to and fro on the motion from a state on, if it comes back as far; else NaN."""
+    one, other = turning(text.removeprefix(AMPLITUDE), core, state)
+    return abs(one - other) / 2
+
+
+def turning(of: str, core: CompiledModel, state: State) -> tuple[float, float]:
+    """The values between which something goes to and fro on the motion from a state on, if it comes back as far; else NaN."""
+    rate = core.free_bodies(state).usual_rate(core.metadata["coordinates"], state.u)
     for turns in _TURNS:
         motion = core.simulate(state, state.t + turns / rate, rtol=_NEAR, max_steps=5000)
         read = lambda times, motion=motion: motion.evaluate([f"rate({of})"], times)[:, 0]
         if len(found := [*zeros(read, state.t, motion.end.t, 3)]) == 3:
             one, other, again = motion.evaluate([of], np.array(found))[:, 0].tolist()
-            return abs(one - other) / 2 if abs(again - one) <= _BACK * abs(one - other) else math.nan
-    return math.nan
+            return (one, other) if abs(again - one) <= _BACK * abs(one - other) else (math.nan, math.nan)
+    return math.nan, math.nan
 
 
 def _has_returned(values: Array) -> bool:

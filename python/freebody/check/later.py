@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -17,11 +18,11 @@ from .assumptions import FROM_START
 from .families import SINCE_START
 from .language.spelling import spell
 from .language.statements import terms
-from .phases import kind_of
+from .phases import called, kind_of, phase
 from .prose import plainly
 from .residual import magnitude
 from .verdict import Kind, Verdict
-from .wording import with_condition_first
+from .wording import IN_WORDS, OF_WHAT, with_condition_first
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -32,6 +33,7 @@ _DOING = re.compile(
     r"\b(?!(?:ring|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
 )
 """Words of what something does."""
+_LOWER = re.compile(r"(?<![\w\\])(?!(?:for|the|and|with|about|along|both|whole|from)\b)[a-z]{3,}(?!\w)")
 _GOES_ON = re.compile(r"\b(?:still|until|before)\b")
 """Words by which a label is of the model as it is at first."""
 _SETS_FREE = ("lift-off ", "slack ", "released ")  # what switches so that more moves
@@ -61,11 +63,35 @@ def only_at_first(verdict: Verdict) -> Verdict:
     return replace(verdict, kind=Kind.TRUE_IF, assumption=only, reason=f"true only {only}")
 
 
+def only_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:
+    """The verdict about what is wrong as the model is at first: true under the assumption that it is said of after something switches, where
+    it holds then, and words of its label may speak of that."""
+    label, colon, _ = text.rpartition(":")
+    if not colon or not any(_may_say_when(clause, checker.symbols().bodies) for clause in re.split("[,()]", label)):
+        return verdict
+    words = re.findall(r"\w+", label)
+    if any(phase(checker, clause.strip()) for clause in re.split("[,()]", label) if IN_WORDS.fullmatch(clause.strip())):
+        return verdict  # it is understood, as of the model at first
+    for name in checker.switches:
+        if name.startswith(_SETS_FREE) and called([name.partition(" ")[2]], words):  # of what is there, before
+            continue
+        with suppress(ModelProblem, StatementError):
+            later = checker.beside("after", name, {}).check(text, letters, correcting=False)
+            if later.ok and not (later.untested or later.is_idle):
+                return replace(later, kind=Kind.TRUE_IF, assumption=f"after {name}", reason=f"true only after {name}")
+    return verdict
+
+
 def _says_what_happens(checker: Checker, text: str) -> bool:
     """Whether in a label something does what is not understood: ``frame going over:``."""
     label, colon, _ = text.rpartition(":")
     doing = {*_DOING.findall(label)} - {*checker.symbols().bodies} if colon else set()
     return bool(doing) and kind_of(label) is None and _GOES_ON.search(label) is None
+
+
+def _may_say_when(clause: str, bodies: Collection[str]) -> bool:
+    """Whether a clause of a label has words that are no names of what it is of."""
+    return bool({*_LOWER.findall(clause)} - {*bodies}) and OF_WHAT.fullmatch(clause) is None
 
 
 def corrected_later(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> Verdict:

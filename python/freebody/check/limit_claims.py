@@ -16,6 +16,7 @@ from freebody.core import OutcomeKind
 from freebody.model.errors import ModelProblem
 
 from .assumptions import (
+    FAR,
     SMALL,
     SMALL_MOTIONS,
     WORDS,
@@ -37,8 +38,10 @@ from .language.statements import Equation, symbols_in
 from .phases import phase
 from .residual import HOLDS, residual
 from .stated import Correction
-from .verdict import Kind, Verdict, evidence
-from .worded_claims import IN_WORDS, in_phase
+from .user_symbols import LARGEST
+from .verdict import EVERY_TERM_IS_0, Kind, Verdict, evidence
+from .worded_claims import in_phase
+from .wording import IN_WORDS
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
@@ -49,6 +52,9 @@ _TIME = "(t) - 0"
 """What is small where it is the time since the start."""
 _AT_ZERO = re.compile(r"- \(?0\)?\Z")
 """Of what is small by itself: for small θ it need not rest at θ = 0."""
+_CONSTANT = re.compile(r"(?:[^=:]*:\s*)?constant\s*:|[^:]*:?[^:]*=\s*const")
+_TO_ZERO, _ARROW = re.compile(r"\s*\w+\s*->\s*0(?:\s*,\s*\w+\s*->\s*0)*\s*"), re.compile(r"\s*->\s*")
+"""What stays the same, and where parameters go to 0."""
 _SOON = (0.05, 0.005)  # of the time typical of the model
 _REACHED = 1e-8  # share of its terms that may be left at a moment, which is found to that
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
@@ -56,6 +62,8 @@ _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, 
 
 def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> Verdict:
     """In a limit: what is left shrinks with the parameter, or vanishes."""
+    if _CONSTANT.match(statement) and _TO_ZERO.fullmatch(limits):
+        return checker.check(f"if {_ARROW.sub(' = ', limits)}: {statement}", declared, correcting=checker.correcting)
     *others, words = sorted((part.strip() for part in limits.split(",")), key=lambda part: IN_WORDS.fullmatch(part) is not None)
     if others and IN_WORDS.fullmatch(words) and words not in WORDS and (found := phase(checker, words)):
         return in_phase(checker, declared, found, words, f"limit: {statement} as {', '.join(others)}")
@@ -73,8 +81,16 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         case = checker.case(statement, declared, given)
     # What can be 0 is so: nothing is left that would have to shrink.
     if given.held and not (given.scaled or given.small or given.late or any(map(says_zero, case.equations))):
-        return checker.check(statement, declared, given)
+        verdict = checker.check(statement, declared, given)
+        if not (verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)):
+            return verdict
+        # Both sides vanish there, and it says how.
+        scaled = tuple((name, 1 / FAR[-1]) for name, value in given.held if value == 0)
+        given = replace(given, held=tuple(one for one in given.held if one[1] != 0), scaled=scaled)
+        case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
+        if given.steady:
+            return Verdict(Kind.UNDECIDABLE, statement, "how far small motions go to and fro in a steady state is not found")
         return _swinging(checker, given, limits).check(statement, declared, replace(given, small=()))
     if given.small:
         return _small(case, statement, limits)
@@ -95,6 +111,9 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
                 return Verdict(Kind.UNDECIDABLE, statement, what)
             rest = 0.0
         shrinks = not given.late and rest < 1e-3 and rest < 0.1 * earlier
+        lost = [n for n in symbols_in(equation) if n.key in values and not np.isfinite(values[n.key]).all()]
+        if any(LARGEST in text for n in lost for text in case.meaning.texts(n)):
+            return Verdict(Kind.UNDECIDABLE, statement, f"something of it has no value in the limit {limits}")
         if np.isnan(rest) or (rest > (_REACHED if case.sampler.moment else HOLDS) and not shrinks):
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -12,7 +13,7 @@ from freebody.core.compiled import BEFORE
 from freebody.model.start import quantity
 from freebody.run.moments import Unreached, time_of
 
-from .integrals import EXACT, extreme
+from .integrals import EXACT, extreme, turning
 from .user_symbols import LARGEST, LEAST, MOMENT, OF_START
 
 _DOUBLED, _STEPS = 14, 5000  # how often it is followed twice as long, and how many steps that may take
@@ -37,6 +38,16 @@ class Moments:
     def in_numbers(self, text: str) -> str:
         """An expression with numbers for what is asked of other moments; NaN for one to which the motion does not come."""
         return OF_START.sub(lambda found: f"({self._value(found[1])!r})", text)
+
+    def of_repeating(self, text: str) -> str:
+        """The same on a motion that goes to and fro: only what is largest or least has a value."""
+
+        def between(found: re.Match[str]) -> str:
+            which, _, of = found[1].partition(": ")
+            ends = turning(of, self.core, self.start) if which in (LARGEST, LEAST) else (float("nan"),)
+            return f"({(max if which == LARGEST else min)(ends)!r})"
+
+        return OF_START.sub(between, text)
 
     def _value(self, of: str) -> float:
         if of.startswith((f"{LARGEST}: ", f"{LEAST}: ")):

@@ -87,7 +87,12 @@ class MotionSampler(FollowedModel):
         if key not in self._families:
             made = self._drawn_samples(family, count, fresh)
             self._families[key] = Samples(
-                self.core, [state for state, _ in made], [start for _, start in made if start], self._begins(family)
+                self.core,
+                [state for state, _ in made],
+                [start for _, start in made if start],
+                self._begins(family),
+                whole=family.since == BEFORE,
+                repeats=family.steady and not family.small,
             )
         if not self._families[key].states:
             try:
@@ -181,9 +186,7 @@ class MotionSampler(FollowedModel):
         """Parameters with other values of those that are not held, so that what vanishes does so. Raises ``NoMotion``."""
         if not family.vanishing:
             return values
-        free = [
-            name for name in self.free_parameters if name not in dict(family.held) and not (self.loops and name in self._closing)
-        ]
+        free = [name for name in self.free_parameters if name not in dict(family.held) and name not in self._closing]
         if (found := with_parameters(self, family.vanishing, self.started(values), values, free)) is None:
             raise NoMotion(f"`{stated(family.vanishing[0])}` cannot be arranged by parameters in the steady state")
         numbers = dict(zip((p["name"] for p in self.metadata["parameters"]), found.p.tolist(), strict=True))
@@ -242,20 +245,21 @@ class MotionSampler(FollowedModel):
         return bool((found <= _STILL_SMALL * sizes * np.array([[1.0], [self.rate]])).all())
 
     def _adjustable(self, family: Family) -> list[str]:
-        """The parameters of which one may have another value so that something vanishes: none with which loops close."""
+        """The parameters of which one may have another value so that something vanishes: none that says where parts are."""
         held = dict(family.held)
         if any(isinstance(value, str) for value in held.values()) or family.numbers or not family.vanishing:
             return []
-        return [name for name in self.free_parameters if name not in held and not (self.loops and name in self._closing)]
+        return [name for name in self.free_parameters if name not in held and name not in self._closing]
 
     @cached_property
     def _closing(self) -> set[str]:
-        """The parameters with which loops close: with another value of one the model cannot stay at its place."""
+        """The parameters with which loops close, couplings hold and parts touch: with another value of one the model cannot stay at its place."""
         own, values = self.own, self.free_parameters
 
         def moves(name: str) -> bool:
             try:
-                there, _ = self.core.assemble(self.core.bind({name: _OTHER * values[name]}), own.t, guess=self._named(own.q))
+                p, guess = self.core.bind({name: _OTHER * values[name]}), self._named(own.q)
+                there, _ = self.core.assemble(p, own.t, guess=guess, history=own.history)
             except (MotionError, ModelError):
                 return True
             return bool(np.abs((there.q - own.q) / self.sizes).max() > NOTHING)
@@ -288,6 +292,9 @@ class MotionSampler(FollowedModel):
             there = found or there
             if found is not None:
                 break
+        if there is None and any("accel(" in text for text in places):  # nowhere on it with these numbers
+            fitted = with_parameters(self, conditions, given_rates(motion.end), values, self._sizeless)
+            return self._judging(fitted, family) if fitted else None, start
         if there is None:
             return None, start
         state = given_rates(there)

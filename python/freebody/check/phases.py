@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -11,29 +12,30 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core import GROUND, quote
+from freebody.model.errors import ModelProblem
 from freebody.run.moments import ORDINALS
 
 from .asked_model import does
-from .wording import LASTS
+from .wording import IN_WORDS, LASTS
 
 if TYPE_CHECKING:
-    from .api import Checker
+    from .api import Checker, Declared
 
-_STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no longer|(?:does|do) not|without)\s+(?:to\s+)?"
+_STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no(?:t|\s+longer)?|(?:does|do) not|without)\s+(?:to\s+)?"
 _OVER = r"\s+(?:has\s+|is\s+|have\s+)?(?:stop|cease|end|over)\w*"
 _KINDS = {
-    "stick": rf"(?:(?:end|stop)\s+of\s+(?:the\s+)?|{_STOPS}|neither\s+(?:\w+\s+)?)(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}"
+    "stick": rf"at\s+rest\s+(?:on|in)\b|(?:(?:end|stop)\s+of\s+(?:the\s+)?|{_STOPS}|neither\s+(?:\w+\s+)?)(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}"
     r"|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
     r"|(?:moves?|goes|turns?)\s+with|(?:is|are)\s+carried",
-    "slip": rf"{_STOPS}(?:roll|stick|rid)\w*|(?:roll|stick|rid)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?"
+    "slip": rf"{_STOPS}(?:roll|stick|rid)\w*|(?:roll|stick|rid)\w*{_OVER}|slip(?:s|ping)?|slid(?:es?|ing)|skid(?:s|ding)?|rub(?:s|bing)?"
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
-    "taut": "taut|tight|stretched|straight",
+    "taut": "taut|tight|stretched|straight|jerks?",
     "slack": "slack|loose",
-    "touch": "touch(?:es)?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
+    "touch": "touch(?:e[sd])?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
     r"|blow|impact|collision|shock"
-    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?\w+ )?on (?:the|its|his|her) (?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
+    r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?(?:whole )?\w+ )?on (?:(?:the|its|his|her) )?(?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
-    "lift-off": r"leaves?|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|separation|(?:loses?|lost)\s+(?:contact|touch)"
+    "lift-off": r"leav(?:es?|ing)|(?:is|are|has\s+been)\s+left(?!\s+(?:alone|to|with))|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|separation|(?:los(?:es?|ing|t))\s+(?:contact|touch)"
     r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+still)|open(?:s|ed|ing)?|blows\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
@@ -46,14 +48,15 @@ _CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("imp
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
 _OF_STRINGS = ("taut", "slack", "off")
-_ON = re.compile(r"(?:(?:the\s+)?\w+\s+)?on (?:the|its|his|her) (?:\w+ )?(\w+)\Z")
+_ON = re.compile(r"(?:(?:the\s+)?(?:whole\s+)?\w+\s+)?on (?:(?:the|its|his|her) )?(?:\w+ )?(\w+)\Z")
 """``on the floor:``, ``foot on the ground:``."""
 _BEFORE = {"stick": "sliding", "slip": "stuck"}
 """What a joint with friction was in before its first change."""
 _TOUCHES = ("impact", "contact")
 _MOMENT = re.compile(
-    r"\b(?:moment|instant|end of|(?:begin|start|become|go|get|come|turn|end|stop|cease)(?:e?s)?\b|is over|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
+    r"\b(?:moment|instant|end of|(?:begin|start|become|go|get|come|turn|end|stop|cease)(?:e?s)?\b(?!\s+with\b)|is over|jerks?|(?:breaks?|tears?|torn)\s+(?:loose|away|free))|-off\b|-down\b"
 )
+_RESTS_ON = re.compile(r"\bat\s+rest\s+(?:on|in)\b")
 _LASTED = re.compile(r"\b(?:has|have|had)\b")
 """``once it has left``: from then on."""
 _GOES_ON = re.compile(
@@ -63,12 +66,15 @@ _GOES_ON = re.compile(
 _GROUND = re.compile(r"\b(?:ground|floor|land(?:s|ed|ing)?|touch\w*down|wall|table|ice|road|street|slope|incline)\b")
 _TOGETHER = re.compile(r"\b(?:collid\w+|collision|each other|one another|together|both|two)\b")
 """Of what touches ground, and of what touches another body."""
+_ONLY = re.compile(r"\bonly\b")
 _AGAIN = re.compile(r"\bagain\b")
 _ALL = re.compile(r"\b(?:both|all|they)\b")
 NOT_FIRST = re.compile(rf"\b(?:{'|'.join(each for each, n in ORDINALS.items() if n > 1)}|last)\b")
 """Of what happens several times."""
 _NUMBERED = re.compile(rf"\b({'|'.join(ORDINALS)})\s+([A-Za-z]\w*)")
 _IS_ON = re.compile(r"(?<!\bis )(?<!\bare )\bon(?:\s+it)?\Z|\bwith\s+(?:the\s+)?\w+\s+on\b|\b(?:caught|attached|aboard)\b")
+_JOINED = re.compile(r"\b(?:coupled|joined|hooked|latched|locked)(?:\s+together)?\b")
+"""What bodies are that an event puts together."""
 _Change = tuple[float, str, str]
 """When something changes, s, what does, and the name of that change."""
 _MOVES = re.compile(
@@ -121,8 +127,10 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return moving
     if joins := _joining(checker, words):
         return Phase(False, (joins,), False)
-    kind, place = kind_of(words), _ON.match(words)
-    lasts = LASTS.match(words) is not None or place is not None
+    kind, place, rests = kind_of(words), _ON.match(words.lower()), _RESTS_ON.search(words) is not None
+    lasts = LASTS.match(words) is not None or place is not None or rests
+    if rests and not any(limit.state in _STATES.values() for limit in limits.values()):  # nothing rubs
+        kind = "touch"
     touched = {body for limit in limits.values() for body in (limit.first, limit.second)}
     on_body = place and place[1] in checker.symbols().bodies - touched
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
@@ -130,7 +138,11 @@ def phase(checker: Checker, words: str) -> Phase | None:
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
     run, begins = checker.own_motion, checker.sampler.own.t if checker.sampler.moment else checker.own_motion.t[0]
-    if kind == "rest":  # what slides comes to it by sticking
+    settled = [f"rest {change.of[0]}" for change in run.changes if change.kind == "rest" and change.t > begins]
+    if rests and settled:
+        return Phase(False, tuple(dict.fromkeys(settled)), False)
+    comes = kind == "rest"
+    if comes:  # what slides comes to it by sticking
         kind = "stick"
         if not any(change.kind == kind and change.t > begins for change in run.changes):
             return None
@@ -142,9 +154,12 @@ def phase(checker: Checker, words: str) -> Phase | None:
     surfaces = parts & {contact["name"] for contact in checker.sampler.spec["contacts"]} if kind in _CHANGES else set()
     meant = _meant(words, parts, limits, surfaces or parts)
     is_off = any(name in limits and limits[name].state == "open" for name in meant - {part for _, part in firsts.values()})
+    lasts = lasts or (kind == "lift-off" and _GOES_ON.search(words) is not None)
     lasts = lasts or (kind == "lift-off" and _LASTED.search(words) is not None and is_off)  # it has left from the start
     if not lasts and not meant & {part for _, part in firsts.values()}:  # what is called so goes on under another name
         meant = parts
+    if kind == "touch" and lasts and (alone := _left_alone(run, begins, limits, surfaces - meant)) and _ONLY.search(words):
+        return Phase(False, (alone,), False)
     if kind == "touch" and lasts:
         checker.sampler.require_touch(meant)
     times = {name: t for name, (t, part) in sorted(firsts.items(), key=lambda each: each[1]) if part in meant}
@@ -152,11 +167,35 @@ def phase(checker: Checker, words: str) -> Phase | None:
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
     states = {name: limits[name].state for name in meant if name in limits}
-    at_first = _goes_on_at_first(kind, lasts and not (begun and times), every, states, run, meant)
+    again = _AGAIN.search(words) is not None and bool(changes)
+    at_first = not (comes or again) and _goes_on_at_first(
+        kind, lasts and not (begun and times), every, states, run, meant, not limits and not _sets_free(checker)
+    )
     if not lasts and NOT_FIRST.search(words):
         return None
     of_moment = not lasts and is_moment(words, kind)
     return Phase(at_first and not of_moment, tuple(reversed(changes.values())), of_moment) if changes or at_first else None
+
+
+def stretch_of(checker: Checker, declared: Declared, parts: Sequence[str]) -> tuple[Phase, str] | None:
+    """The stretch of the model's own motion of which parts of a label say what goes on, ``rope slack, on the buffer``, with their words; the
+    first on which all of that does, else that of the first of them. None where they say nothing of the kind, or it is so from the start."""
+
+    def lasting(asked: Checker, words: str) -> Phase | None:
+        found = phase(asked, words) if IN_WORDS.fullmatch(words) else None
+        return found if found and not found.is_moment else None
+
+    bodies = checker.symbols(declared).bodies  # a roll, and not what rolls
+    said = {words: found for words in parts if words not in bodies and (found := lasting(checker, words))}
+    later = next(((found, words) for words, found in said.items() if found.changes), None)
+    if later is None or len(said) < 2:
+        return later
+    for name in checker.switches:
+        with suppress(ModelProblem):
+            there = checker.beside("after", name, {})
+            if all((found := lasting(there, words)) and found.at_first for words in said):
+                return Phase(False, (name,), False), ", ".join(said)
+    return later
 
 
 def _moving(checker: Checker, words: str) -> Phase | None:
@@ -177,6 +216,11 @@ def _moving(checker: Checker, words: str) -> Phase | None:
     return None if k is None else Phase(k == 0, (begins[times[k]],) if k else (), False)
 
 
+def _sets_free(checker: Checker) -> bool:
+    """Whether an event of the model releases something."""
+    return any(does(event, "release") for event in checker.sampler.spec["events"])
+
+
 def _firsts(run: Any, begins: float, kind: str, begun: Sequence[_Change], again: bool) -> dict[str, tuple[float, str]]:
     """When changes of a kind come first after a time, beside those by which something has ``begun``, with their parts, by their names;
     where it is so ``again``, and was not at first, when they come for the second time."""
@@ -187,7 +231,8 @@ def _firsts(run: Any, begins: float, kind: str, begun: Sequence[_Change], again:
     before = (_BEFORE[change.kind] for change in run.changes if change.kind in _BEFORE)
     if again and next(before, None) != _STATES.get(kind, kind):
         names = [name for *_, name in later]
-        later = [(t, part, f"second {name}") for i, (t, part, name) in enumerate(later) if names[:i].count(name) == 1]
+        second = [(t, part, f"second {name}") for i, (t, part, name) in enumerate(later) if names[:i].count(name) == 1]
+        later = second if second or kind in _STATES else later  # what touches for the first time has done so before it started
     return {name: (t, part) for t, part, name in reversed(later)}
 
 
@@ -197,7 +242,20 @@ def _joining(checker: Checker, words: str) -> str | None:
     joining = [event["name"] for event in events if does(event, "engage")]
     is_on = _IS_ON.search(words) and not LASTS.match(words)  # while it is on may be at first
     said = {*checker.symbols().bodies} & {*re.findall(r"\w+", words)} if is_on else set()
-    return joining[0] if said and len(joining) == 1 else None
+    joined = _JOINED.search(words) is not None
+    return joining[0] if (said or joined) and len(joining) == 1 else None
+
+
+def _left_alone(run: Any, begins: float, limits: Any, others: Collection[str]) -> str | None:
+    """By what name the last of other contacts opens that are closed when a run begins; None where none is, or one does not."""
+    closed = {name for name in others if limits[name].state != "open"}
+    opens = {
+        part: change.t
+        for change in reversed(run.changes)
+        for part in change.of
+        if change.kind == "lift-off" and change.t > begins
+    }
+    return f"lift-off {max(closed, key=opens.__getitem__)}" if closed and closed <= opens.keys() else None
 
 
 def _begun(run: Any, state: str) -> list[_Change]:
@@ -212,12 +270,15 @@ def _begun(run: Any, state: str) -> list[_Change]:
     return found
 
 
-def _goes_on_at_first(kind: str, lasts: bool, every: bool, states: Mapping[str, str], run: Any, meant: Collection[str]) -> bool:
-    """Whether something of a kind goes on where a run starts, of parts that are meant, those that have ``states``, there."""
+def _goes_on_at_first(
+    kind: str, lasts: bool, every: bool, states: Mapping[str, str], run: Any, meant: Collection[str], flies: bool
+) -> bool:
+    """Whether something of a kind goes on where a run starts, of parts that are meant, those that have ``states``, there; ``flies`` where
+    nothing can touch anything."""
     if kind == "reversal":
         return False
     if kind not in _STATES:
-        apart = {state == "open" for state in states.values()} or {False}
+        apart = {state == "open" for state in states.values()} or {flies}
         return lasts and (kind == "lift-off") in apart
     began = {part: change.kind for change in reversed(run.changes) for part in change.of if change.kind in _BEFORE}
     found = {*states.values()} & {*_STATES.values()}

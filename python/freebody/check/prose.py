@@ -56,7 +56,7 @@ _NOTE = re.compile(
     r"(?<=\S)\s{2,}\((?![^()=]*\)|start|released|from|with|if|when|while|after|before|for|at\b|in\b)(?=[^()]*\b[a-z]{3,}\s+[a-z]{2,})[^()]*\)\s*\Z"
 )
 """``… = I α   (AD = x; the friction goes through A)``: a note behind an equation, apart from it."""
-_GOES_ON = r"taut|slack|touch\w*|slid\w*|slip\w*|roll\w*|stick\w*|flight|air|contact|mesh|closed|open|locked|held|rest|steady|equilibrium|small"
+_GOES_ON = r"taut|slack|touch\w*|slid\w*|slip\w*|roll\w*|stick\w*|flight|air|contact|mesh|closed|open|locked|held|rest|steady|equilibrium|small|(?:on|in)\s+the"
 _STRETCH_BEHIND = re.compile(rf"(.*\S)\s{{2,}}\(((?=[^()]*\b(?:{_GOES_ON})\b)[a-z][^()=<>:]*)\)\s*", re.S)
 """``… = m s''   (belt taut, sliding forward)``."""
 _STANDS_FOR = re.compile(r"(?<=\S)\s{2,}\((\\?[^\W\d]\w*\s*=\s*[^()=:;]{1,30})\)\s*\Z")
@@ -89,7 +89,7 @@ _CONNECTIVES = {
     *("from", "rest", "start", "the", "we", "get", "have", "initially", "just", "after", "before", "starting", "released"),
 }
 _THUS = re.compile(
-    r"(?m)(?:^|(?<=[,;$])|(?<=\\\[))\s*(?:(?:thus|hence|so|then|therefore|finally|consequently|also|now|or|(?:which |this )?gives"
+    r"(?m)(?:^|(?<=[,;$])|(?<=\\\[))\s*(?:(?:so that|thus|hence|so|then|therefore|finally|consequently|also|now|or|(?:which |this )?gives"
     r"|(?:and )?(?:thus|hence|so|therefore|then)|we (?:get|have|find|obtain)"
     r"|it follows(?: that)?|i\.e\.|solving(?: for \S+)?|\d{1,2}[.)]|\(\d{1,2}\w?\)|•)[,:]?\s+)+",
     re.IGNORECASE,
@@ -118,6 +118,10 @@ _OF_WHAT = re.compile(r"(?<=[\w)}²³])\s+(?:for|of) the [a-z]+(?: [a-z]+)*\s*\Z
 """``… for the free end``."""
 _WHERE_WHAT = re.compile(r",?\s+where\s+(?=[^=<>]*[A-Za-z]{3})[^=<>:]*\Z")
 """``…, where x, y is the place of the weight``."""
+_TAIL = re.compile(
+    rf"(?<=[\w)}}'′″²³])(?<![A-Za-z]{{2}})\s+(?:from(?!\s+rest)|of|for(?!\s+small)|on|in|to|by|along|across|through|under)\s+(?:(?!(?:{CONDITION})\b|from\b)[a-z]{{2,}}\s+)+[a-z]{{2,}}\s*\Z"
+)
+"""``f = −m x'' from the ground to be turned``."""
 _AND_THERE = re.compile(
     r"(?:[,;]|[,;]?\s+and)\s+(?:at|for|on|of) the (?!start|end|moment|instant|same)[a-z]+[,:]?\s+(?=[^:=]*=[^:]*\Z)"
 )
@@ -134,7 +138,7 @@ _FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
 """``=>`` where no sign of relation can stand."""
 _SAYING = re.compile(r"\A\s*([A-Za-z]{2,}(?:[ ,-]+[A-Za-z]{2,})+)\s*(?:⇒|∴|\\(?:Rightarrow|implies|therefore)\b)")
 _REASON = re.compile(
-    rf"\A\s*(?!(?:{CONDITION})\b)((?:[A-Za-z]+[ ,'-]+){{2,}})(?<=,\s)(?:and\s+)?(?:so|hence|thus|therefore)\s+(?=\S[^:]*[=<>])"
+    rf"\A\s*(?!(?:{CONDITION})\b)((?:[A-Za-z]+[ ,'-]+){{2,}})(?<=,\s)(?:and\s+)?(?:so(?:\s+that)?|hence|thus|therefore)\s+(?=\S[^:]*[=<>])"
 )
 """``no force acts along x, so p_x = const``."""
 _CLOSES = r"(?=\s*(?:\$+|\\[\])]|\\end\s*\{[^{}]*\})?\s*(?:\Z|[;\n]|\\\\|⇒))"
@@ -182,6 +186,11 @@ def plainly(
         said = [(name if name in fixed else f"{name}_0", value) for *names, value in chains for name in names if name != "t"]
         return ", ".join([found[1], *(f"{name} = {value}" for name, value in said if folded(name) != folded(value))])
 
+    def another(found: re.Match[str]) -> str:
+        if "=" in found.string[: found.start()]:
+            return f"\n{told(found, 'a remark, and not judged')}"
+        return f", {told(found, 'a remark, and not judged')}" if "and" in found[0] else found[0]
+
     def comment(found: re.Match[str]) -> str:
         measured = said[: found.start()].strip()[-1].isdigit()  # 5 [m/s] is a measure
         words = found[1] or found[2]
@@ -196,7 +205,7 @@ def plainly(
     said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
     said = _AT_ONCE.sub(r"\1: ", _WAY.sub(lambda found: told(found, "a remark, and not judged"), said))
     said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
-    said = _AND_THERE.sub(lambda found: f"\n{told(found, 'a remark, and not judged')}", said)
+    said = _AND_THERE.sub(another, said)
     said = _STRETCH_BEHIND.sub(r"\2: \1", _STANDS_FOR.sub(r" with \1", said))
     said = _NOTE.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _OF_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)
@@ -208,6 +217,7 @@ def plainly(
     said = _ALWAYS.sub(" ", _STOP.sub("", _FOLLOWS.sub(r"\1 ⇒", said)))
     said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
     said = _STOP.sub("", _COMMENT.sub(comment, said))
+    said = _TAIL.sub(lambda found: told(found, "a remark, and not judged"), said)
     said = _SAYING.sub(
         lambda found: f"{found[1]}: " if re.match(CONDITION, found[1]) else told(found, "a remark, and not judged"), said
     )

@@ -29,7 +29,16 @@ def changes_side(core: CompiledModel, squares: Sequence[str], start: Array, stat
 
 def turns_over(core: CompiledModel, spec: Mapping[str, Any], one: State, other: State) -> bool:
     """Whether a spring or damper points the other way in another state: what is drawn together farther than it is long."""
-    pairs = [(quote(a), quote(b)) for a, b in _between(spec)]
+    return _turn_over(core, _between(spec), one, other)
+
+
+def strings_turn_over(core: CompiledModel, spec: Mapping[str, Any], one: State, other: State) -> bool:
+    """Whether a straight part of a string does: what hangs from a pulley is above it."""
+    return _turn_over(core, [(a, b) for (a, _), (b, _) in _straight_parts(spec)], one, other)
+
+
+def _turn_over(core: CompiledModel, between: Sequence[Sequence[str]], one: State, other: State) -> bool:
+    pairs = [(quote(a), quote(b)) for a, b in between]
     texts = [f"{axis}({b}) - {axis}({a})" for a, b in pairs for axis in "xy"]
     spans = [core.evaluate(texts, state).reshape(-1, 2) for state in (one, other)]
     return bool(np.any(np.sum(spans[0] * spans[1], axis=1) < 0))
@@ -45,12 +54,16 @@ def squares(spec: Mapping[str, Any]) -> Iterator[str]:
     pairs = _between(spec) + [joint["with"]["of"] for joint in spec["joints"] if joint["type"] == "polar"]
     yield from (f"distance({quote(a)}, {quote(b)})^2" for a, b in pairs)
     yield from (f"{read}^2" for read in re.findall(r"distance\([^()]*\)", json.dumps(spec, ensure_ascii=False)))
+    yield from (f"distance({quote(a)}, {quote(b)})^2 - (({r}) + ({s}))^2" for (a, r), (b, s) in _straight_parts(spec))
+
+
+def _straight_parts(spec: Mapping[str, Any]) -> Iterator[tuple[tuple[str, Any], tuple[str, Any]]]:
+    """The circles between which strings are straight, each by its centre and radius."""
     chains = [(string["ends"][0], *string["over"], string["ends"][1]) for string in spec["strings"]]
     wound = [joint["with"] for joint in spec["joints"] if joint["type"] == "wound_string"]
     chains += [({"tied": ends["from"]}, {"wound": ends["drum"]}) for ends in wound]
     for chain in chains:
-        stations = map(_circle, chain)
-        yield from (f"distance({quote(a)}, {quote(b)})^2 - (({r}) + ({s}))^2" for (a, r), (b, s) in pairwise(stations))
+        yield from pairwise(map(_circle, chain))
 
 
 def _circle(item: Mapping[str, Any]) -> tuple[str, Any]:

@@ -1,4 +1,4 @@
-"""Squares of speeds that lack a part of the speed, and sums of two that are those of other components."""
+"""Squares of speeds that lack a part of the speed, and of stretches that lack a length; sums of two that are those of other components."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class SquareEdits:
         component of an acceleration that lacks its centripetal part."""
         node, base = required.node, required.node.base if isinstance(required.node, Pow) else None
         its = None if base is None else dimension(base, self.vocabulary.dimensions)
-        if base is None or its not in (*_SPEEDS, _ACCELERATION) or node.exponent != Num(2.0) or required.needed.ndim != 1:
+        if base is None or its not in (*_SPEEDS, _ACCELERATION, LENGTH) or node.exponent != Num(2.0) or required.needed.ndim != 1:
             return
         value, lost = sampled(base, self.values), required.missing
         if not np.isfinite(lost).all() or not lost.any():
             return
-        nodes, rows = self._parts_of_accelerations if its == _ACCELERATION else self._parts_of_speeds(its)
+        nodes, rows = self._parts(its)
         alike = (np.abs(rows**2 - required.needed) <= _NEARLY * np.abs(required.needed)).all(axis=1)
         for other in (nodes[place] for place in np.flatnonzero(alike) if not isinstance(nodes[place], Sym)):
             yield Edit.at(equation, "symbol", node, Pow(other, node.exponent, span=node.span), 0.02 * depth(other))
@@ -120,6 +120,29 @@ class SquareEdits:
         found = [speed, *rates, *(more(speed, part) for n in parts if n not in rates for part in (n, Negative(n)))]
         return found, np.array([sampled(node, self.values) ** 2 for node in found])
 
+    def _parts(self, its: Dimension) -> tuple[list[Node], Array]:
+        """What may be lacking of something of a dimension, and its values."""
+        return (
+            self._lengths
+            if its == LENGTH
+            else self._parts_of_accelerations
+            if its == _ACCELERATION
+            else self._parts_of_speeds(its)
+        )
+
+    @cached_property
+    def _lengths(self) -> tuple[list[Node], Array]:
+        """Lengths of the model, and their values: the stretch of a spring lacks that at which it is free, or is met."""
+        found: list[Node] = [
+            n for n in (*self.vocabulary.parameters, *self.vocabulary.coordinates) if self.vocabulary.dimension(n) == LENGTH
+        ]
+        return found, self._rows(found)
+
+    def _rows(self, found: Sequence[Node]) -> Array:
+        """The values of expressions, a row each."""
+        count = len(next(iter(self.values.values())))
+        return np.array([np.broadcast_to(sampled(node, self.values), count) for node in found]).reshape(len(found), count)
+
     @cached_property
     def _parts_of_accelerations(self) -> tuple[list[Node], Array]:
         """Lengths times squares of rates, and their values."""
@@ -127,7 +150,7 @@ class SquareEdits:
         turns = [n for n in (*known.parameters, *(Sym(q.name, 1) for q in known.coordinates)) if known.dimension(n) == _SPEEDS[1]]
         lengths = [n for n in (*known.parameters, *known.coordinates) if known.dimension(n) == LENGTH]
         found = [Mul((length, Pow(turn, Num(2.0, "2")))) for turn in turns for length in lengths]
-        return found, np.array([sampled(node, self.values) for node in found]).reshape(len(found), -1)
+        return found, self._rows(found)
 
     def _parts_of_speeds(self, its: Dimension) -> tuple[list[Node], Array]:
         """Rates, and rates times a length, of a dimension, and their values."""
@@ -144,6 +167,5 @@ class SquareEdits:
                 found += [Mul((length, turn)) for turn in turns for length in lengths]
             else:
                 found += [Quotient(rate, length) for rate in turns for length in lengths]
-            rows = np.array([sampled(node, self.values) for node in found]).reshape(len(found), -1)
-            self._made[its] = found, rows
+            self._made[its] = found, self._rows(found)
         return self._made[its]

@@ -335,7 +335,7 @@ class Symbols:
         except ModelProblem as problem:
             try:
                 return self.measure(written(parse_expression(said, self.names, self.constants)))
-            except (StatementError, ModelProblem):
+            except (StatementError, ModelProblem, TypeError):  # or has no spelling there
                 raise problem from None
 
     def _written_out(self, token: str, is_call: bool) -> str:

@@ -108,6 +108,8 @@ OF_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
 """The time itself in an expression of the model language."""
 MOMENT = " @ "
 """What stands between an expression and the moment of the motion at which its value is asked."""
+WORK = re.compile(r"\.work\b|\bfriction_work\(")
+"""What is summed up from the start of a motion on."""
 SUMMED = "summed up: "
 """How a text begins of an integral along the motion: what is summed up, over what, from where."""
 LOAD = "load "

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from freebody.symbolic.evaluate import Array
 
 _UNITS = ("i", "j", "k")
+EVERY_TERM_IS_0 = "every term is 0"
 
 
 class Kind(str, Enum):

@@ -18,6 +18,7 @@ from freebody.symbolic.tree import Sym
 
 from . import timed_claims
 from .assumptions import WORDS
+from .beginnings import events_named, is_start
 from .corners import on_corner
 from .described import described, way_of
 from .families import BEFORE, SINCE_START
@@ -26,7 +27,7 @@ from .later import AT_FIRST, only_at_first
 from .phases import NOT_FIRST, Phase, is_moment, kind_of, phase
 from .user_symbols import INITIAL
 from .verdict import Kind, Verdict
-from .wording import LASTS
+from .wording import IN_WORDS, LASTS
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -57,18 +58,20 @@ def in_words(checker: Checker, declared: Declared, condition: str, statement: st
 def labelled(checker: Checker, declared: Declared, words: str, statement: str, problem: ModelProblem) -> Verdict:
     """Behind words that are no hypothesis: those that name a part are a label; with others it has to be true without them, too, else
     that is the ``problem``. Raises it."""
-    if _is_launch(checker, words):
+    if is_start(checker, words):
         return checker.check(f"at the start: {statement}", declared, correcting=checker.correcting)
     lasts, said = LASTS.match(words) is not None, _is_plain(words)
     if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
         return _of_phase(checker, declared, found, words, statement, problem)
+    if _TO_REST.fullmatch(words):  # nothing sticks there
+        return checker.check(f"if at rest: {statement}", declared, correcting=checker.correcting)
     if not lasts and (verdict := _of_moment(checker, declared, words, statement)):
         return verdict
     if said and (until := _UNTIL.fullmatch(words)):
         with suppress(ModelProblem):
-            return beside_event(checker, declared, "", "before", until[1], statement)
+            return _until(checker, declared, until[1], statement)
     if said and (given := described(words, checker, declared)):
         verdict = _described(checker, declared, given, words, statement)
         if verdict is not None:
@@ -76,22 +79,22 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     return _label_or_stretch(checker, declared, words, statement, problem)
 
 
-def _is_launch(checker: Checker, words: str) -> bool:
-    """Whether words are of how something comes to fly that does so from the start."""
-    named = _events_named(checker, words)
-    lifts_off = any(one.kind == "lift-off" for one in checker.own_motion.changes)
-    return _LAUNCH.fullmatch(words) is not None and not named and not lifts_off
-
-
-def _events_named(checker: Checker, words: str) -> list[str]:
-    """The names of the model's events of which all words stand among these."""
-    said = {*re.findall(r"\w+", words)}
-    return [event["name"] for event in checker.sampler.spec["events"] if {*re.findall(r"\w+", event["name"])} <= said]
+def _until(checker: Checker, declared: Declared, event: str, statement: str) -> Verdict:
+    """Up to something that happens; or just there, of what is summed up from the start to it. Raises ``ModelProblem``."""
+    verdict = beside_event(checker, declared, "", "before", event, statement)
+    if verdict.ok or not (_speaks_of_start(checker, declared, statement) or _speaks_of_time(checker, declared, statement)):
+        return verdict
+    for side in ("before", "after"):
+        with suppress(ModelProblem, StatementError):
+            there = beside_event(checker, declared, "just ", side, event, statement)
+            if there.ok and not _says_nothing(there):
+                return replace(there, notes=(*there.notes, f"`until {event}` is read as just {side} that."))
+    return verdict
 
 
 def _of_moment(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
     """At a moment that words call by what goes on, or by the name of an event, or after it; None where they call none."""
-    named = _events_named(checker, words)
+    named = events_named(checker, words)
     if len(named) == 1 and len(named[0].split()) > 1:
         return in_phase(checker, declared, Phase(False, (named[0],), True), words, statement)
     if kind_of(words) == "reversal" and not NOT_FIRST.search(words):
@@ -205,9 +208,11 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     run = checker.own_motion
     happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
     found = in_phase(checker, declared, Phase(False, tuple(happens), False), words, statement, [at_first])
+    judging = copy(checker)
+    judging.correcting = False
     for name in [] if found.ok else dict.fromkeys(event.name for event in run.events):
         with suppress(ModelProblem, StatementError):
-            before = beside_event(checker, declared, "", "before", name, statement)
+            before = beside_event(judging, declared, "", "before", name, statement)
             if before.ok and not _says_nothing(before):
                 return replace(before, notes=(*before.notes, f"`{words}` is read as before {name}."))
     if not found.ok and ("constant:" in statement or found.kind not in (*_WRONG, Kind.TRUE_IF)):
@@ -220,9 +225,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
 
 def on_later_stretch(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict | None:
     """Under a hypothesis of which there are no motions as the model is at first, as of what slides back: after what switches."""
-    if checker.sampler.moment or checker.is_at_first:
-        return None
-    for name in checker.switches:
+    for name in () if checker.is_at_first else checker.switches:
         with suppress(ModelProblem, StatementError):
             found = in_phase(checker, declared, Phase(False, (name,), False), condition, f"if {condition}: {statement}")
             if found.kind is not Kind.UNDECIDABLE:
@@ -317,7 +320,7 @@ def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
 def beside_words(checker: Checker, declared: Declared, just: str, side: str, event: str, statement: str) -> Verdict:
     """The same of something in words; where nothing that happens is called so, true where it holds after one thing that does, wrong where after none.
     Raises the problem of the words for what should stay the same."""
-    if just and side == "after" and _is_launch(checker, event):
+    if just and side == "after" and is_start(checker, event):
         return checker.check(f"at the start: {statement}", declared, correcting=checker.correcting)
     try:
         return beside_event(checker, declared, just, side, event, statement)
@@ -366,6 +369,14 @@ def _is_past(checker: Checker, event: str) -> bool:
     return False
 
 
+def _speaks_of_start(checker: Checker, declared: Declared, statement: str) -> bool:
+    """Whether a statement has letters of the start."""
+    with suppress(ModelProblem, StatementError):
+        case = checker.case(statement, declared)
+        return any(map(case.meaning.speaks_of_start, case.equations))
+    return False
+
+
 def _speaks_of_time(checker: Checker, declared: Declared, statement: str) -> bool:
     """Whether something of a statement is asked of the time since the start."""
     with suppress(ModelProblem, StatementError):
@@ -377,14 +388,13 @@ Place = tuple[str, str, str]
 """``just`` or nothing, ``before`` or ``after``, and what happens there."""
 _WRONG = (Kind.WRONG, Kind.DIMENSIONS)
 _SOON = 0.01  # of the time typical of a model
-IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
-_LAUNCH = re.compile(r"(?:the\s+)?(?:take-?off|launch|throw|push-off|kick-off|kick|shot)")
+_TO_REST = re.compile(r"(?:(?:when|once)\s+)?(?:it|all|everything)\s+has\s+come\s+to\s+rest")
 _FROM_THEN_ON = re.compile(r"once\b")
 _OVER = re.compile(r"\b(?:has|have|had)\b")
 """``once the drum has stopped``: what is so after something that happens."""
-_PLACED = re.compile(r"(?:with|once)\b|.+\b(?:on|in|against) the\b")
+_PLACED = re.compile(r"(?:with|once)\b|(?:.+\b)?(?:on|in|against) the\b")
 """``with the lump on the rim``: words that may be of a later stretch."""
 _WHICH_OF_THEM = re.compile(r"\b(?:ahead|forwards?|backwards?|the\s+other\s+way)\b")
 """Which of several stretches of one kind is meant: not understood, so that no other is taken for it."""

@@ -20,9 +20,10 @@ _LABELLED = re.compile(
 _ASIDE = re.compile(r"\s+\(((?=[^()]*[A-Za-z]{3})(?![^()]*\b(?:sin|cos|tan|sqrt)\b)[^()=<>≤≥→]*)\)")
 """``at t = 0 (at rest, beam level)``."""
 _FREQUENCIES = re.compile(
-    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)"
+    r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)",
+    re.IGNORECASE,
 )
-BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump"
+BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump|jerk"
 LASTS = re.compile(
     r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b|(?:\w+\s+)?hanging\b(?! still)"
 )
@@ -37,7 +38,8 @@ _ELSEWHERE = r"\b(?:top|inverted|highest|upside)\b"
 """In words of a place where no model is of which nothing is said."""
 _SMALL_MOTIONS = r"small (?:oscillations?|vibrations?|angles?|amplitudes?|motions?|displacements?|swings?)"
 _WORDS = re.compile(r"[\w\s'-]+")
-_LOWER_WORDS = re.compile(r"[a-z]{2,}(?:\s+[a-z]{2,})+")
+IN_WORDS = re.compile(r"(?=.*[A-Za-z]{3})[\w\s'-]+")
+"""Words alone."""
 _WITHOUT = re.compile(
     r",?\s*\b(?:(?:without|neglecting|ignoring|(?:if|when)\s+there\s+(?:is|were)\s+no)\s+(?:the\s+|any\s+|all\s+)?"
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
@@ -53,6 +55,10 @@ _NAMED_PLACE = re.compile(r"([A-Za-z][A-Za-z\s-]*?)\s*\(([^()]*[=<>][^()]*)\)")
 """``at the bottom (θ = 90°)``."""
 _PLUS_CONSTANT = re.compile(r"([^=:;\n]+)=\s*const(?:ant)?\.?\s*([+−-])\s*([^=:;\n]+)")
 """``T = const + M θ``."""
+_WITH_CONSTANT = re.compile(
+    r"((?:[^=:;\n]*:\s*)?)([^=:;\n]+)=\s*([^=:;\n]+?)\s*[+−-]\s*(?:\\(?:text|mathrm)\s*\{\s*const(?:ant)?\.?\s*\}|const(?:ant)?\b\.?)\s*"
+)
+"""``V = -m g y + const``."""
 _UNIFORM = re.compile(
     r"(?:moving\s+)?(?:(?:at|with|for|in)\s+)?(?:an?\s+)?(?:constant|steady|uniform)\s+(?:speeds?|velocit(?:y|ies)|motion)|(?:moving\s+)?uniformly"
 )
@@ -68,7 +74,9 @@ _GIVEN_IN_WORDS = re.compile(
     rf"\A(?!\s*(?:{CONDITION}|no (?=\w+ in))\b)\s*[A-Za-z][A-Za-z\s,'-]*\(([^():=]+=[^():]+)\)\s*(?=[,:](?!=))"
 )
 """``engine off, no damping (Q = 0, c = 0):``."""
-_FREQUENCY = re.compile(r"\A(?:the )?natural (?:circular )?frequenc(?:y|ies):(?=.*(?:ω|\\?omega))")
+_FREQUENCY = re.compile(
+    r"\A(?:the )?(?:natural (?:circular )?frequenc(?:y|ies)|(?:[Ff]requency|[Cc]haracteristic) equation):(?=.*(?:ω|\\?omega))"
+)
 """Behind it ω is one of several."""
 _OF_SMALL = re.compile(rf"\s*(?:(?:for|with|at)\s+)?small\b(?!.*{_ELSEWHERE})")
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
@@ -99,9 +107,9 @@ _EXTREME_WHERE = re.compile(
 )
 """``fastest where c/s² = m g sin β``."""
 _PARTS = re.compile(r",|\band\b")
-_WHEN = re.compile(r"\s+(?:when|where|(?<![,\s]\s)while|with(?!\s+the\s+\w+\s*(?:,|\Z)))\s+")
+_WHEN = re.compile(r"\s+(?:when|where|(?<![,\s]\s)while|with(?!\s+(?:the|both)\s+(?:\w+\s+)?\w+\s*(?:,|\Z)))\s+")
 _SUM = re.compile(r"\s*(?:Σ|∑|\\Sigma|\\sum)")
-_BESIDE = re.compile(rf"(?:{INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))\S.*")
+_BESIDE = re.compile(rf"(?:{INSTANT})?(?:after|before)\s+(?!(?:the\s+)?(?:start|release))[^=]+")
 _LIMIT = re.compile(r"\\?lim(?:its)?\s*_?\s*(?:\{([^{}]+)\}|\(([^()]+)\)|([^:\s]+\s*(?:→|->|\\to)\s*[^:\s]+):?)\s*(.+)", re.S)
 _ARROW = re.compile(r"\s*(?:\\(?:to|rightarrow|longrightarrow)(?![A-Za-z])|→|⟶|->)\s*")
 _NOTHING = re.compile(r"\A((?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)[^:=;\n]*)=\s*0\s*:")
@@ -109,7 +117,7 @@ _NOTHING = re.compile(r"\A((?:Σ|∑|\\Sigma|\\sum|[Ss]um\b)[^:=;\n]*)=\s*0\s*:"
 _CONSTANT_FIRST = re.compile(r"(?:const(?:ant)?|\\(?:text|mathrm)\s*\{\s*const(?:ant)?\s*\})\s*=\s*([^=:;\n]+)")
 _INFINITY = re.compile(r"([-+]?)\s*(?:\\infty|∞|infinity)")
 _START = re.compile(
-    r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release(?: from rest)?|beginning)|being released|it is released)"
+    r"(?:t\s*=\s*0(?:\s*s)?|(?:the )?(?:(?:moment|instant|time) of )?(?:start|release(?: from \S+)?|beginning)|being released|it is released)"
 )
 _STEADY = re.compile(r"(?:(?:in|for|at)\s+)?(?:the\s+)?steady(?:[\s-]+state)?(?:\s+(?:motion|vibration|response|state))?")
 _CONSTANT = re.compile(
@@ -169,6 +177,8 @@ def with_condition_first(text: str) -> str:
         said = f"{found[1].strip()}: constant: {found[2]}" if found[1] else f"constant: {found[2]}"
     if found := _PLUS_CONSTANT.fullmatch(said):
         return f"constant: {found[1]} {'-' if found[2] == '+' else '+'} ({found[3]})"
+    if found := _WITH_CONSTANT.fullmatch(said):
+        return _LABEL.sub("", f"{found[1]}constant: {found[2]} - ({found[3]})")
     if found := _CONSTANT_FIRST.fullmatch(said):
         return f"constant: {found[1]}"
     if found := _GIVEN.fullmatch(said) or _GIVEN_FIRST.fullmatch(said):
@@ -237,15 +247,18 @@ def _conditional(word: str, words: str, statement: str) -> str:
     if (kept := [part for part in parts if part.strip() not in ("constant", "conserved")]) and len(kept) < len(parts):
         parts, statement = kept, f"constant: {statement}"
     parts[0] = "from the start" if word == "from" else parts[0]
+    if " " in word and side == "after" and len(parts) > 1 and _START.fullmatch(parts[0].strip()):
+        others = ", ".join(map(_condition, parts[1:]))
+        return as_claim(f"{'as' if '->' in others else 'if'} {others}, at the start: {statement}")
     first = f"{word} {parts[0].strip()}"
     if (
-        (LASTS.match(first) or word in ("on", "once") or (word == "with" and len(parts) == 1))
+        (LASTS.match(first) or word in ("on", "once", "in") or (word == "with" and len(parts) == 1))
         and _WORDS.fullmatch(first)
         and _condition(parts[0]) == parts[0].strip()
     ):
         parts[0] = first
     said = ",".join(parts)
-    each = [f"{word} {parts[0]}", *parts[1:]]
+    each = [parts[0] if parts[0] == first else f"{word} {parts[0]}", *parts[1:]]
     if len(parts) > 1 and (beside := next((part for part in each if _BESIDE.fullmatch(part.strip())), None)):
         others = ", ".join(_condition(part) for part in each if part is not beside)
         if "->" in others or "small motions" in others:
@@ -295,7 +308,9 @@ def _condition(part: str) -> str:
     """One part of a condition in the words of a hypothesis."""
     said = part.strip()
     said = re.sub(
-        r"\A(?:(?:when|if|(?:as|so) long as(?=[^:]*[<>≤≥]))\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))", "", said
+        r"\A(?:(?:when|if|after(?=\s+\S+\s*=)|(?:as|so) long as(?=[^:]*[<>≤≥]))\s+|(?:for|at|as)\s+(?=small|large|\S+\s*(?:=|->)))",
+        "",
+        said,
     )
     if re.fullmatch(
         rf"{_SMALL_MOTIONS}(?: about (?:the )?(?:(?:static |position of )?equilibrium|(?:place|position) of rest))?", said
@@ -318,9 +333,7 @@ def _condition(part: str) -> str:
     if found := _THROUGHOUT.fullmatch(said):  # so are its rates
         return f"{found[1]} = {found[2]}, ({found[1]})' = ({found[2]})'"
     return (
-        "at rest"
-        if re.fullmatch(r"(?:(?:it|all|everything) (?:is|has come) )?(?:at |to )?rest(?: in (?:the|its) [\w ]*frame)?", said)
-        else said
+        "at rest" if re.fullmatch(r"(?:(?:it|all|everything) is )?(?:at )?rest(?: in (?:the|its) [\w ]*frame)?", said) else said
     )
 
 

@@ -348,7 +348,7 @@ class Line:
             return None
         start = self.row[self.at - 1].span[1]
         inside = self.now.kind in CLOSES.values() or self.now.span[0] < start  # ½, or the braces of a fraction
-        if inside or self.now.kind == "differential":
+        if inside or self.now.kind == "differential" or _RATE.match(self.text, start):
             return None
         if self.now.text == "°" and self.text.startswith("^", self.now.span[0]):
             return self.unit_of("°", start, self.now.span[1])
@@ -371,7 +371,10 @@ class Line:
         stops = {t.span[1] for t in self.row}
         while found := _UNIT_PIECE.match(self.text, at):
             is_known = lambda name: self.names.find(folded(name)) is not None
-            named = is_known(word := found["word"]) or (word not in units.COMMON and all(map(is_known, word)))  # 2md is no day
+            is_product = (word := found["word"]) not in units.COMMON or (
+                word == "mg" and not common
+            )  # 2md is no day, 2mg no mass
+            named = is_known(word) or (is_product and all(map(is_known, word)))
             known = named and not (common and found["word"] in units.COMMON)
             if at > start and known and (not found["tie"] or self.text[at - 1] == "°"):
                 break
@@ -385,6 +388,10 @@ class Line:
             return None
         self.at = next(i for i, t in enumerate(self.row) if t.span[0] >= end or t.kind == "end")
         return Unit(size, written.strip(), span=(start + len(written) - len(written.lstrip()), end))
+
+
+_RATE = re.compile(r"\s*d[^\W\d]\w*\s*/\s*dt\b")
+"""``(m + M) da/dt``."""
 
 
 @lru_cache(4096)
