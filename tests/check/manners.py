@@ -54,7 +54,7 @@ REMARKS = (
     ", which is positive", " (3a)", " at any time", r"\qquad\blacksquare", " (to the second law)",
 )  # fmt: skip
 BETWEEN = ("; ", ", ", "\n", " and ", r" \\ ", r",\quad ", ", so ", " ⇒ ", r" \Rightarrow ", "; hence ", " (1)\n")
-_CONDITION = re.compile(r"\s*([^:=]*(?:[a-z]{2}|→|->)[^:=]*(?:=[^:]*)?:(?!=))\s*")
+_CONDITION = re.compile(r"\s*([^:=]*(?:[a-z]{2}|→|->|[<>])[^:=]*(?:=[^:]*)?:(?!=))\s*")
 """Words may say of which motions it is."""
 _SAID_WITHIN = re.compile(r"\A\s*(?:at|when|if|where)\b|\(0\)")
 """A condition behind a label, and what is of the start by a letter."""

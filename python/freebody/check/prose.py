@@ -86,7 +86,7 @@ _CONNECTIVES = {
         "which",
         "gives",
     ),
-    *("from", "rest", "start", "the", "we", "get", "have", "initially", "just", "after", "before", "starting", "released"),
+    *("from", "rest", "start", "the", "we", "get", "have", "initially", "just", "after", "before", "starting", "released", "law"),
 }
 _THUS = re.compile(
     r"(?m)(?:^|(?<=[,;$])|(?<=\\\[))\s*(?:(?:so that|thus|hence|so|then|therefore|finally|consequently|also|now|or|(?:which |this )?gives"
