@@ -119,7 +119,7 @@ _OF_WHAT = re.compile(r"(?<=[\w)}²³])\s+(?:for|of) the [a-z]+(?: [a-z]+)*\s*\Z
 _WHERE_WHAT = re.compile(r",?\s+where\s+(?=[^=<>]*[A-Za-z]{3})[^=<>:]*\Z")
 """``…, where x, y is the place of the weight``."""
 _TAIL = re.compile(
-    rf"(?<=[\w)}}'′″²³])(?<![A-Za-z]{{2}})\s+(?:from(?!\s+rest)|of|for(?!\s+small)|on|in|to|by|along|across|through|under)\s+(?:(?!(?:{CONDITION})\b|from\b)[a-z]{{2,}}\s+)+[a-z]{{2,}}\s*\Z"
+    rf"(?<=[\w)}}'′″²³])(?<![A-Za-z]{{2}})\s+(?:from(?!\s+rest)|of|for(?!\s+small)|to|by|along|across|through|under)\s+(?:(?!(?:{CONDITION})\b|from\b|on\b)[a-z]{{2,}}\s+)+[a-z]{{2,}}\s*\Z"
 )
 """``f = −m x'' from the ground to be turned``."""
 _AND_THERE = re.compile(
