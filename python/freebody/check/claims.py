@@ -107,13 +107,13 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         return checker.check(statement, declared, correcting=checker.correcting)
     if found := with_held(checker, declared, condition):
         there, others, read = found
-        verdict = there.check(f"if {others}: {statement}" if others else statement, declared, correcting=checker.correcting)
-        stands = (
-            phase(checker, _IS_HELD.sub("stands still", f"while {condition}")) if verdict.of_no_motion else None
-        )  # it moves at first
+        claim = f"if {others}: {statement}" if others else statement
+        verdict = there.check(claim, declared, correcting=checker.correcting)
+        # what moves at the start is not held there, but may stand still later
+        stands = phase(checker, _IS_HELD.sub("stands still", f"while {condition}")) if verdict.of_no_motion else None
         if stands is None:
             return replace(verdict, notes=(*verdict.notes, read))
-        return in_phase(checker, declared, stands, condition, f"if {others}: {statement}" if others else statement)
+        return in_phase(checker, declared, stands, condition, claim)
     try:
         given = family(condition, checker, declared)
     except ModelProblem as problem:

@@ -142,7 +142,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
 """Clauses in words of exercise books, and what is read for them."""
 
 
-def in_words_of_claims(clause: str) -> str | None:
+def reworded(clause: str) -> str | None:
     """What is read for a clause in words of exercise books; None where it is none of these."""
     said = " ".join(clause.split())
     return next((found.expand(read) for written, read in _WORDS if (found := re.fullmatch(written, said, re.I))), None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
-from .clause_words import MOTION, in_words_of_claims
+from .clause_words import MOTION, reworded
 from .language.glyphs import CONDITION
 from .pieces import RELATION, Piece, pieces_of, relates
 from .wording import INSTANT
@@ -74,9 +74,12 @@ _DIRECTION = re.compile(r"(?:vertical|horizontal|tangential|radial|transverse)(?
 _ALONG = re.compile(r"along|across|throughout|again|always|at all times")
 _BACK = re.compile(r"on (?:the|its) (?:way|swing|stroke) back\Z")
 _RATE_SIGN = re.compile(r"(?:['′\u0307]|dot\b[^<>]*)\s*[<>]")
+"""``θ' <``: the sign of a rate says which way, so that the words of ``_BACK`` say it a second time."""
 _SMALL = re.compile(r"(?:for\s+|with\s+)?small\b")
-_LIST_OF_SMALL, _NAMED = re.compile(r"(?:for\s+)?small\b.*,"), re.compile(r"[A-Za-z]{3,}\s+[A-Z]{1,2}\Z")
-"""``small θ, φ``, ``bar DC``."""
+_LIST_OF_SMALL = re.compile(r"(?:for\s+)?small\b.*,")
+"""``small θ, φ``."""
+_NAMED = re.compile(r"[A-Za-z]{3,}\s+[A-Z]{1,2}\Z")
+"""``bar DC``."""
 _VALUE = re.compile(
     r"(?:\\?[^\W\d][\w'′″{}\u0307\u0308]*\s*=\s*)+(?:0|[\d.]+\s*°|[\d.]*\s*(?:π|\\pi)(?:/\d)?)|[^\W\d][\w'′″{}\u0307\u0308]*\s*[<>]\s*0|(?:\\d*dot\s*\{?\\?\w+\}?\s*=\s*)+0"
 )
@@ -122,7 +125,7 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
     if (
         begins and conditions and conditions[-1] == said[-1] and not _is_condition(said[-1])
     ):  # whose value it is that an equation gives
-        conditions[-1:] = [in_words_of_claims(found[0]) or found[0] for found in _EMBEDDED.finditer(conditions[-1])]
+        conditions[-1:] = [reworded(found[0]) or found[0] for found in _EMBEDDED.finditer(conditions[-1])]
     if any(map(_RATE_SIGN.search, conditions)):  # that says which way
         conditions = [clause for clause in conditions if not _BACK.match(clause)]
     behind = [part for clause in around[2] for part in _parts(clause, is_label)]
@@ -179,7 +182,7 @@ def _explained(clauses: Sequence[str], is_label: re.Pattern[str]) -> list[str]:
             tells = (
                 _is_condition(before)
                 or _SMALL.match(before)
-                or in_words_of_claims(before)
+                or reworded(before)
                 or _is_of_what(before, is_label)
                 or _WITHIN.search(before)
             )
@@ -201,20 +204,18 @@ def _parts(clause: str, is_label: re.Pattern[str]) -> Iterator[str]:
     """What a clause says, in the words that are read: what it is of, and of which motions, each for itself."""
     if clause.startswith(_JOINED):
         clause = clause.removeprefix(_JOINED)
-        if not (_is_condition(clause) or in_words_of_claims(clause) or _is_of_what(clause, is_label)):
+        if not (_is_condition(clause) or reworded(clause) or _is_of_what(clause, is_label)):
             return  # if R → ∞ nothing is lost: …
     within = _WITHIN.search(clause.partition("(")[0])
     first = clause[: within.start()] if within else ""
-    if within and not _HEAD.match(clause) and (_is_of_what(first, is_label) or in_words_of_claims(first) or first.isalpha()):
+    if within and not _HEAD.match(clause) and (_is_of_what(first, is_label) or reworded(first) or first.isalpha()):
         yield from (part for each in (first, clause[within.end() :]) for part in _parts(each, is_label))
         return
-    if (read := in_words_of_claims(clause)) is not None:
+    if (read := reworded(clause)) is not None:
         yield from filter(None, map(str.strip, read.split(",")))
         return
     aside = _ASIDE.fullmatch(clause)
-    if aside and (
-        in_words_of_claims(aside[1]) or _explains(aside) or all(_IDLE.fullmatch(each.strip()) for each in aside[2].split(","))
-    ):
+    if aside and (reworded(aside[1]) or _explains(aside) or all(_IDLE.fullmatch(each.strip()) for each in aside[2].split(","))):
         yield from _parts(aside[1].strip(), is_label)
     elif (
         aside
@@ -222,7 +223,7 @@ def _parts(clause: str, is_label: re.Pattern[str]) -> Iterator[str]:
         and (_is_condition(aside[2]) or _SMALL.match(aside[2]))
     ):
         what = (
-            [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or in_words_of_claims(aside[1]) else []
+            [aside[1].strip()] if _is_of_what(aside[1].strip(), is_label) or reworded(aside[1]) else []
         )  # else in brackets is what the words mean
         yield from (part for each in (*what, *_listed(aside[2])) for part in _parts(each.strip(), is_label))
     elif clause and not _IDLE.fullmatch(clause):
@@ -238,7 +239,7 @@ def _listed(said: str) -> list[str]:
     """The conditions in brackets; what is small is one."""
     parts = [part for part in said.split(",") if not _IDLE.fullmatch(part.strip())]
     small = _SMALL.match(said)
-    return [f"for {','.join(parts)[small.end() - len('small') :].strip()}"] if small else parts
+    return [f"for small{','.join(parts)[small.end() :].rstrip()}"] if small else parts
 
 
 def _headed(conditions: Iterable[str]) -> list[str]:
