@@ -39,6 +39,7 @@ from .prose import plainly
 from .symbols import Symbols
 from .timed_claims import holds_on_run
 from .tried_readings import stated
+from .tried_sentences import LIKELY, in_sentences
 from .verdict import Kind, Verdict
 from .vibration import Vibration
 from .wording import BLOW, as_claim, with_condition_first
@@ -54,7 +55,6 @@ _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
 _WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
-_LIKELY = 2.0  # size of a correction by which a statement is wrong, whatever some words ask
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
 _SAME_TIME = 1e-6  # of a run: by less the moments of two runs of one motion differ
@@ -87,7 +87,9 @@ class Checker:
         self.whole: Budget | None = None
         self._seed, self._asked = seed, asked
         self._runs: dict[float | None, Any] = {}  # the model's own, by when they end, once they are asked for
-        self._vibrations: dict[tuple[tuple[str, float], ...], Vibration] = {}  # with parameters that are held
+        self._vibrations: dict[
+            tuple[str, tuple[tuple[str, float], ...]], Vibration
+        ] = {}  # of what swings alone, with what is held
         self._beside: dict[tuple[Any, ...], Checker] = {}  # the same of other moments
 
     def symbols(self, declared: Declared | None = None) -> Symbols:
@@ -128,7 +130,7 @@ class Checker:
         if self.whole is None:  # else it is a question of a claim that is asked already
             asked = copy(self)
             asked.whole = Budget(self.seconds, begins=thread_time())
-            return asked.check(*how)
+            return asked._as_said(*how)
         if (
             (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0])))
             and not self.vibration.alone
@@ -149,6 +151,29 @@ class Checker:
             if found := next(filter(None, (other(*how) for other in others)), None):
                 return found
             raise
+
+    def _as_said(self, text: str, letters: Declared | None, hypothesis: Family | None, correcting: bool) -> Verdict:
+        """The verdict about a text as it stands; where it is not true so, but as sentences say it, that. Raises ``StatementError``."""
+        if hypothesis is not None:
+            return self.check(text, letters, hypothesis, correcting)
+        judging = copy(self)
+        judging.correcting = False
+        error: StatementError | None = None
+        verdict = None
+        try:
+            verdict = judging.check(text, letters)
+        except StatementError as raised:
+            error = raised
+        if verdict and verdict.ok:
+            return verdict
+        asked = copy(self)
+        asked.correcting = correcting and self.correcting
+        is_slip = error is not None and "did you mean" in error.hint
+        if not is_slip and (found := in_sentences(asked, text, letters, verdict)):
+            return found
+        if error:
+            raise error
+        return self.check(text, letters, hypothesis, correcting) if asked.correcting else verdict
 
     def _keeps(self, senses: str, letters: Declared | None) -> bool:
         """Whether rates have such senses on the model's own motion, as what rises has on its way."""
@@ -222,7 +247,7 @@ class Checker:
         checker.correcting = True
         with suppress(StatementError):
             found = checker.check(other, letters, how[0])
-            if found.ok or (found.kind is Kind.WRONG and found.mends and found.mends[0].size <= _LIKELY):
+            if found.ok or (found.kind is Kind.WRONG and found.mends and found.mends[0].size <= LIKELY):
                 note = f"`{words[1]}` is not understood, and passed over."  # type: ignore[index]
                 mends = found.mends if self.correcting and how[1] else ()
                 return replace(found, text=text.strip(), mends=mends, notes=(*found.notes, note))
@@ -321,9 +346,11 @@ class Checker:
         held = tuple((name, float(value)) for name, value in family.held if str(value).replace(".", "", 1).isdecimal())
         if not held:
             return self.vibration
-        if held not in self._vibrations:
-            self._vibrations[held] = Vibration(MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)}))
-        return self._vibrations[held]
+        key = (self.vibration.alone, held)
+        if key not in self._vibrations:
+            sampler = MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)})
+            self._vibrations[key] = Vibration(sampler, self.vibration.alone)
+        return self._vibrations[key]
 
     def happening(self, event: str) -> str:
         """The name of what happens on the model's own run that words speak of."""

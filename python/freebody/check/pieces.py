@@ -13,7 +13,10 @@ from .language.tokens import CALLS
 _LONG = 4  # letters from which on what stands behind an operator is a word, and no name
 _SHORT = re.compile(r"a[nst]|b[ey]|do|he|i[fnst]|no|o[fnr]|so|to|up|we", re.I)
 """Words of two letters, which are no symbols where they stand among others."""
-_COMMON = re.compile(r"all|and|are|bar|end|for|has|its|let|not|off|one|out|rod|the|two|was|way", re.I)
+_COMMON = re.compile(
+    r"all|and|are|as|at|bar|by|end|for|from|has|is|it|its|let|not|of|off|on|one|out|rod|so|than|that|the|then|this|to|two|us|was|way|we|when|with",
+    re.I,
+)
 """Words that are words, though letters of them may be symbols."""
 _NO_WORDS = {*CALLS, "const", "inf", "infinity", "lim", "min", "max", "deg", "rad", "rpm"}
 _WORD = re.compile(r"(?:\A|(?<=[\s,;:(]))[A-Za-z]+(?:-[a-z]+)*(?:(?<=[a-z]{3})['’]s?)?(?=[\s,;:)]|\Z)")
@@ -75,7 +78,7 @@ def _is_word(word: str, before: str, after: str, known: Collection[str]) -> bool
     measures = (_FIGURE.search(before) is not None and len(word) <= _LONG) or (
         before[-1:] in [*_OPERATORS] and (len(word) < _LONG or word.startswith("const"))
     )
-    if word in known or word.lower() in _NO_WORDS or measures:
+    if word in known or word.lower() in _NO_WORDS or measures or {*word.split("-")} <= {*known}:
         return False
     if len(word) < 3:
         return _SHORT.fullmatch(word) is not None

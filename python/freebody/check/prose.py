@@ -108,7 +108,10 @@ _DOTS = re.compile("(?<=[^\\W\\d])[¨˙]")
 _SPACES = re.compile(r"(?<!\\)\\(?:[,;:!>]| (?![^{}]*\}))")
 _SIDE_OF_ZERO = re.compile(r"(=\s*0)\s*(?:\^?\s*\{?\s*\+\s*\}?|⁺)(?=\s*(?:[:,)]|\\q?quad|\Z))")
 """``t = 0⁺``, just after."""
-_EXTREME = re.compile(r"_\{?\s*(?:\\(?:mathrm|text|rm|mathsf)\s*)?\{?\s*\\?(max|min)(?![A-Za-z])\s*\}{0,2}")
+_UPRIGHT = r"\s*(?:\\(?:mathrm|text|rm|mathsf)\s*)?"
+_EXTREME = re.compile(
+    rf"_(?:\{{{_UPRIGHT}\{{\s*\\?(max|min)\s*\}}\s*\}}|{_UPRIGHT}\{{{_UPRIGHT}\\?(max|min)\s*\}}|{_UPRIGHT}\\?(max|min)(?![A-Za-z]))"
+)
 """``θ_max``, ``N_{\\max}``, ``v_{\\text{max}}``."""
 _LIMITS = re.compile(r"∫_\(([^()]*)\)\^\(([^()]*)\)")
 """Limits of an integral in round brackets."""
@@ -199,7 +202,7 @@ def plainly(
 
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), read))).lstrip()
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
-    said = _EXTREME.sub(r"_{\1}", said)
+    said = _EXTREME.sub(lambda found: f"_{{{found[1] or found[2] or found[3]}}}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)
     said = _LIMITLESS.sub(lambda found: f"∫_0^t {found[1]}", said)
     said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
