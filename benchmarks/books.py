@@ -1,9 +1,9 @@
 """How far ``freebody check`` gets with what students write about mechanisms of textbooks.
 
-    python benchmarks/books.py [mended | unseen | NAME …] [--slips 200 --seed 1]
+    python benchmarks/books.py [mended | unseen | NAME …] [--slips 200 --seed 1] [--words]
 
 The statements are in tests/check/books/, with which the check was mended, and in tests/check/books_unseen/, with the verdict that a person came to and the correction that a tutor would give; those that
-are judged or corrected otherwise are printed.
+are judged or corrected otherwise are printed. What other people make of statements in their own words is in tests/check/other_words.yaml.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "check"))
 
-from books import FILES, UNSEEN, Book
+from books import FILES, OTHER_WORDS, UNSEEN, Book
 
 
 def main() -> None:
@@ -27,9 +27,12 @@ def main() -> None:
     arguments.add_argument("names", nargs="*", default=["mended", "unseen"], help="halves or mechanisms")
     arguments.add_argument("--slips", type=int, default=0, help="so many slips instead, made by chance in right statements")
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument("--words", action="store_true", help="what others make of the statements instead, in their words")
     given, halves = arguments.parse_args(), {"mended": list(FILES), "unseen": list(UNSEEN)}
     if given.slips:
         return slips(given.slips, given.seed, [name for half in given.names for name in halves.get(half, [half])])
+    if given.words:
+        return words()
     for name in given.names:
         print(f"{name}:")
         score(halves.get(name, [name]))
@@ -55,6 +58,20 @@ def score(names: list[str]) -> None:
     for (wanted, found), count in sorted(seen.items()):
         print(f"  {count:4d} {wanted} called {found}")
     print("the correction of a tutor is " + ", ".join(f"{place} {count} times" for place, count in places.most_common()))
+
+
+def words() -> None:
+    """Prints how what others make of statements is judged: what the check was mended with, and what it was not."""
+    for half, sections in {"mended": ("read", "missed"), "unseen": ("unseen",)}.items():
+        seen = Counter(
+            (said.kind.value, said.verdict.kind.value)
+            for section in sections
+            for name in OTHER_WORDS[section]
+            for said in Book(name).in_other_words(section)
+        )
+        print(f"{half}: {sum(seen.values())} statements in other words")
+        for (wanted, found), count in sorted(seen.items()):
+            print(f"  {count:4d} {wanted} called {found}")
 
 
 def slips(count: int, seed: int, names: list[str]) -> None:

@@ -34,13 +34,14 @@ from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
 from .phases import NOT_FIRST, alike, called, kind_of, phase, with_names
+from .pieces import relates
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .symbols import Symbols
 from .timed_claims import holds_on_run
 from .tried_readings import stated
 from .tried_sentences import LIKELY, in_sentences
-from .verdict import Kind, Verdict
+from .verdict import EVERY_TERM_IS_0, Kind, Verdict
 from .vibration import Vibration
 from .wording import BLOW, as_claim, with_condition_first
 
@@ -165,6 +166,13 @@ class Checker:
         except StatementError as raised:
             error = raised
         if verdict and verdict.ok:
+            label = text.rpartition(":")[0]
+            if (
+                verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0) and relates(label)
+            ):  # energy, v = 0: ½ m v² = m g s
+                return replace(
+                    verdict, kind=Kind.UNDECIDABLE, reason=f"{verdict.reason}: under that condition nothing is left of it"
+                )
             return verdict
         asked = copy(self)
         asked.correcting = correcting and self.correcting

@@ -54,9 +54,10 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (r"(?:thrown|pushed|flung|kicked|driven|sent) back", "on the way back"),
     (r"(at the (?:top|highest point)) of the (?:first )?(?:rebound|bounce)", r"\1, after the impact"),
     (
-        r"(?:at )?(?:the )?(?:top|highest point) of (?:(?:the )?(\S+?)['’]s |(?:its |his |her |the )?)flight",
+        r"(?:at )?(?:the )?(?:top|highest point) of (?:the )?(\S+?)['’]s flight",
         r"at the highest point of the \1, after lift-off",
     ),
+    (r"(?:at )?(?:the )?(?:top|highest point) of (?:its |his |her |the )?flight", "at the highest point, after lift-off"),
     (
         r"(?:(?:the )?(?:[a-z]+ )?(?:is |are )?)(?:just )?(?:about to|on the (?:point|verge) of) (?:slip(?:ping)?|slid(?:e|ing))\b.*",
         "just before it slips",

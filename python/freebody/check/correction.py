@@ -409,10 +409,18 @@ class _Search:
         """What was wrong, a sentence for each edit."""
         return "; ".join(dict.fromkeys(filter(None, (why(edit, self.equation, self.vocabulary) for edit in found.edits))))
 
+    def _leaves_nothing(self, found: _Found) -> bool:
+        """Whether it says of what is small, or of when something happens, that it is 0."""
+        sides = found.after.left, found.after.right
+        other = next((one for one, zero in (sides, sides[::-1]) if is_zero(zero)), None)
+        return isinstance(other, Sym) and bool(self.family.small or other.name == "t") and found.edits[-1].kind == "extra term"
+
     def likely_size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
         new = symbols_in(found.after)
         if self._is_of_other_dimension(found.after) or any(n.key not in self.said and not np.any(self.few[n.key]) for n in new):
+            return np.inf
+        if self._leaves_nothing(found):
             return np.inf
         odd = sum(map(self._likelihood.lack, found.edits))
         odd += _OF_BALANCE * (self._is_constraint and not self.case.is_kinematic(found.after))

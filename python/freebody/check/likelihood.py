@@ -268,6 +268,8 @@ class Likelihood:
             yield from [symbol] * 2 * (symbol.dots == 2 and self.its.is_solved_for_another(symbol))
         if self.its.is_part_of_mass(term) or self.its.is_of_another(term):
             yield term
+        if self.its.is_reaction_in_disguise(term):
+            yield from [term] * 2
         rates = [n for n in term.symbols if known.is_rate(n)]
         if (
             missing

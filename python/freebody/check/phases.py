@@ -31,7 +31,7 @@ _KINDS = {
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
     "taut": "taut|tight|stretched|straight|jerks?",
     "slack": "slack|loose",
-    "touch": "touch(?:e[sd])?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
+    "touch": r"touch(?:e[sd])?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|reach(?:es|ed)\s+the\s+(?:spring|buffer|bumper|stop|wall|floor|ground)|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
     r"|blow|impact|collision|shock"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?(?:whole )?\w+ )?on (?:(?:the|its|his|her) )?(?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",

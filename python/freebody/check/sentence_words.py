@@ -10,6 +10,8 @@ OPENERS = re.compile(
     re.I,
 )
 """With which a clause begins that says when."""
+PLACE = re.compile(r"(?:on|in|at|against|with|without|for|near)(?= )", re.I)
+"""With which a place or a circumstance begins."""
 WEAKLY = re.compile(r"with|at|for|from|as|near|nearly|past|through|since|because|where|means|case", re.I)
 """Those behind which it may be what is claimed as well: ``swings at ω = …``."""
 WEAK = re.compile(

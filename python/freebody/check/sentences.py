@@ -19,6 +19,7 @@ from .sentence_words import (
     LEADS,
     NAMED_VALUES,
     OPENERS,
+    PLACE,
     PREMISES,
     PRONOUNS,
     SETS,
@@ -54,6 +55,7 @@ _FUNCTIONS = ("sin", "cos", "tan", "sqrt", "pi", "deg")
 _LABELLED = re.compile(r"[^=<>:.;]*:(?![^.;]*[.;]\s+[A-Z])")
 _BOTH_SIDES = re.compile(r"\((?:just )?(?:after|before)\)")
 """``l φ' (after) = v (before)``: of two moments."""
+_OF_PERIOD = re.compile(r"\A\s*(?:T|τ|\\tau)?\s*=\s*")
 _SUM = re.compile(r"\s*(?:\\[Ss]um|\\Sigma|[Σ∑])[^=]*=\s*0\s*\Z")
 """``ΣM_O = 0``, a law from which another follows."""
 _SAME = re.compile(r"(?:that is|namely|or|viz)?")
@@ -211,8 +213,9 @@ def _parts(text: str, known: Collection[str]) -> Iterator[tuple[str, str]]:
             yield "word", written
         else:
             for each in filter(None, (part.strip(" .~") for part in _APART.split(written))):
-                if last in NAMED_VALUES and (each[0] == "=" or not relates(each)):  # the period is 2 π √(m/k)
-                    yield "relation", f"{last} = {each.lstrip(' =')}"
+                said = _OF_PERIOD.sub("", each)
+                if last in NAMED_VALUES and (said != each or not relates(each)):  # the period is 2 π √(m/k)
+                    yield "relation", f"{last} = {said}"
                     continue
                 is_law = any(map(RELATION.match, (each[:1], each[-1:])))  # lost energy = gained energy
                 yield ("relation" if relates(each) and not is_law else "word"), each
@@ -252,15 +255,20 @@ def _take(words: Sequence[str], said: Sentence, drops: bool = False) -> None:
     for i, found in enumerate(openers):
         if found.start() < at:
             continue
-        if beside := clause[at : found.start()].strip():
-            said.beside.append(beside)
+        said.beside += _apart(clause[at : found.start()].strip())
         following = openers[i + 1].start() if i + 1 < len(openers) else len(clause)
         at = found.start() + _ends(clause[found.start() : following], found.end() - found.start())
         condition = clause[found.start() : at].strip()
         if len(condition) > found.end() - found.start() and not condition[found.end() - found.start() :].lstrip().startswith("="):
             (said.beside if drops and at == len(clause) else said.when).append(condition)
-    if beside := clause[at:].strip():
-        said.beside.append(beside)
+    said.beside += _apart(clause[at:].strip())
+
+
+def _apart(words: str) -> list[str]:
+    """Words that say nothing of when, where they begin with a place apart from what goes on: ``On the ramp | the friction points up``."""
+    place = PLACE.match(words)
+    ends = _ends(words, place.end()) if place else len(words)
+    return [part for part in (words[:ends].strip(), words[ends:].strip()) if part]
 
 
 def _ends(clause: str, opener: int) -> int:

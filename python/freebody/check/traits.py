@@ -19,6 +19,7 @@ from .taken_away import numbers
 from .vocabulary import Vocabulary
 
 _OF_RODS = (1 / 12, 1 / 6, 1 / 3, 2 / 3)
+_OF_BALLS = (2 / 5, 2 / 7, 5 / 7, 7 / 5)
 _ACCELERATION = LENGTH.times(TIME, -2)
 _SAME = 1e-9
 
@@ -170,6 +171,10 @@ class Traits:
         moves = any(n.dots == 2 or self.vocabulary.dimension(n) == _ACCELERATION for n in factors)
         lengths = any(self.vocabulary.dimension(n) == LENGTH for n in factors)
         return moves and not lengths and not any(n in self.vocabulary.angular for base in powers for n in base.symbols)
+
+    def is_reaction_in_disguise(self, term: Node) -> bool:
+        """Whether it has, in a balance of forces with a reaction, the number of a ball that turns: what rubs on it stands for that."""
+        return self.dimension == FORCE and self.has_load and bool(np.isclose(abs(powers_of(term)[0]), _OF_BALLS).any())
 
     def is_force(self, term: Node) -> bool:
         """Whether it is a force, a weight, or a mass times its acceleration, or a component of one, with no number: another one is

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from .api import Checker, Declared
 
 _MOST = 16  # readings that are tried
+_NOTHING = 1e-12  # of a unit, below which a side is 0 but for round-off
 LIKELY = 2.0
 """Size of a correction by which a statement is wrong, whatever some words ask."""
 _LONG = 4  # letters of a word that may name what happens
@@ -66,12 +67,11 @@ def in_sentences(checker: Checker, text: str, letters: Declared | None, before: 
             told = f"It is read as: {f'{read}: ' * bool(read)}{', '.join(said.claims)}."
             found = replace(found, text=text.strip(), notes=(*found.notes, told))
             at_first = not said.when and any(note.startswith(AT_FIRST) for note in found.notes)
-            is_whole &= before is None
             if found.ok and not (found.untested or at_first or _says_nothing(found, said.claims)):
                 return found
             if not found.ok and (first is None or first[2].kind is Kind.UNDECIDABLE):
                 first = read, is_whole, found
-    return _wrong(checker, said, letters, *first) if first and fails else None
+    return _wrong(checker, said, letters, *first) if first and before is None else None
 
 
 def _wrong(
@@ -100,7 +100,7 @@ def _judged(checker: Checker, read: str, claims: Sequence[str], letters: Declare
 def _says_nothing(found: Verdict, claims: Sequence[str]) -> bool:
     """Whether all that it is of is 0 there, though it does not say so."""
     zero = any(re.search(r"=\s*0\s*\Z", claim) for claim in claims)
-    return not zero and found.evidence is not None and not np.any(found.evidence.left) and not np.any(found.evidence.right)
+    return not zero and found.evidence is not None and np.allclose([found.evidence.left, found.evidence.right], 0, atol=_NOTHING)
 
 
 @dataclass(frozen=True)
@@ -131,12 +131,13 @@ class _Readings:
         states = [words for words in asked if kind_of(words) and not self._found(words)]
         ways = [[*self._ways(words)] for words in self.said.when]
         starts = [[*self._starts(words)] for words in self.said.when]
-        sure = [*(found for words in asked if (found := self._found(words))), *([words] for words in states)]
+        sure = [
+            *(found for words in asked if (found := self._found(words))),
+            *([words[0].lower() + words[1:]] for words in states),
+        ]
         unclear = any(WEAK.match(words) and not self._found(words) and words not in states for words in asked)
         others = [condition for words in self.said.beside if words not in asked for condition in self._found(words)]
-        perhaps = dict.fromkeys(
-            [*others, *(each for words in (*self.said.when, *self.said.beside) for each in self._named(words))]
-        )
+        perhaps = dict.fromkeys([*others, *(each for words in self.said.beside for each in self._named(words))])
         for chosen in product(*ways, *sure):
             if fails or chosen or given:
                 yield _joined([*chosen, *given]), not unclear

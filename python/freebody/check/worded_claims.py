@@ -365,7 +365,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
 def _is_past(checker: Checker, event: str) -> bool:
     """Whether what happens has done so already at the moment of which is spoken."""
     with suppress(ModelProblem, Unreached):
-        return time_of(checker.own_motion, checker.happening(event)) <= checker.sampler.own.t
+        return time_of(checker.own_motion, checker.happening(event)) <= checker.sampler.own.t * (1 + _ROUND_OFF)
     return False
 
 
@@ -387,6 +387,7 @@ def _speaks_of_time(checker: Checker, declared: Declared, statement: str) -> boo
 Place = tuple[str, str, str]
 """``just`` or nothing, ``before`` or ``after``, and what happens there."""
 _WRONG = (Kind.WRONG, Kind.DIMENSIONS)
+_ROUND_OFF = 1e-9  # of a time, by which moments of two runs of one motion differ
 _SOON = 0.01  # of the time typical of a model
 _BESIDE = re.compile(r"(just )?(after|before) (.+)", re.S)
 _UNTIL = re.compile(r"until (.+)", re.S)
