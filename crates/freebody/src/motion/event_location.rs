@@ -158,7 +158,7 @@ impl Runner<'_> {
         Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
     }
 
-    /// Makes a true step to a zero that was found on the dense output of a longer one, and once more when the function is
+    /// Makes a step to a zero that was found on the dense output of a longer one, and once more when the function is
     /// not yet zero there; just beyond, where it jumps and never is. Answers whether it got there: not where another one vanishes
     /// clearly before, at `next` as the dense output tells it; which comes first is then found from there.
     fn step_onto(&mut self, segment: &Segment, hit: Mark, next: Option<f64>) -> Result<bool, Outcome> {
@@ -166,13 +166,13 @@ impl Runner<'_> {
         let (t0, t1) = (segment.t0.min(last), segment.t0.max(last));
         let (mut t, mut arrives) = (hit.t, true);
         if t != self.now.t && self.jumps(segment, hit)? {
-            return Ok(self.step_beyond(hit, last)? || next.is_none());
+            return Ok(self.step_beyond(segment, hit, last)? || next.is_none());
         }
         for _ in 0..3 {
             if t == self.now.t {
                 return Ok(true);
             }
-            self.step_to(t)?;
+            self.step_to(t, segment)?;
             let mut values = vec![0.0; self.system.system.switches()];
             let system = &mut *self.system.system;
             system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
@@ -185,8 +185,7 @@ impl Runner<'_> {
             }
             t = better;
         }
-        let landed = self.segment()?;
-        self.push(landed);
+        self.land(segment)?;
         Ok(arrives)
     }
 
@@ -200,12 +199,12 @@ impl Runner<'_> {
         Ok(sides.iter().all(|&value| self.detector.jumps(hit.index, value)))
     }
 
-    /// Makes a true step to just beyond a jump that was found on the dense output of a longer one, or to the time `last`;
+    /// Makes a step to just beyond a jump that was found on the dense output of a longer one, or to the time `last`;
     /// answers whether it got beyond.
-    fn step_beyond(&mut self, hit: Mark, last: f64) -> Result<bool, Outcome> {
+    fn step_beyond(&mut self, segment: &Segment, hit: Mark, last: f64) -> Result<bool, Outcome> {
         let (mut t, [mut part, growth]) = (hit.t, BEYOND);
         let is_beyond = loop {
-            self.step_to(t)?;
+            self.step_to(t, segment)?;
             let mut values = vec![0.0; self.system.system.switches()];
             self.system.system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
             let is_beyond = values[hit.index] * f64::from(hit.direction) * self.ahead > 0.0;
@@ -216,17 +215,27 @@ impl Runner<'_> {
             t = if later < left { hit.t + self.ahead * later } else { last };
             part *= growth;
         };
-        let landed = self.segment()?;
-        self.push(landed);
+        self.land(segment)?;
         Ok(is_beyond)
     }
 
-    /// Makes a step to `t`, which is known to be short enough.
-    fn step_to(&mut self, t: f64) -> Result<(), Outcome> {
+    /// Makes a true step to `t` within a longer one, so known to be short enough; where that will do, goes there on its dense output.
+    fn step_to(&mut self, t: f64, longer: &Segment) -> Result<(), Outcome> {
         self.next.t = t;
-        let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
-        attempt.map_err(ending)?;
+        if self.system.system.lands_on_dense_output() {
+            longer.at(t, &mut self.next.y);
+        } else {
+            let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
+            attempt.map_err(ending)?;
+        }
         self.project()?.map_err(ending)
+    }
+
+    /// Makes the end of that step the present.
+    fn land(&mut self, longer: &Segment) -> Result<(), Outcome> {
+        let landed = if self.system.system.lands_on_dense_output() { longer.clone() } else { self.segment()? };
+        self.push(landed);
+        Ok(())
     }
 
     /// What the events at the present do: whether the state or the law changed, and which of them ends the run.
