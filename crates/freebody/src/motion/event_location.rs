@@ -62,7 +62,7 @@ impl Runner<'_> {
                 hits.push(hit);
             }
             let Some(on) = self.run.trajectory.segments.last() else { continue };
-            if Probe::new(system, on).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
+            if Probe::new(system, on, None).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
                 self.run.unresolved.push(Unresolved { t: self.now.t, index, doubt: Doubt::ComesBeforeEnd, rtol });
             }
         }
@@ -110,7 +110,8 @@ impl Runner<'_> {
 
     /// Lets the events at the present act, and goes on from there.
     fn let_act(&mut self, hits: &[Mark]) -> Result<(), Outcome> {
-        let landed = self.switch_values(0.0)?;
+        let is_event = |hit: &Mark| self.system.system.switch(hit.index).role == Role::Event;
+        let landed = if hits.iter().any(is_event) { self.switch_values(0.0)? } else { vec![] };
         let (has_jumped, stop) = self.act(hits)?;
         let jumped_from = has_jumped.then_some(&landed[..]);
         if let Some(index) = stop {
@@ -133,17 +134,18 @@ impl Runner<'_> {
     fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>) -> Result<(), Outcome> {
         let values = self.switch_values(0.0)?;
         let (now, ahead, has_jumped) = (self.now.t, self.ahead, landed.is_some());
-        self.detector.stop_at(|t| ahead * (now - t) >= 0.0, &values, has_jumped);
-        for hit in hits {
-            let side = match (self.system.system.switch(hit.index).role, landed) {
+        let sides = hits.iter().map(|hit| {
+            Ok(match (self.system.system.switch(hit.index).role, landed) {
                 (Role::Guard, _) => 1,
                 // An action may have turned the motion, or moved the zero.
                 (Role::Event, Some(landed)) => self.side(hit.index, landed[hit.index], values[hit.index])?,
                 // A discontinuity has changed to the arm beyond.
                 (Role::Event | Role::Discontinuity, _) => hit.direction * ahead as i8,
-            };
-            self.detector.spend(hit.index, side, self.now.t);
-        }
+            })
+        });
+        let sides = sides.collect::<Result<Vec<i8>, Outcome>>()?;
+        self.detector.stop_at(|t| ahead * (now - t) >= 0.0, values, has_jumped);
+        hits.iter().zip(sides).for_each(|(hit, side)| self.detector.spend(hit.index, side, now));
         Ok(())
     }
 
@@ -176,7 +178,7 @@ impl Runner<'_> {
             let mut values = vec![0.0; self.system.system.switches()];
             let system = &mut *self.system.system;
             system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
-            let slope = Probe::new(system, segment).slope(hit.index, t, self.detector.noise(hit.index));
+            let slope = Probe::new(system, segment, None).slope(hit.index, t, self.detector.noise(hit.index));
             let found = t - (values[hit.index] - hit.level) / slope.map_err(Outcome::DynamicsError)?;
             let better = found.clamp(t0, t1);
             arrives = next.is_none() || better != last || is_tie(found, last, self.norm.time);
@@ -193,7 +195,7 @@ impl Runner<'_> {
     fn jumps(&mut self, segment: &Segment, hit: Mark) -> Result<bool, Outcome> {
         let (least, latest) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
         let beside = BEYOND[0] * (self.norm.time + hit.t.abs());
-        let mut probe = Probe::new(&mut *self.system.system, segment);
+        let mut probe = Probe::new(&mut *self.system.system, segment, None);
         let mut value = |t: f64| probe.one(hit.index, t.clamp(least, latest)).map_err(Outcome::DynamicsError);
         let sides = [value(hit.t - beside)?, value(hit.t + beside)?];
         Ok(sides.iter().all(|&value| self.detector.jumps(hit.index, value)))
