@@ -168,16 +168,19 @@ impl Runner<'_> {
         let (t0, t1) = (segment.t0.min(last), segment.t0.max(last));
         let (mut t, mut arrives) = (hit.t, true);
         if t != self.now.t && self.jumps(segment, hit)? {
-            return Ok(self.step_beyond(segment, hit, last)? || next.is_none());
+            return Ok(self.step_beyond(hit, last)? || next.is_none());
         }
+        let mut on = self.system.system.lands_on_dense_output().then_some(segment);
         for _ in 0..3 {
             if t == self.now.t {
                 return Ok(true);
             }
-            self.step_to(t, segment)?;
-            let mut values = vec![0.0; self.system.system.switches()];
+            let mut values = self.step_to(t, on)?;
+            if on.is_some() && !self.holds_but_for(hit, &values) {
+                on = None;
+                values = self.step_to(t, on)?;
+            }
             let system = &mut *self.system.system;
-            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
             let slope = Probe::new(system, segment, None).slope(hit.index, t, self.detector.noise(hit.index));
             let found = t - (values[hit.index] - hit.level) / slope.map_err(Outcome::DynamicsError)?;
             let better = found.clamp(t0, t1);
@@ -187,7 +190,7 @@ impl Runner<'_> {
             }
             t = better;
         }
-        self.land(segment)?;
+        self.land(on)?;
         Ok(arrives)
     }
 
@@ -203,12 +206,10 @@ impl Runner<'_> {
 
     /// Makes a step to just beyond a jump that was found on the dense output of a longer one, or to the time `last`;
     /// answers whether it got beyond.
-    fn step_beyond(&mut self, segment: &Segment, hit: Mark, last: f64) -> Result<bool, Outcome> {
+    fn step_beyond(&mut self, hit: Mark, last: f64) -> Result<bool, Outcome> {
         let (mut t, [mut part, growth]) = (hit.t, BEYOND);
         let is_beyond = loop {
-            self.step_to(t, segment)?;
-            let mut values = vec![0.0; self.system.system.switches()];
-            self.system.system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
+            let values = self.step_to(t, None)?;
             let is_beyond = values[hit.index] * f64::from(hit.direction) * self.ahead > 0.0;
             if is_beyond || t == last {
                 break is_beyond;
@@ -217,27 +218,41 @@ impl Runner<'_> {
             t = if later < left { hit.t + self.ahead * later } else { last };
             part *= growth;
         };
-        self.land(segment)?;
+        self.land(None)?;
         Ok(is_beyond)
     }
 
-    /// Makes a true step to `t` within a longer one, so known to be short enough; where that will do, goes there on its dense output.
-    fn step_to(&mut self, t: f64, longer: &Segment) -> Result<(), Outcome> {
+    /// Makes a true step to `t`, which is known to be short enough, or goes there `on` the dense output of a longer one; returns the
+    /// switching functions there.
+    fn step_to(&mut self, t: f64, on: Option<&Segment>) -> Result<Vec<f64>, Outcome> {
         self.next.t = t;
-        if self.system.system.lands_on_dense_output() {
+        if let Some(longer) = on {
             longer.at(t, &mut self.next.y);
         } else {
             let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
             attempt.map_err(ending)?;
         }
-        self.project()?.map_err(ending)
+        self.project()?.map_err(ending)?;
+        let mut values = vec![0.0; self.system.system.switches()];
+        self.system.system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
+        Ok(values)
     }
 
     /// Makes the end of that step the present.
-    fn land(&mut self, longer: &Segment) -> Result<(), Outcome> {
-        let landed = if self.system.system.lands_on_dense_output() { longer.clone() } else { self.segment()? };
+    fn land(&mut self, on: Option<&Segment>) -> Result<(), Outcome> {
+        let landed = on.map_or_else(|| self.segment(), |longer| Ok(longer.clone()))?;
         self.push(landed);
         Ok(())
+    }
+
+    /// Whether no guard but that of `hit` is below zero: else a dense output is not accurate enough there.
+    fn holds_but_for(&self, hit: Mark, values: &[f64]) -> bool {
+        let system = &*self.system.system;
+        let is_below = |i: usize| {
+            let spec = system.switch(i);
+            spec.role == Role::Guard && values[i] < -spec.leeway
+        };
+        (0..values.len()).filter(|&i| values[i] < 0.0 && i != hit.index).all(|i| !is_below(i))
     }
 
     /// What the events at the present do: whether the state or the law changed, and which of them ends the run.
