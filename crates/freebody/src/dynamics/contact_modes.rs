@@ -5,7 +5,7 @@
 //! same problem with velocities and impulses (Pfeiffer & Glocker 1996, *Multibody Dynamics with Unilateral Contacts*).
 
 use super::contact_decision::{decision, ContactDecision};
-use super::minimal::Force;
+use super::minimal::{Force, Wanted};
 use super::rows::{closing_rows, gap_row, slide_row};
 use super::{generalized_force, DynamicsError, Row, Workspace};
 use crate::contact::complementarity::{self, Answer, FrictionLaw, Problem, Status, Verdict};
@@ -313,7 +313,7 @@ impl Workspace<'_> {
         for &(l, friction) in &sticking {
             mode.contacts_mut()[l].mode = ContactMode::Stick;
             self.enter(&mode);
-            let fails = self.solve_by(super::Route::Minimal).is_err();
+            let fails = self.solve_once(super::Route::Minimal, Wanted::Motion).is_err();
             if fails && self.dense.saddle.actuation_rank() >= self.dense.saddle.rank().rank {
                 mode.contacts_mut()[l].mode = ContactMode::PartialFriction(friction);
             }

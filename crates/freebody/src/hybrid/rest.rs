@@ -19,6 +19,11 @@ const UNRELATED: f64 = 1e4;
 /// Largest ratio of one bounce to the one before of which a series is summed: nearer to 1 its end would be infinitely far.
 const SUMMABLE: f64 = 0.999;
 
+/// Whether so many contacts that touch are a pile: where it goes is open by far more than the tolerance of a step.
+pub(super) fn is_pile(touching: usize) -> bool {
+    touching > PILE
+}
+
 /// Something that would be over soon.
 struct Passing {
     constraint: usize,
@@ -172,7 +177,7 @@ impl HybridSystem<'_> {
     fn is_pile(&self, contacts: &ClosedContacts) -> bool {
         let held =
             |&(l, contact): &(usize, &ContactState)| contact.mode.is_closed() && !contacts.constraints.contains(&l);
-        contacts.constraints.len() + self.mode.contacts.iter().enumerate().filter(held).count() > PILE
+        is_pile(contacts.constraints.len() + self.mode.contacts.iter().enumerate().filter(held).count())
     }
 
     /// The restitution of each contact that is closed: none in a pile where it would not fly for longer than a moment.

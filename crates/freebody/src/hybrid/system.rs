@@ -5,6 +5,7 @@ use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
 use super::recorded::{Motion, NEAR_SINGULAR};
+use super::rest::is_pile;
 use super::scales::ROUNDOFF;
 use super::works::Works;
 use crate::dynamics::{DynamicsError, SmoothMotion, Workspace};
@@ -412,6 +413,10 @@ impl System for HybridSystem<'_> {
         let (q, rest) = y.split_at_mut(n);
         self.workspace.project_positions_with(&self.mode, t, q, &rest[..n], &self.locked)?;
         Ok(self.guard_value(l, guard, t, &y))
+    }
+
+    fn lands_on_dense_output(&self) -> bool {
+        is_pile(self.mode.contacts.iter().filter(|contact| contact.mode.is_closed()).count())
     }
 
     fn check(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {

@@ -62,7 +62,7 @@ impl Runner<'_> {
                 hits.push(hit);
             }
             let Some(on) = self.run.trajectory.segments.last() else { continue };
-            if Probe::new(system, on).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
+            if Probe::new(system, on, None).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
                 self.run.unresolved.push(Unresolved { t: self.now.t, index, doubt: Doubt::ComesBeforeEnd, rtol });
             }
         }
@@ -110,7 +110,8 @@ impl Runner<'_> {
 
     /// Lets the events at the present act, and goes on from there.
     fn let_act(&mut self, hits: &[Mark]) -> Result<(), Outcome> {
-        let landed = self.switch_values(0.0)?;
+        let is_event = |hit: &Mark| self.system.system.switch(hit.index).role == Role::Event;
+        let landed = if hits.iter().any(is_event) { self.switch_values(0.0)? } else { vec![] };
         let (has_jumped, stop) = self.act(hits)?;
         let jumped_from = has_jumped.then_some(&landed[..]);
         if let Some(index) = stop {
@@ -133,17 +134,18 @@ impl Runner<'_> {
     fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>) -> Result<(), Outcome> {
         let values = self.switch_values(0.0)?;
         let (now, ahead, has_jumped) = (self.now.t, self.ahead, landed.is_some());
-        self.detector.stop_at(|t| ahead * (now - t) >= 0.0, &values, has_jumped);
-        for hit in hits {
-            let side = match (self.system.system.switch(hit.index).role, landed) {
+        let sides = hits.iter().map(|hit| {
+            Ok(match (self.system.system.switch(hit.index).role, landed) {
                 (Role::Guard, _) => 1,
                 // An action may have turned the motion, or moved the zero.
                 (Role::Event, Some(landed)) => self.side(hit.index, landed[hit.index], values[hit.index])?,
                 // A discontinuity has changed to the arm beyond.
                 (Role::Event | Role::Discontinuity, _) => hit.direction * ahead as i8,
-            };
-            self.detector.spend(hit.index, side, self.now.t);
-        }
+            })
+        });
+        let sides = sides.collect::<Result<Vec<i8>, Outcome>>()?;
+        self.detector.stop_at(|t| ahead * (now - t) >= 0.0, values, has_jumped);
+        hits.iter().zip(sides).for_each(|(hit, side)| self.detector.spend(hit.index, side, now));
         Ok(())
     }
 
@@ -158,7 +160,7 @@ impl Runner<'_> {
         Ok(i8::from(rise > 0.0) - i8::from(rise < 0.0))
     }
 
-    /// Makes a true step to a zero that was found on the dense output of a longer one, and once more when the function is
+    /// Makes a step to a zero that was found on the dense output of a longer one, and once more when the function is
     /// not yet zero there; just beyond, where it jumps and never is. Answers whether it got there: not where another one vanishes
     /// clearly before, at `next` as the dense output tells it; which comes first is then found from there.
     fn step_onto(&mut self, segment: &Segment, hit: Mark, next: Option<f64>) -> Result<bool, Outcome> {
@@ -168,15 +170,18 @@ impl Runner<'_> {
         if t != self.now.t && self.jumps(segment, hit)? {
             return Ok(self.step_beyond(hit, last)? || next.is_none());
         }
+        let mut on = self.system.system.lands_on_dense_output().then_some(segment);
         for _ in 0..3 {
             if t == self.now.t {
                 return Ok(true);
             }
-            self.step_to(t)?;
-            let mut values = vec![0.0; self.system.system.switches()];
+            let mut values = self.step_to(t, on)?;
+            if on.is_some() && !self.holds_but_for(hit, &values) {
+                on = None;
+                values = self.step_to(t, on)?;
+            }
             let system = &mut *self.system.system;
-            system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
-            let slope = Probe::new(system, segment).slope(hit.index, t, self.detector.noise(hit.index));
+            let slope = Probe::new(system, segment, None).slope(hit.index, t, self.detector.noise(hit.index));
             let found = t - (values[hit.index] - hit.level) / slope.map_err(Outcome::DynamicsError)?;
             let better = found.clamp(t0, t1);
             arrives = next.is_none() || better != last || is_tie(found, last, self.norm.time);
@@ -185,8 +190,7 @@ impl Runner<'_> {
             }
             t = better;
         }
-        let landed = self.segment()?;
-        self.push(landed);
+        self.land(on)?;
         Ok(arrives)
     }
 
@@ -194,20 +198,18 @@ impl Runner<'_> {
     fn jumps(&mut self, segment: &Segment, hit: Mark) -> Result<bool, Outcome> {
         let (least, latest) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
         let beside = BEYOND[0] * (self.norm.time + hit.t.abs());
-        let mut probe = Probe::new(&mut *self.system.system, segment);
+        let mut probe = Probe::new(&mut *self.system.system, segment, None);
         let mut value = |t: f64| probe.one(hit.index, t.clamp(least, latest)).map_err(Outcome::DynamicsError);
         let sides = [value(hit.t - beside)?, value(hit.t + beside)?];
         Ok(sides.iter().all(|&value| self.detector.jumps(hit.index, value)))
     }
 
-    /// Makes a true step to just beyond a jump that was found on the dense output of a longer one, or to the time `last`;
+    /// Makes a step to just beyond a jump that was found on the dense output of a longer one, or to the time `last`;
     /// answers whether it got beyond.
     fn step_beyond(&mut self, hit: Mark, last: f64) -> Result<bool, Outcome> {
         let (mut t, [mut part, growth]) = (hit.t, BEYOND);
         let is_beyond = loop {
-            self.step_to(t)?;
-            let mut values = vec![0.0; self.system.system.switches()];
-            self.system.system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
+            let values = self.step_to(t, None)?;
             let is_beyond = values[hit.index] * f64::from(hit.direction) * self.ahead > 0.0;
             if is_beyond || t == last {
                 break is_beyond;
@@ -216,17 +218,41 @@ impl Runner<'_> {
             t = if later < left { hit.t + self.ahead * later } else { last };
             part *= growth;
         };
-        let landed = self.segment()?;
-        self.push(landed);
+        self.land(None)?;
         Ok(is_beyond)
     }
 
-    /// Makes a step to `t`, which is known to be short enough.
-    fn step_to(&mut self, t: f64) -> Result<(), Outcome> {
+    /// Makes a true step to `t`, which is known to be short enough, or goes there `on` the dense output of a longer one; returns the
+    /// switching functions there.
+    fn step_to(&mut self, t: f64, on: Option<&Segment>) -> Result<Vec<f64>, Outcome> {
         self.next.t = t;
-        let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
-        attempt.map_err(ending)?;
-        self.project()?.map_err(ending)
+        if let Some(longer) = on {
+            longer.at(t, &mut self.next.y);
+        } else {
+            let attempt = self.stepper.attempt(&mut self.system, &self.now, &mut self.next, &self.norm);
+            attempt.map_err(ending)?;
+        }
+        self.project()?.map_err(ending)?;
+        let mut values = vec![0.0; self.system.system.switches()];
+        self.system.system.switch_values(t, &self.next.y, &mut values).map_err(Outcome::DynamicsError)?;
+        Ok(values)
+    }
+
+    /// Makes the end of that step the present.
+    fn land(&mut self, on: Option<&Segment>) -> Result<(), Outcome> {
+        let landed = on.map_or_else(|| self.segment(), |longer| Ok(longer.clone()))?;
+        self.push(landed);
+        Ok(())
+    }
+
+    /// Whether no guard but that of `hit` is below zero: else a dense output is not accurate enough there.
+    fn holds_but_for(&self, hit: Mark, values: &[f64]) -> bool {
+        let system = &*self.system.system;
+        let is_below = |i: usize| {
+            let spec = system.switch(i);
+            spec.role == Role::Guard && values[i] < -spec.leeway
+        };
+        (0..values.len()).filter(|&i| values[i] < 0.0 && i != hit.index).all(|i| !is_below(i))
     }
 
     /// What the events at the present do: whether the state or the law changed, and which of them ends the run.

@@ -88,6 +88,9 @@ pub(super) struct EventDetector {
     /// Whether all functions are bounded away from zero on the segment last searched.
     pub is_clear: bool,
     bounds: Vec<[f64; 2]>,
+    /// The values at the present, and at the end of the segment last searched, where they are known.
+    here: Option<Vec<f64>>,
+    ahead: Option<Vec<f64>>,
 }
 
 impl EventDetector {
@@ -109,7 +112,8 @@ impl EventDetector {
         };
         let memory: Vec<Memory> = (0..system.switches()).map(memory).collect();
         let bounds = vec![[0.0; 2]; memory.len()];
-        Self { memory, points: chebyshev_points(), rtol, unresolved: vec![], is_clear: false, bounds }
+        let points = chebyshev_points();
+        Self { memory, points, rtol, unresolved: vec![], is_clear: false, bounds, here: None, ahead: None }
     }
 
     pub fn is_idle(&self) -> bool {
@@ -119,15 +123,18 @@ impl EventDetector {
     /// All zeros on a segment, in the order of the run.
     pub fn search(&mut self, system: &mut dyn System, on: &Segment) -> Result<Vec<Mark>, DynamicsError> {
         self.is_clear = system.switch_bounds(on, &mut self.bounds) && self.stays_clear();
+        let here = self.here.take();
+        self.ahead = None;
         if self.is_clear {
             return Ok(vec![]);
         }
-        let mut probe = Probe::new(system, on);
+        let mut probe = Probe::new(system, on, here);
         let mut samples = vec![[0.0; SAMPLES]; self.memory.len()];
         for (j, &x) in self.points.iter().enumerate() {
             let values = probe.all(probe.time(x))?;
             samples.iter_mut().zip(values).for_each(|(samples, value)| samples[j] = *value);
         }
+        self.ahead = Some(probe.all(on.t1)?.to_vec());
         let mut marks = Vec::new();
         self.unresolved.clear();
         for (i, values) in samples.iter().enumerate() {
@@ -253,6 +260,7 @@ impl EventDetector {
 
     /// The segment last searched was passed to its end.
     pub fn pass(&mut self) {
+        self.here = self.ahead.take();
         for memory in &mut self.memory {
             memory.now = memory.ahead;
             memory.is_spent = false;
@@ -271,8 +279,8 @@ impl EventDetector {
 
     /// The run stopped at a zero, beyond the times that `passed`; `values` are those of all functions there. A sign that
     /// an action changed is no event: that side is found anew.
-    pub fn stop_at(&mut self, passed: impl Fn(f64) -> bool, values: &[f64], has_jumped: bool) {
-        for (memory, &value) in self.memory.iter_mut().zip(values) {
+    pub fn stop_at(&mut self, passed: impl Fn(f64) -> bool, values: Vec<f64>, has_jumped: bool) {
+        for (memory, &value) in self.memory.iter_mut().zip(&values) {
             memory.is_spent = false;
             let (mut place, touch, near) = (memory.now, memory.ahead.last_touch, memory.near(memory.now));
             let at_touch = !has_jumped && value.abs() <= near;
@@ -290,6 +298,7 @@ impl EventDetector {
             place.reach = place.reach.max(value.abs());
             memory.now = place;
         }
+        self.here = Some(values);
     }
 
     /// Size below which a value of function `i` is zero.

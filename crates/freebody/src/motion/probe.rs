@@ -27,9 +27,11 @@ pub(super) struct Probe<'a> {
 }
 
 impl<'a> Probe<'a> {
-    pub fn new(system: &'a mut dyn System, segment: &'a Segment) -> Self {
+    /// Along a segment, of which the values at the start may be known.
+    pub fn new(system: &'a mut dyn System, segment: &'a Segment, start: Option<Vec<f64>>) -> Self {
         let y = vec![0.0; system.dim()];
-        Self { system, segment, y, known: HashMap::new() }
+        let known = start.into_iter().map(|values| (segment.t0.to_bits(), values)).collect();
+        Self { system, segment, y, known }
     }
 
     /// Time at `x` in [−1, 1].

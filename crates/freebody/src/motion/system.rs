@@ -166,6 +166,11 @@ pub trait System {
         Ok(None)
     }
 
+    /// Whether an event may happen to the state of the dense output, which is less accurate than a step that ends there.
+    fn lands_on_dense_output(&self) -> bool {
+        false
+    }
+
     /// Refuses a state that no switching function lets the motion come to; called at the end of each step that passes
     /// no zero.
     ///

@@ -26,12 +26,14 @@ pub(super) enum End {
     Lost,
 }
 
-/// The equations I w − M z − d z₀ = q: columns w, z, z₀ and the right-hand side.
+/// The equations I w − M z − d z₀ = q, solved for the basis: the columns of what is not in it, and the right-hand side. Variables are
+/// numbered w, z, z₀.
 struct Tableau {
     n: usize,
     rows: Matrix,
-    /// The variable (its column) that each row gives.
+    /// The variable that each row gives, and that of each column.
     basis: Vec<usize>,
+    columns: Vec<usize>,
 }
 
 /// Follows Lemke's path with the lexicographic ratio test, on which no basis comes twice (Cottle, Pang & Stone, *The
@@ -42,14 +44,14 @@ pub(super) fn lemke(m: &Matrix, q: &[f64], d: &[f64]) -> End {
     if q.iter().all(|q| *q >= 0.0) {
         return t.solution();
     }
-    let mut enter = 2 * n;
+    let mut enter = n;
     let mut row = t.worst(d);
     for _ in 0..100 + 50 * n {
         let leave = t.pivot(row, enter);
         if leave == 2 * n {
             return t.solution();
         }
-        enter = if leave < n { leave + n } else { leave - n };
+        enter = t.column(if leave < n { leave + n } else { leave - n }).expect("its complement has left the basis");
         match t.ratio_test(enter) {
             Some(r) => row = r,
             None if t.artificial() <= RESIDUE => return t.solution(),
@@ -63,12 +65,16 @@ impl Tableau {
     fn new(m: &Matrix, q: &[f64], d: &[f64]) -> Tableau {
         let n = q.len();
         let entry = |i: usize, j: usize| match j {
-            _ if j < n => f64::from(i == j),
-            _ if j < 2 * n => -m[(i, j - n)],
-            _ if j == 2 * n => -d[i],
+            _ if j < n => -m[(i, j)],
+            _ if j == n => -d[i],
             _ => q[i],
         };
-        Tableau { n, rows: Matrix::from_fn(n, 2 * n + 2, entry), basis: (0..n).collect() }
+        Tableau { n, rows: Matrix::from_fn(n, n + 2, entry), basis: (0..n).collect(), columns: (n..=2 * n).collect() }
+    }
+
+    /// The column of a variable that is not in the basis.
+    fn column(&self, variable: usize) -> Option<usize> {
+        self.columns.iter().position(|&v| v == variable)
     }
 
     /// The row that the artificial z₀ must lift most, the last of several.
@@ -78,7 +84,7 @@ impl Tableau {
     }
 
     fn right(&self, i: usize) -> f64 {
-        self.rows[(i, 2 * self.n + 1)]
+        self.rows[(i, self.n + 1)]
     }
 
     /// z₀, by which w = M z + q is still missed.
@@ -86,38 +92,47 @@ impl Tableau {
         self.basis.iter().position(|&v| v == 2 * self.n).map_or(0.0, |i| self.right(i))
     }
 
-    /// The variable `enter` takes the place of the one of `row`, which is returned.
+    /// The variable of column `enter` takes the place of the one of `row`, which is returned.
     fn pivot(&mut self, row: usize, enter: usize) -> usize {
         let p = self.rows[(row, enter)];
+        self.rows[(row, enter)] = 1.0;
         self.rows.row_mut(row).iter_mut().for_each(|v| *v /= p);
         for i in (0..self.n).filter(|&i| i != row) {
             let (source, target) = self.rows.two_rows_mut(row, i);
-            let s = target[enter];
+            let s = std::mem::take(&mut target[enter]);
             if s != 0.0 {
                 target.iter_mut().zip(source.iter()).for_each(|(t, p)| *t -= s * p);
-                target[enter] = 0.0;
             }
         }
-        std::mem::replace(&mut self.basis[row], enter)
+        std::mem::swap(&mut self.basis[row], &mut self.columns[enter]);
+        self.columns[enter]
     }
 
-    /// The row that blocks `enter` first: z₀ if it is among them, else the least in lexicographic order.
+    /// The row that blocks column `enter` first: z₀ if it is among them, else the least in lexicographic order.
     fn ratio_test(&self, enter: usize) -> Option<usize> {
         let candidates: Vec<usize> = (0..self.n).filter(|&i| self.rows[(i, enter)] > TABLEAU_PIVOT).collect();
-        let best = candidates.iter().copied().reduce(|a, b| if self.before(b, a, enter) { b } else { a })?;
+        let mut places = vec![None; 2 * self.n + 1];
+        self.columns.iter().enumerate().for_each(|(j, &variable)| places[variable] = Some(j));
+        let best = candidates.iter().copied().reduce(|a, b| if self.before(b, a, enter, &places) { b } else { a })?;
         let home = candidates.iter().copied().find(|&i| self.basis[i] == 2 * self.n);
-        home.filter(|&h| self.compare(h, best, enter, 2 * self.n + 1).is_eq()).or(Some(best))
+        let is_tied = |h: usize| self.compare([h, best], enter, |i| self.right(i)).is_eq();
+        home.filter(|&h| is_tied(h)).or(Some(best))
     }
 
-    fn before(&self, a: usize, b: usize, enter: usize) -> bool {
-        let columns = std::iter::once(2 * self.n + 1).chain(0..self.n);
-        columns.map(|c| self.compare(a, b, enter, c)).find(|o| o.is_ne()).is_some_and(|o| o.is_lt())
+    /// Whether the ratios of row a come before those of b: of the right-hand sides, then of the columns w, which are in these `places`.
+    fn before(&self, a: usize, b: usize, enter: usize, places: &[Option<usize>]) -> bool {
+        let entry = |i: usize, w: usize| match places[w] {
+            Some(j) => self.rows[(i, j)],
+            None => f64::from(self.basis[i] == w),
+        };
+        let of_columns = (0..self.n).map(|w| self.compare([a, b], enter, |i| entry(i, w)));
+        let mut all = std::iter::once(self.compare([a, b], enter, |i| self.right(i))).chain(of_columns);
+        all.find(|o| o.is_ne()).is_some_and(|o| o.is_lt())
     }
 
-    /// Compares the ratios of rows a and b in column c.
-    fn compare(&self, a: usize, b: usize, enter: usize, c: usize) -> std::cmp::Ordering {
-        let ratio = |i| self.rows[(i, c)] / self.rows[(i, enter)];
-        let (x, y): (f64, f64) = (ratio(a), ratio(b));
+    /// Compares the ratios of two rows in a column.
+    fn compare(&self, rows: [usize; 2], enter: usize, entry: impl Fn(usize) -> f64) -> std::cmp::Ordering {
+        let [x, y]: [f64; 2] = rows.map(|i| entry(i) / self.rows[(i, enter)]);
         let tie = (x - y).abs() <= TIE * (1.0 + x.abs().max(y.abs()));
         if tie {
             std::cmp::Ordering::Equal
@@ -138,7 +153,7 @@ impl Tableau {
         End::Solution { basic, slack }
     }
 
-    /// The direction of z along which `enter` grows without bound.
+    /// The direction of z along which the variable of column `enter` grows without bound.
     fn ray(&self, enter: usize) -> Vec<f64> {
         let mut z = vec![0.0; self.n];
         let mut set = |v: usize, value: f64| {
@@ -146,7 +161,7 @@ impl Tableau {
                 z[v - self.n] = value;
             }
         };
-        set(enter, 1.0);
+        set(self.columns[enter], 1.0);
         self.basis.iter().enumerate().for_each(|(i, &v)| set(v, -self.rows[(i, enter)]));
         z
     }

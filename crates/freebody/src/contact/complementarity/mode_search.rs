@@ -19,7 +19,7 @@ const SAME_ACCELERATION: f64 = 1e-9;
 const APART: [f64; 4] = [0.0, 1e-9, 1e-7, 1e-5];
 
 /// Paths of pivoting tried: where many contacts are redundant, round-off leads some of them astray.
-const PATHS: usize = 6;
+const PATHS: usize = 3;
 
 /// Vertices tried of forces that their equations do not determine: all, for six contacts.
 const VERTICES: usize = 4_096;

@@ -13,34 +13,40 @@ const NONE: f64 = 1e-6;
 /// Modes as relaxation approaches them (Gauss–Seidel; Jourdan, Alart & Jean, *Comput. Methods Appl. Mech. Eng.* 155, 1998). It finds its
 /// way where many contacts slide, and pivoting ends in rays; where forces grow without bound it ends.
 pub(super) fn relaxed(block: &LcpBlock) -> impl Iterator<Item = Vec<Mode>> + '_ {
-    let mut force = vec![0.0; 2 * block.len()];
+    let (mut force, mut acceleration) = (vec![0.0; 2 * block.len()], block.free.clone());
     SWEEPS.into_iter().map_while(move |sweeps| {
-        (0..sweeps).for_each(|_| (0..block.len()).for_each(|i| relax(block, i, &mut force)));
+        (0..sweeps).for_each(|_| (0..block.len()).for_each(|i| relax(block, i, &mut force, &mut acceleration)));
         force.iter().all(|f| f.is_finite()).then(|| modes(block, &force))
     })
 }
 
 /// Brings the forces of one contact to what its law asks for while the others stay.
-fn relax(block: &LcpBlock, i: usize, force: &mut [f64]) {
-    let n = block.len();
-    let moved = |row: usize, force: &[f64]| {
-        block.free[row] + block.g.row(row).iter().zip(force).map(|(g, f)| g * f).sum::<f64>()
-    };
-    let drag = drag(block.friction[i]);
+fn relax(block: &LcpBlock, i: usize, force: &mut [f64], acceleration: &mut [f64]) {
+    let (n, drag) = (block.len(), drag(block.friction[i]));
     let response = block.g[(i, i)] + drag * block.g[(i, n + i)];
     if response > 0.0 {
-        force[i] = (force[i] - moved(i, force) / response).max(block.least_normal[i]);
+        let normal = (force[i] - acceleration[i] / response).max(block.least_normal[i]);
+        set(block, i, normal, force, acceleration);
     }
-    force[n + i] = match block.friction[i] {
+    let tangential = match block.friction[i] {
         BlockFriction::Law(FrictionLaw::Frictionless) => 0.0,
         BlockFriction::Law(FrictionLaw::Sliding { .. }) | BlockFriction::Starting(..) => drag * force[i],
         law if force[i] > 0.0 && block.g[(n + i, n + i)] > 0.0 => {
             let (sticking, most) =
-                (force[n + i] - moved(n + i, force) / block.g[(n + i, n + i)], bound(law) * force[i]);
+                (force[n + i] - acceleration[n + i] / block.g[(n + i, n + i)], bound(law) * force[i]);
             sticking.max(-most).min(most)
         }
         BlockFriction::Law(_) => 0.0,
     };
+    set(block, n + i, tangential, force, acceleration);
+}
+
+/// Gives one force a value, and the accelerations what this changes.
+fn set(block: &LcpBlock, row: usize, value: f64, force: &mut [f64], acceleration: &mut [f64]) {
+    let change = value - std::mem::replace(&mut force[row], value);
+    if change != 0.0 {
+        acceleration.iter_mut().zip(block.g.row(row)).for_each(|(a, g)| *a += change * g);
+    }
 }
 
 /// Most friction of a contact at rest, over its normal force.
