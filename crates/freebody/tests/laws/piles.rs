@@ -212,7 +212,7 @@ fn a_lone_disk_bounces_on() {
 
 /// All of them, for five seconds. PILES=from..to or a list of seeds chooses others.
 #[test]
-#[ignore = "a quarter of an hour, by name after a change of contacts; its small and its short piles run always, above"]
+#[ignore = "a minute or two, by name after a change of contacts; its small and its short piles run always, above"]
 fn a_hundred_piles_come_to_rest() {
     let wish = std::env::var("PILES").unwrap_or("0..100".into());
     let seeds: Vec<u64> = match wish.split_once("..") {
