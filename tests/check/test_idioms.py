@@ -10,9 +10,7 @@ from freebody.check.prose import plainly
 PUT = {
     "si T = 0 : E = const": "if T = 0 : E = const",
     "nach dem Stoß: v = 0": "after Stoß: v = 0",
-    "(shoe B, about the pin)  F c = N b": "shoe B, about the pin: F c = N b",
     "constant, if d = 0: E + V": "if d = 0: constant: E + V",
-    "\\text{plank + spool: } P = M a": "plank + spool: P = M a",
     "N = 0 where cos θ = 2/3": "N = 0 when cos θ = 2/3",
     "d²u/dθ² + u = p": "((u'' θ' − u' θ'')/(θ')^3) + u = p",
 }

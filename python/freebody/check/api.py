@@ -40,7 +40,7 @@ from .prose import plainly
 from .symbols import Symbols
 from .timed_claims import holds_on_run
 from .tried_readings import stated
-from .tried_sentences import LIKELY, in_sentences
+from .tried_sentences import LIKELY, in_sentences, spoken
 from .verdict import EVERY_TERM_IS_0, Kind, Verdict
 from .vibration import Vibration
 from .wording import BLOW, as_claim, with_condition_first
@@ -155,10 +155,11 @@ class Checker:
 
     def _as_said(self, text: str, letters: Declared | None, hypothesis: Family | None, correcting: bool) -> Verdict:
         """The verdict about a text as it stands; where it is not true so, but as sentences say it, that. Raises ``StatementError``."""
-        if hypothesis is not None:
-            return self.check(text, letters, hypothesis, correcting)
-        judging = copy(self)
-        judging.correcting = False
+        said = spoken(self, text, letters) if hypothesis is None else None
+        if said is None:
+            return _of_something(self.check(text, letters, hypothesis, correcting), text)
+        judging, asked = copy(self), copy(self)
+        judging.correcting, asked.correcting = False, correcting and self.correcting
         error: StatementError | None = None
         verdict = None
         try:
@@ -166,22 +167,13 @@ class Checker:
         except StatementError as raised:
             error = raised
         if verdict and verdict.ok:
-            label = text.rpartition(":")[0]
-            if (
-                verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0) and relates(label)
-            ):  # energy, v = 0: ½ m v² = m g s
-                return replace(
-                    verdict, kind=Kind.UNDECIDABLE, reason=f"{verdict.reason}: under that condition nothing is left of it"
-                )
-            return verdict
-        asked = copy(self)
-        asked.correcting = correcting and self.correcting
+            return _of_something(verdict, text)
         is_slip = error is not None and "did you mean" in error.hint
-        if not is_slip and (found := in_sentences(asked, text, letters, verdict)):
+        if not is_slip and (found := in_sentences(asked, text, said, letters, verdict)):
             return found
         if error:
             raise error
-        return self.check(text, letters, hypothesis, correcting) if asked.correcting else verdict
+        return asked.check(text, letters) if asked.correcting else verdict  # type: ignore[return-value]
 
     def _keeps(self, senses: str, letters: Declared | None) -> bool:
         """Whether rates have such senses on the model's own motion, as what rises has on its way."""
@@ -483,3 +475,11 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
+
+
+def _of_something(verdict: Verdict, text: str) -> Verdict:
+    """A verdict; not decidable where nothing is left of a statement under the condition that it gives: ``v = 0: ½ m v² = m g s``."""
+    says_nothing = verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)
+    if says_nothing and relates(text.rpartition(":")[0]):
+        return replace(verdict, kind=Kind.UNDECIDABLE, reason=f"{verdict.reason}: under that condition nothing is left of it")
+    return verdict

@@ -14,7 +14,7 @@ _LONG = 4  # letters from which on what stands behind an operator is a word, and
 _SHORT = re.compile(r"a[nst]|b[ey]|do|he|i[fnst]|no|o[fnr]|so|to|up|we", re.I)
 """Words of two letters, which are no symbols where they stand among others."""
 _COMMON = re.compile(
-    r"all|and|are|as|at|bar|by|end|for|from|has|is|it|its|let|not|of|off|on|one|out|rod|so|than|that|the|then|this|to|two|us|was|way|we|when|with",
+    r"all|and|are|as|at|bar|by|end|for|from|has|is|it|its|let|not|of|off|on|one|out|rod|so|than|that|the|then|this|two|us|was|way|we|when|with",
     re.I,
 )
 """Words that are words, though letters of them may be symbols."""

@@ -16,6 +16,7 @@ from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 
+from .clause_words import reworded
 from .language.statements import symbols_in
 from .later import AT_FIRST
 from .phases import alike, kind_of
@@ -33,6 +34,10 @@ LIKELY = 2.0
 """Size of a correction by which a statement is wrong, whatever some words ask."""
 _LONG = 4  # letters of a word that may name what happens
 _CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at|no [^:]* in)\b|\s*if\s*:")
+_SOMEWHERE = re.compile(
+    r"\b(?:about|around)\b(?! (?:the |its )?(?:(?:static |position of )?equilibrium|(?:place|position) of (?:rest|equilibrium)|rest|level))"
+)
+"""Small motions about some other place."""
 _NAME = re.compile(r"\\?[^\W\d]\w*")
 _CHAIN = re.compile(r"([^=<>→]+(?:=[^=<>→]+)+)=([^=<>→]+)")
 _FIGURE = re.compile(r"[-−+]?[\d.]+\s*(?:°|deg)?")
@@ -43,19 +48,23 @@ _ABOUT_ONE = re.compile(
 """``sin θ ≈ θ``, ``cos θ → 1``."""
 
 
-def in_sentences(checker: Checker, text: str, letters: Declared | None, before: Verdict | None) -> Verdict | None:
+def spoken(checker: Checker, text: str, letters: Declared | None) -> Sentence | None:
+    """What sentences say; None where a text is none, or a claim in words of its own."""
+    if _CLAIM.match(text):
+        return None
+    known = {*checker.mechanism.parameters, *checker.sampler.names, *checker.declared, *(letters or ())}
+    said = sentence(text, known, {*checker.mechanism.parameters, *checker.sampler.names})
+    in_words = said and (said.when or said.beside or said.follows or (said.labelled and said.conditions))
+    return said if in_words else None
+
+
+def in_sentences(checker: Checker, text: str, said: Sentence, letters: Declared | None, before: Verdict | None) -> Verdict | None:
     """The verdict about what sentences claim, in the first way in which that is true; where they can be read in none so, in the first that
     can be read, if the text as it stands could not be judged, ``before``: wrong where not all is understood only if a likely correction is
     true. None where they say no more than that."""
     fails = before is None or before.kind is Kind.UNDECIDABLE
-    known = {*checker.mechanism.parameters, *checker.sampler.names, *checker.declared, *(letters or ())}
-    said = sentence(text, known, {*checker.mechanism.parameters, *checker.sampler.names})
-    if (
-        said is None
-        or _CLAIM.match(text)
-        or not (said.when or said.beside or said.follows or (said.labelled and said.conditions))
-        or not (fails or said.says_all)
-    ):
+    elsewhere = any(_SOMEWHERE.search(words) and SMALL in says(words) for words in (*said.when, *said.beside))
+    if elsewhere or not (fails or said.says_all):
         return None
     judging, first = copy(checker), None
     judging.correcting = False
@@ -128,7 +137,9 @@ class _Readings:
         not ``fail`` to be judged without them, only those that say more."""
         given = [each for condition in self.said.conditions for each in _plainly(condition)]
         asked = [words for words in self.said.beside if len(words.split()) <= SHORT or WEAK.match(words)]
+        asked = [words for words in asked if not _is_label(words)]
         states = [words for words in asked if kind_of(words) and not self._found(words)]
+        states += [words for words in self.said.beside if _is_label(words)]
         ways = [[*self._ways(words)] for words in self.said.when]
         starts = [[*self._starts(words)] for words in self.said.when]
         sure = [
@@ -154,7 +165,8 @@ class _Readings:
 
     def _ways(self, words: str) -> Iterator[str]:
         """Ways to read words that say when: what is found in them, and they themselves."""
-        yield from self._found(words)
+        if not _is_label(words):
+            yield from self._found(words)
         first, *others = words.split()
         yield " ".join([first.lower(), *others])
         if first.lower() == "after" and self.jumps and re.search(BLOW, words):  # what is so from then on is so just then
@@ -170,9 +182,12 @@ class _Readings:
     def _found(self, words: str) -> list[str]:
         """The conditions that words name; small is what they say is so, else what something is claimed of."""
         found = [each for each in says(words) if each != "at rest" or kind_of(words) is None]  # at rest on the deck
-        if SMALL in found and (small := [name for name in self.names if _mentions(words, name)] or self.claimed):
-            found = [f"for small {', '.join(small)}", *found]
-        return found
+        if SMALL not in found:
+            return found
+        others = [each for each in found if each != SMALL]
+        if small := [name for name in self.names if _mentions(words, name)]:
+            return [f"for small {', '.join(small)}", *others]
+        return [*([f"for small {', '.join(self.claimed)}"] if self.claimed else []), *found]
 
     def _named(self, words: str) -> Iterator[str]:
         """The stretch behind what happens that a word is alike to, and what is so just after it."""
@@ -181,6 +196,12 @@ class _Readings:
                 yield f"after {event}"
                 if self.jumps:
                     yield f"just after {event}"
+
+
+def _is_label(words: str) -> bool:
+    """Whether words are read in exercise books' own way, but of what is small."""
+    read = reworded(words)
+    return read is not None and "small" not in read
 
 
 def _mentions(text: str, name: str) -> bool:
