@@ -57,7 +57,10 @@ OTHER_WORDS = YAML(typ="safe").load((Path(__file__).parent / "other_words.yaml")
 
 NOT_FOUND = {
     ("epicyclic_winch", "lift with held ring"): "says that an event locks what it calls held, beside a limit",
-    ("collar_slips_on_falling_rod", "angle of slip"): "is of the moment at which something begins to slip, and calls it by its sentence",
+    (
+        "collar_slips_on_falling_rod",
+        "angle of slip",
+    ): "is of the moment at which something begins to slip, and calls it by its sentence",
     ("weight_lands_block_slides_on", "acceleration while the weight falls"): "says of a stretch what a body does on it",
     ("weight_lands_block_slides_on", "whole way"): "is of the way up to a rest that comes later",
     ("pencil_tips_over", "where it begins to slip"): "is of the moment at which something begins to slip for the first time",

@@ -46,6 +46,7 @@ ARRANGED = {
     "cart in motion, rod ΣM_A: J α = −W": "while the cart moves: rod ΣM_A: J α = −W",
     "if θ and φ are small: J = k": "for small θ, φ: J = k",
     "small oscillations about θ = π: ω² = k/J": "as θ -> π: ω² = k/J",
+    "mast standing still at θ = 0: N = W": "in equilibrium, θ = 0: N = W",
     "when the speed no longer changes: F = W": "in the steady state: F = W",
 }
 AS_THEY_STAND = (

@@ -13,6 +13,7 @@ MOTION = (
     r"(?:turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
 )
 _WORDS: tuple[tuple[str, str], ...] = (
+    (r"(?:[a-z]+ )*?(?:standing|hanging|lying|resting|sitting) still at (\S+ ?= ?\S+)", r"in equilibrium, \1"),
     (
         r"(?:the )?((?:recovery|coasting|rebound|(?:free )?flight|(?:second|next|later|last|final) (?:phase|stage|part|stretch|stroke))"
         r"(?: (?:of|on|with|by) [a-z ]+)?)",
