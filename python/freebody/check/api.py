@@ -34,14 +34,13 @@ from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
 from .phases import NOT_FIRST, alike, called, kind_of, phase, with_names
-from .pieces import relates
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .symbols import Symbols
 from .timed_claims import holds_on_run
 from .tried_readings import stated
-from .tried_sentences import LIKELY, in_sentences, spoken
-from .verdict import EVERY_TERM_IS_0, Kind, Verdict
+from .tried_sentences import LIKELY, as_said
+from .verdict import Kind, Verdict
 from .vibration import Vibration
 from .wording import BLOW, as_claim, with_condition_first
 
@@ -131,7 +130,7 @@ class Checker:
         if self.whole is None:  # else it is a question of a claim that is asked already
             asked = copy(self)
             asked.whole = Budget(self.seconds, begins=thread_time())
-            return asked._as_said(*how)
+            return asked.check(*how) if hypothesis else as_said(asked, text, letters, correcting)
         if (
             (one := _SMALL_ONE.search(with_condition_first(plainly(text)[0])))
             and not self.vibration.alone
@@ -152,28 +151,6 @@ class Checker:
             if found := next(filter(None, (other(*how) for other in others)), None):
                 return found
             raise
-
-    def _as_said(self, text: str, letters: Declared | None, hypothesis: Family | None, correcting: bool) -> Verdict:
-        """The verdict about a text as it stands; where it is not true so, but as sentences say it, that. Raises ``StatementError``."""
-        said = spoken(self, text, letters) if hypothesis is None else None
-        if said is None:
-            return _of_something(self.check(text, letters, hypothesis, correcting), text)
-        judging, asked = copy(self), copy(self)
-        judging.correcting, asked.correcting = False, correcting and self.correcting
-        error: StatementError | None = None
-        verdict = None
-        try:
-            verdict = judging.check(text, letters)
-        except StatementError as raised:
-            error = raised
-        if verdict and verdict.ok:
-            return _of_something(verdict, text)
-        is_slip = error is not None and "did you mean" in error.hint
-        if not is_slip and (found := in_sentences(asked, text, said, letters, verdict)):
-            return found
-        if error:
-            raise error
-        return asked.check(text, letters) if asked.correcting else verdict  # type: ignore[return-value]
 
     def _keeps(self, senses: str, letters: Declared | None) -> bool:
         """Whether rates have such senses on the model's own motion, as what rises has on its way."""
@@ -475,11 +452,3 @@ class Checker:
             raise ModelProblem(
                 f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
             ) from None
-
-
-def _of_something(verdict: Verdict, text: str) -> Verdict:
-    """A verdict; not decidable where nothing is left of a statement under the condition that it gives: ``v = 0: ½ m v² = m g s``."""
-    says_nothing = verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)
-    if says_nothing and relates(text.rpartition(":")[0]):
-        return replace(verdict, kind=Kind.UNDECIDABLE, reason=f"{verdict.reason}: under that condition nothing is left of it")
-    return verdict

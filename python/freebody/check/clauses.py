@@ -26,7 +26,8 @@ _SENTENCE = re.compile(r"\A[^:\n]*?[\w)]\.\s+(?=[A-Z][a-z]+\b[^:\n]*:)")
 _INTRODUCES = re.compile(r"\b(?:if|when|where|at|for|with|from|until|once|while|as|given|assuming|provided|that|and|or|on|to)\Z")
 """Words behind which an equation is a condition, and not what is said."""
 _AT_TIME = ("at", "when", "where", "instant", "time", "moment")
-_CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at|no [^:]* in)\b")
+CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at|no [^:]* in)\b")
+"""With which a claim in words of its own begins."""
 
 # -- what a clause is
 
@@ -99,7 +100,7 @@ _AND = re.compile(r"\s*\band\b\s*")
 def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
     """A statement with the conditions among the clauses around its equation first, then what it is of, then the equation; any other as it
     is. Names that are ``known`` are no words; ``of_what``: words that say of what an equation is, as the names of ``bodies`` do."""
-    if "\n" in text or "⇒" in text or _CLAIM.match(text) or (";" in text and RELATION.search(text.partition(";")[0])):
+    if "\n" in text or "⇒" in text or CLAIM.match(text) or (";" in text and RELATION.search(text.partition(";")[0])):
         return text
     text = _ARE_SMALL.sub(lambda found: f" for small {_AND.sub(', ', found[2])}", text)
     plain = _SENTENCE.sub("", _BOXED.sub(r"\1", _BLANK.sub(" ", text.replace("$", ""))))

@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from freebody.symbolic.dimensions import Known
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, exchange, is_zero, unsigned, walk
+from freebody.symbolic.tree import Node, Num, Sym, exchange, is_zero, unsigned
 
 from .assumptions import first_order
 from .coefficients import tidied
@@ -27,23 +26,21 @@ from .edits import Edit, depth, edits, forgotten_factors, other_figures, with_un
 from .energy_terms import energy_edits
 from .families import NoMotion
 from .fitted_edits import FittedEdits
-from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, rows, symbols_in, terms
 from .likelihood import PARTNER, Likelihood
 from .marks import Marks
 from .momentum_edits import momentum_edits
-from .powers import powers_of
 from .relative_edits import seen_from_elsewhere
 from .residual import HOLDS, OFTEN, REACH, Edited, Residual, magnitude, residual, unreached
 from .senses import of_root, one_sense
-from .slips import is_constraint, why
+from .slips import why
 from .stated import Correction, stated
+from .subject import Subject
 
 if TYPE_CHECKING:
     from .case import Case
     from .families import Family
-    from .vocabulary import Vocabulary
 
 EQUAL = 0.35
 """Edits whose sizes differ by less are equally small."""
@@ -184,7 +181,7 @@ class _Search:
         self._edited = Edited(equation, self.few)
         self.fit = case.meaning.fits
         self.said = {n.key for n in symbols_in(equation)}
-        self.given, self.case = case.meaning.given(), case
+        self.given, self.case, self.subject = case.meaning.given(), case, Subject(case, equation)
         self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
         self._part = part
         self._marks = Marks(
@@ -298,11 +295,11 @@ class _Search:
             idle = any(self._is_idle(edit, len(each.edits) > 1) for edit in each.edits)
             # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
             own = self.said & {n.key for n in symbols_in(each.after)}
-            free = (own, own & {n.key for n in self._answers})  # nor of what it is solved for
+            free = (own, own & {n.key for n in self.subject.answers})  # nor of what it is solved for
             vacuous = any(
                 keys and self._worst(each.after, self.few | {key: self.free[key] for key in keys}) < HOLDS for keys in free
             )
-            if mark is None or idle or vacuous or self._changes_the_subject(each) or not self.fit(each.after):
+            if mark is None or idle or vacuous or self.subject.is_changed(each.edits, each.after) or not self.fit(each.after):
                 continue
             place = self._place(each)
             mark = mark if alone else alike.setdefault(self._beside_balances(each.after) or place or mark, mark)
@@ -329,23 +326,6 @@ class _Search:
             heappush(waiting, (self.likely_size(each), depth(each.after), i, each))
         yield from ((size, each) for size, _, _, each in sorted(waiting))
 
-    def _changes_the_subject(self, found: _Found) -> bool:
-        """Whether two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
-        after two edits, or with all gone from it that was said of forces, masses, weights or, after two, of a given speed."""
-        own = {n.key for n in symbols_in(found.after)}
-        solved = {n.key for n in symbols_in(self.equation) if self.case.meaning.solved(n)}
-        lost = [self.vocabulary.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
-        of_mechanics = lambda its: its is not None and bool(its.mass or its.time == -2)
-        kept = any(of_mechanics(self.vocabulary.dimension(n)) for n in symbols_in(found.after) if n.key not in solved)
-        mechanics = any(map(of_mechanics, lost)) and not kept
-        two = len(found.edits) > 1 or any(edit.kind == "missing term" and isinstance(edit.new, Add) for edit in found.edits)
-        gone = (n for n in symbols_in(self.equation) if n in self.vocabulary.parameters and n.key not in own)
-        given = two and any((its := self.vocabulary.dimension(n)) is not None and its.time for n in gone)
-        kept_answers = not self._answers or not self._answers.isdisjoint(found.after.symbols)
-        return (two and ((bool(solved) and not solved & own) or not kept_answers)) or (
-            (given or (((two and lost) or mechanics) and not self._is_constraint)) and self.case.is_kinematic(found.after)
-        )
-
     def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
         """What is left of an equation where no balance holds; nothing where that is nothing."""
         found = self._residual(equation, self.case.admissible) if self.case.admissible else None
@@ -367,43 +347,17 @@ class _Search:
         length = len(spell(tidied(found.after))) + _WORTH * self.likely_size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
-        solved = any(edit.old in self._answers for edit in found.edits) or self._is_no_answer(found.after)
-        solved |= not self._answers.union(self._likelihood.taken.differences) <= {
+        solved = any(edit.old in self.subject.answers for edit in found.edits) or self.subject.is_no_answer(found.after)
+        solved |= not self.subject.answers.union(self._likelihood.taken.differences) <= {
             *map(unsigned, (found.after.left, found.after.right))
         }
         moved = sum(n in self.vocabulary.coordinates for n in found.after.symbols - self.equation.symbols) * self.family.at_start
-        return solved or any(map(self._is_elsewhere, found.edits)), moved + len(new & {n.name for n in strange}), len(new), length
-
-    @cached_property
-    def _answers(self) -> set[Node]:
-        """The symbols that stand alone on a side."""
-        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
-        return {side for side in sides if isinstance(side, Sym)}
-
-    def _is_no_answer(self, after: Equation) -> bool:
-        """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""
-        sides = [(self.equation.left, after.right, self.equation.right), (self.equation.right, after.left, self.equation.left)]
-        for own, other, before in sides:
-            answer = own.base if isinstance(own, Pow) else unsigned(own)
-            new = other.symbols - before.symbols
-            if isinstance(answer, Sym) and any(n.name == answer.name and n.dots <= answer.dots for n in new):
-                return True
-        return False
-
-    def _is_elsewhere(self, edit: Edit) -> bool:
-        """Whether a sign is changed of what accelerates, or a number of what acts: people make these slips the other way round; or twice
-        what accelerates is added, which stands for that."""
-        if edit.kind == "missing term" and edit.new is not None:
-            return abs(powers_of(edit.new)[0]) == 2 and self._accelerates(edit.new) and self._accelerates(self.equation)
-        if edit.old is None or not self._accelerates(self.equation):
-            return False
-        of_motion, has_number = self._accelerates(edit.old), any(isinstance(n, Num) for n in walk(edit.old))
-        return of_motion if edit.kind == "sign" else edit.kind == "factor" and not (of_motion or has_number)
-
-    def _accelerates(self, node: Node) -> bool:
-        """Whether an acceleration stands in it, which may have a letter of its own."""
-        known = {n: self.vocabulary.dimension(n) for n in symbols_in(node) if n not in self.vocabulary.parameters}
-        return any(its is not None and its.time == -2 and its.mass == 0 for its in known.values())
+        return (
+            solved or any(map(self.subject.is_elsewhere, found.edits)),
+            moved + len(new & {n.name for n in strange}),
+            len(new),
+            length,
+        )
 
     def why(self, found: _Found) -> str:
         """What was wrong, a sentence for each edit."""
@@ -418,25 +372,16 @@ class _Search:
     def likely_size(self, found: _Found) -> float:
         """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
         new = symbols_in(found.after)
-        if self._is_of_other_dimension(found.after) or any(n.key not in self.said and not np.any(self.few[n.key]) for n in new):
+        if self.subject.is_of_other_dimension(found.after) or any(
+            n.key not in self.said and not np.any(self.few[n.key]) for n in new
+        ):
             return np.inf
         if self._leaves_nothing(found):
             return np.inf
         odd = sum(map(self._likelihood.lack, found.edits))
-        odd += _OF_BALANCE * (self._is_constraint and not self.case.is_kinematic(found.after))
+        odd += _OF_BALANCE * (self.subject.is_constraint and not self.case.is_kinematic(found.after))
         odd += _WITHIN * any(map(self.differentiated.is_within, found.edits))
         return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
-
-    def _is_of_other_dimension(self, after: Equation) -> bool:
-        """Whether an equation is no longer of what it was of, where one side is 0."""
-        given = self._dimension
-        its = None if given is None else _dimension(after, self.vocabulary)
-        return its is not None and its != given and bool(is_zero(after.left) or is_zero(after.right))
-
-    @cached_property
-    def _dimension(self) -> Known:
-        """What the equation given is of; None where that is not known."""
-        return _dimension(self.equation, self.vocabulary) if self.fit(self.equation) else None
 
     def _is_idle(self, edit: Edit, beside_another: bool) -> bool:
         """Whether an edit puts 0 in the place of something."""
@@ -448,10 +393,6 @@ class _Search:
             return bool(np.any(np.abs(sampled(node, self.few)) > _ROUND_OFF * magnitude(node, self.few)))
         except (KeyError, ValueError):
             return True
-
-    @cached_property
-    def _is_constraint(self) -> bool:
-        return is_constraint(self.equation, self.vocabulary)
 
     @cached_property
     def _likelihood(self) -> Likelihood:
@@ -494,12 +435,6 @@ def _where_known(equation: Equation, values: Mapping[str, Array]) -> Mapping[str
     found = [np.isfinite(values[n.key]) for n in symbols_in(equation) if n.key in values]
     known = np.all([each.reshape(len(each), -1).all(axis=1) for each in found], axis=0)
     return values if np.all(known) or np.sum(known) < OFTEN else {key: value[known] for key, value in values.items()}
-
-
-def _dimension(equation: Equation, vocabulary: Vocabulary) -> Known:
-    """What the terms of an equation are of, as far as that is known."""
-    found = (dimension(term, vocabulary.dimensions) for term in terms(equation))
-    return next((each for each in found if each is not None), None)
 
 
 _SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)

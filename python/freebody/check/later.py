@@ -22,17 +22,13 @@ from .phases import called, kind_of, phase
 from .prose import plainly
 from .residual import magnitude
 from .verdict import Kind, Verdict
-from .wording import IN_WORDS, OF_WHAT, with_condition_first
+from .wording import DOING, IN_WORDS, OF_WHAT, with_condition_first
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
 
 AT_FIRST = "It holds as the model is at first"
 _ROUND_OFF = 1e-9  # of the terms of an equation, below which one of them is 0
-_DOING = re.compile(
-    r"\b(?!(?:ring|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
-)
-"""Words of what something does."""
 _LOWER = re.compile(r"(?<![\w\\])(?!(?:for|the|and|with|about|along|both|whole|from)\b)[a-z]{3,}(?!\w)")
 _GOES_ON = re.compile(r"\b(?:still|until|before)\b")
 """Words by which a label is of the model as it is at first."""
@@ -85,7 +81,7 @@ def only_later(checker: Checker, verdict: Verdict, text: str, letters: Declared 
 def _says_what_happens(checker: Checker, text: str) -> bool:
     """Whether in a label something does what is not understood: ``frame going over:``."""
     label, colon, _ = text.rpartition(":")
-    doing = {*_DOING.findall(label)} - {*checker.symbols().bodies} if colon else set()
+    doing = {*DOING.findall(label)} - {*checker.symbols().bodies} if colon else set()
     return bool(doing) and kind_of(label) is None and _GOES_ON.search(label) is None
 
 

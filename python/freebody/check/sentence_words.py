@@ -4,77 +4,61 @@ from __future__ import annotations
 
 import re
 
-OPENERS = re.compile(
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+CONJUNCTION = re.compile(
     r"\b(?:(?:just|right|immediately|directly|shortly|even) )?(?:(?:as|so) (?:long|soon) as|by the time|from the (?:instant|moment) (?=when|that|the|it)"
     r"|while|when(?:ever)?|once|after|before|until|during|if|provided(?: that)?|assuming(?: that)?|supposing(?: that)?|suppose|upon)\b",
     re.I,
 )
 """With which a clause begins that says when."""
-PLACE = re.compile(r"(?:on|in|at|against|with|without|for|near)(?= )", re.I)
+PREPOSITIONS = _words("on in at against with without for near")
 """With which a place or a circumstance begins."""
-WEAKLY = re.compile(r"with|at|for|from|as|near|nearly|past|through|since|because|where|means|case", re.I)
-"""Those behind which it may be what is claimed as well: ``swings at ω = …``."""
-WEAK = re.compile(
-    r"(?:at|in|on|with|without|for|from|near|neglecting|ignoring|about|under|the|a|an|no|nothing|both|all|it|everything)\b", re.I
+CIRCUMSTANCES = _words(
+    "at in on with without for from near neglecting ignoring about under the a an no nothing both all it everything"
 )
 """With which words begin that may say when."""
-SETS = re.compile(
-    r"(?:set|setting|put|putting|let|letting|suppose|supposing|take|taking|assume|assuming|choose|choosing|if|when|whenever|where|with|at|for|once|until|till|provided"
-    r"|given|while|because|since|that is|i e|after|before|as|nearly|near|through|past|passes|reaches|case|means|from)\Z",
-    re.I,
+CONDITIONAL = _words(
+    "set setting put putting let letting suppose supposing take taking assume assuming choose choosing given provided if "
+    "when whenever where while once until after before with at for as from near nearly through past passes reaches because "
+    "since case means"
 )
 """Words behind which a relation is a condition."""
+AMBIGUOUS = _words("with at for from as near nearly past through since because where means case")
+"""Those of them behind which it may be what is claimed as well: ``swings at ω = …``."""
 ADJACENT = 5  # words before a relation among which one of these makes it a condition, or one from which another follows
-PREMISES = re.compile(
-    r"differentiat(?:e|ing)|using|eliminat(?:e|ing)|insert(?:ing)?|substitut(?:e|ing)|combin(?:e|ing)|integrat(?:e|ing)|add(?:ing)?|divid(?:e|ing)|solv(?:e|ing)",
-    re.I,
+PREMISES = _words(
+    "differentiate differentiating using eliminate eliminating insert inserting substitute substituting combine combining "
+    "integrate integrating add adding divide dividing solve solving"
 )
 """Words behind which a relation is one from which another follows."""
-VERBS = re.compile(
-    r"is|are|was|becomes?|gives?|yields?|gets?|ha(?:ve|s)|finds?|obtains?|follows?|reads?|results?|remains?|means", re.I
+VERBS = _words(
+    "is are was become becomes give gives yield yields get gets have has find finds obtain obtains follow follows read "
+    "reads result results remain remains means"
 )
 """Words behind which a relation is claimed, whatever stands before them."""
-LEADS = re.compile(
-    r"(?:is|are|was|becomes?|gives?|yields?|get|gets|have|has|find|obtain|follows?|follow|obeys?|reads?|says?|holds?|that|so|then|hence|therefore|thus|remains?|results?|stays?"
-    r"|satisf(?:y|ies)|means|to|equals?|by|as|law|equation|relation|condition|us|out|need|must|needs|rule|answer|according|there|from|we|and|it|only)\Z",
-    re.I,
+LEADS = _words(
+    "obey obeys say says hold holds stay stays satisfy satisfies equal equals need needs must that so then hence therefore "
+    "thus to by law equation relation condition rule answer according there us out we and it only"
 )
-"""Words behind which a relation is what is claimed."""
+"""Words behind which a relation is claimed, unless it is a premise."""
 SHORT = 6
 """Words of a clause at most in which a condition is named, and not spoken of."""
-PRONOUNS = {
-    "it",
-    "he",
-    "she",
-    "they",
-    "we",
-    "there",
-    "which",
-    "one",
-    "everything",
-    "nothing",
-    "its",
-    "their",
-    "his",
-    "her",
-    "you",
-    "this",
-    "that",
-    "so",
-    "then",
-}
-DETERMINERS = {"the", "a", "an", "every", "each", "both", "all", "no"}
-FOLLOWED = re.compile(
-    r"(?:at|in|on|with|for|from|of|to|by|about|against|along|over|under|into|through|towards?|round|around|off|up|down|than|as|and|or|is|are|was|has|have|had|been|between|near|past"
-    r"|left|leaves?|leaving|hits?|strikes?|struck|reach(?:es|ed)?|touch(?:es|ed)?|meets?|met|passes|passed|catch(?:es)?|caught|los(?:es|t|es)|lets?|cuts?|carries|carr(?:ied|y)"
-    r"|press(?:es|ed)?|takes|taken|took|comes|gets|after|before|during|until|while|when|once|if|out|not|still|just|only)",
-    re.I,
+PRONOUNS = _words("it he she they we you there which one everything nothing its their his her this that so then")
+DETERMINERS = _words("the a an every each both all no")
+FOLLOWED = _words(
+    "at in on with for from of to by about against along over under into through toward towards round around off up down "
+    "than as and or is are was has have had been between near past after before during until while when once if out not "
+    "still just only left leave leaves leaving hit hits strike strikes struck reach reaches reached touch touches touched "
+    "meet meets met passes passed catch catches caught lost loses let lets cut cuts carries carried carry press presses "
+    "pressed takes taken took comes gets"
 )
 """Words behind which an article goes on with the same clause."""
-DOING = re.compile(
-    r"\b(?!(?:ring|string|spring|bearing|during|being|using|taking)\b)[a-z]{2,}(?:ing|ed|wn)\b|\b(?:back|again|off|away|loose|on it)\b"
-)
-"""Words of what something does, or of what has become of it."""
+AWAY = re.compile(r"\b(?:[a-z]{2,}wn|back|again|off|away|loose|on it)\b")
+"""What has become of something: ``thrown back``."""
 NAMED_VALUES, IS = ("period", "frequency"), ("is", "of", "then", "becomes", "was", "equals")
 """What is said to be a value without a letter, and words between."""
 VANISHES = re.compile(

@@ -6,33 +6,37 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from itertools import pairwise
 
 from freebody.symbolic.symbols import folded
 
 from .pieces import RELATION, pieces_of, relates
 from .sentence_words import (
     ADJACENT,
+    AMBIGUOUS,
+    AWAY,
+    CONDITIONAL,
+    CONJUNCTION,
     DETERMINERS,
-    DOING,
     FOLLOWED,
     IS,
     LEADS,
     NAMED_VALUES,
-    OPENERS,
-    PLACE,
     PREMISES,
+    PREPOSITIONS,
     PRONOUNS,
-    SETS,
     SHORT,
     VANISHES,
     VERBS,
-    WEAKLY,
     plain_words,
     says,
 )
+from .wording import DOING
 
 _EDGE, _HENCE = "\x1f", "\x1e"  # of a formula that is set apart; before what follows
 _APART = re.compile(rf"(?<![=<>+*/-])\s*{_EDGE}\s*(?![=<>])")
+"""Between formulas that are set apart; one that goes on behind a sign is the same."""
 _SET_APART = re.compile(r"\$+|\\[\[\]()]")
 _TEXT = re.compile(r"\\(?:text|textrm|textit|mbox)\s*\{([^{}]*)\}(?![_^'])|\\(?:mathrm|mathit)\s*\{([^{}]*[a-z]{2} [^{}]*)\}")
 _BLANK = re.compile(r"\\(?:(?:q?quad|textstyle|displaystyle)(?![A-Za-z])|[,;:!> ])")
@@ -78,29 +82,34 @@ class Sentence:
     def says_all(self) -> bool:
         """Whether no other words may say when, in ways that are not understood: ``thrown back``."""
         labels = (words for words in self.beside if len(words.split()) <= SHORT and not says(words))
-        return not any(DOING.search(words) for words in labels)
+        return not any(DOING.search(words) or AWAY.search(words) for words in labels)
+
+
+class _Role(IntEnum):
+    """What words before a relation make of it."""
+
+    CLAIM = 0
+    EITHER = 1
+    CONDITION = 2
+    PREMISE = 3
 
 
 @dataclass(frozen=True)
 class _Relation:
-    """One that is written in a clause; ``opened``: how surely words make it a condition, ``aside``: in brackets; ``again``: the words that
-    it says once more, if it is one; ``leads``: behind words or signs for what follows; ``joined`` to the one before."""
+    """One that is written in a clause: its ``role`` by the words before it; ``aside``: in brackets; ``again``: the words that say when, of
+    which it is a second way to say that; ``leads``: behind a sign of what follows; ``joined`` to the one before; ``colons`` before it."""
 
     text: str
-    opened: int
-    aside: bool = False
-    again: str = ""
-    leads: bool = False
-    joined: bool = False
+    role: _Role
+    aside: bool
+    again: str
+    leads: bool
+    joined: bool
+    colons: int
 
     @property
     def is_value(self) -> bool:
         return _VALUE.fullmatch(_DOTTED.sub(r"\1'", self.text)) is not None
-
-
-_NOT, _PERHAPS, _SURELY, _BEFORE = range(4)
-_LABEL_ENDS = _Relation(":", _BEFORE)
-"""The colon behind which a statement begins: relations before it are conditions."""
 
 
 def sentence(text: str, known: Collection[str], fixed: Collection[str] = ()) -> Sentence | None:
@@ -108,16 +117,12 @@ def sentence(text: str, known: Collection[str], fixed: Collection[str] = ()) -> 
     that are ``fixed``, from which something follows, is a condition."""
     if _BOTH_SIDES.search(text):
         return None
-    said, relations = Sentence(labelled=_LABELLED.match(text) is not None, follows=_IMPLIES.search(text) is not None), []
+    parser = _Parser(known)
     for part in _ENDS.split(_plain(text)):
         for clause, aside in _asides(_LAST.sub("", part), known):
-            relations += _read(clause, aside, known, said)
-    label = max((i for i, relation in enumerate(relations[:-1]) if relation is _LABEL_ENDS), default=0)
-    relations = [
-        replace(each, opened=_SURELY) if i < label and each.opened < _BEFORE else each for i, each in enumerate(relations)
-    ]
-    relations = [each for each in relations if each is not _LABEL_ENDS]
-    relations = [each for each in relations if each.opened < _BEFORE] or relations
+            parser.read(clause, aside)
+    relations, said = parser.in_question(), parser.said
+    said.labelled, said.follows = _LABELLED.match(text) is not None, _IMPLIES.search(text) is not None
     claims = _claimed(relations, fixed)
     for i, relation in enumerate(relations):
         (said.claims if i in claims else said.conditions).append(relation.text)
@@ -129,16 +134,16 @@ def sentence(text: str, known: Collection[str], fixed: Collection[str] = ()) -> 
 
 def _claimed(relations: Sequence[_Relation], fixed: Collection[str]) -> list[int]:
     """Which of some relations are claimed: those that nothing makes a condition; else the last that might be one."""
-    outer = [i for i, relation in enumerate(relations) if not relation.aside and relation.opened < _SURELY]
+    outer = [i for i, relation in enumerate(relations) if not relation.aside and relation.role < _Role.CONDITION]
     outer = [i for i in outer if not _is_of(relations[i].text, fixed)] or outer
     ways = (
-        [i for i in outer if not (relations[i].opened or (relations[i].is_value and not relations[i].leads))],
+        [i for i in outer if not (relations[i].role or (relations[i].is_value and not relations[i].leads))],
         [i for i in outer if not relations[i].is_value][-1:],
-        [i for i in outer if not relations[i].opened][-1:],
+        [i for i in outer if not relations[i].role][-1:],
         [*range(len(relations))][-1:],
     )
     found = next(filter(None, ways), [])
-    pairs = [i - 1 for i in found if relations[i].joined and i - 1 in outer and not relations[i - 1].opened]
+    pairs = [i - 1 for i in found if relations[i].joined and i - 1 in outer and not relations[i - 1].role]
     return sorted({*found, *pairs})
 
 
@@ -146,6 +151,9 @@ def _is_of(text: str, names: Collection[str]) -> bool:
     """Whether a relation is between some names alone, and no rates of them."""
     said = [folded(word) for word in re.findall(r"\\?[^\W\d]\w*", _GLYPHS.sub("", text))]
     return "'" not in text and bool(names) and {*said} <= {*map(folded, names), *_FUNCTIONS}
+
+
+# -- sentences and clauses
 
 
 def _plain(text: str) -> str:
@@ -172,111 +180,126 @@ def _asides(text: str, known: Collection[str]) -> Iterator[tuple[str, bool]]:
     yield from ((said, True) for said in inner)
 
 
-def _read(text: str, aside: bool, known: Collection[str], said: Sentence) -> Iterator[_Relation]:
-    """The relations of a sentence, clause by clause; its words go to what is ``said``."""
-    words: list[str] = []
-    before: list[str] = []  # the words of the clause before
-    label = False
-    for kind, written in _parts(text, known):
-        if kind == "relation":
-            opened, same = _opens(words), _SAME.fullmatch(" ".join(words).lower()) is not None and _sets(before)
-            if same and (words or _VALUE.fullmatch(written)):
-                opened = max(opened, _PERHAPS)
-            again = said.when[-1] if same and said.when else ""
-            opened = _BEFORE if _SUM.match(written) else opened
-            leads = not opened and (words[-1:] == [_HENCE] if words else label)
-            yield _Relation(written, opened, aside, again, leads, words == ["and"])
-            _take([word for word in words if word != _HENCE], said, drops=opened > _NOT)
-            before, words, label = [], [], False
-        elif kind == "sign":
-            yield from _vanishing(words, aside)
-            _take(words, said)
-            if written == ":":
-                yield _LABEL_ENDS
-                label = True
-            before, words = ((words or before) if written == "," else []), []
-        else:
-            words.append(written)
-    yield from _vanishing(words, aside)
-    _take(words, said)
+class _Parser:
+    """Takes sentences apart, clause by clause: what they say in words goes to ``said``, what they write to ``relations``."""
+
+    def __init__(self, known: Collection[str]) -> None:
+        self.known, self.said, self.relations, self.colons = known, Sentence(), list[_Relation](), 0
+
+    def in_question(self) -> list[_Relation]:
+        """The relations that may be claimed or conditions: those in a label are conditions; premises only where there are no others."""
+        last = max((relation.colons for relation in self.relations), default=0)
+        every = [replace(each, role=max(each.role, _Role.CONDITION)) if each.colons < last else each for each in self.relations]
+        return [each for each in every if each.role < _Role.PREMISE] or every
+
+    def read(self, text: str, aside: bool) -> None:
+        """Takes a sentence, or what stands in brackets, ``aside``, apart."""
+        words: list[str] = []
+        before: list[str] = []  # the words of the clause before
+        label = False
+        for kind, written in self._parts(text):
+            if kind == "word":
+                words.append(written)
+                continue
+            if kind == "relation":
+                self._write(written, words, before, aside, label)
+                before, label = [], False
+            else:
+                self._end(words, aside)
+                label |= written == ":"
+                self.colons += written == ":"
+                before = (words or before) if written == "," else []
+            words = []
+        self._end(words, aside)
+
+    def _parts(self, text: str) -> Iterator[tuple[str, str]]:
+        """The parts of a sentence, each a relation, a sign that parts clauses, or a word or symbol."""
+        last = ""
+        for piece in pieces_of(text, self.known):
+            written = text[piece.start : piece.stop]
+            if piece.kind in ",;:":
+                yield "sign", written
+            elif piece.kind == "words":
+                last = written if written not in IS else last
+                yield "word", written
+            else:
+                for each in filter(None, (part.strip(" .~") for part in _APART.split(written))):
+                    said = _OF_PERIOD.sub("", each)
+                    if last in NAMED_VALUES and (said != each or not relates(each)):  # the period is 2 π √(m/k)
+                        yield "relation", f"{last} = {said}"
+                        continue
+                    is_law = any(map(RELATION.match, (each[:1], each[-1:])))  # lost energy = gained energy
+                    yield ("relation" if relates(each) and not is_law else "word"), each
+
+    def _write(self, text: str, words: Sequence[str], before: Sequence[str], aside: bool, label: bool) -> None:
+        """Puts a relation behind ``words`` to the others; ``before``: those of the clause before; ``label``: directly behind a colon."""
+        role, again = _role(words), ""
+        if _SAME.fullmatch(" ".join(words).lower()) and _is_conditional(before):
+            role = max(role, _Role.EITHER) if words or _VALUE.fullmatch(text) else role
+            again = self.said.when[-1] if self.said.when else ""
+        role = _Role.PREMISE if _SUM.match(text) else role
+        leads = not role and (words[-1:] == [_HENCE] if words else label)
+        self.relations.append(_Relation(text, role, aside, again, leads, words == ["and"], self.colons))
+        self._take([word for word in words if word != _HENCE], drops=role > _Role.CLAIM)
+
+    def _end(self, words: Sequence[str], aside: bool) -> None:
+        """Ends a clause in words, which may say that something vanishes: ``l φ' + s' is zero``."""
+        for i in range(1, len(words)):
+            if VANISHES.fullmatch(" ".join(words[i:])) and re.search(r"[^A-Za-z-]", words[i - 1]):
+                role = _role(words[: i - 1])
+                self.relations.append(_Relation(f"{words[i - 1]} = 0", role, aside, "", False, False, self.colons))
+                break
+        self._take(words)
+
+    def _take(self, words: Sequence[str], drops: bool = False) -> None:
+        """Puts the words of a clause to those that say when, or to the others; ``drops`` the condition at its end, which a relation says."""
+        clause, at = " ".join(words), 0
+        begins = [*CONJUNCTION.finditer(clause)]
+        for found, following in zip(begins, [*(each.start() for each in begins[1:]), len(clause)], strict=False):
+            if found.start() < at:
+                continue
+            self.said.beside += _apart(clause[at : found.start()].strip())
+            at = found.start() + _ends(clause[found.start() : following], found.end() - found.start())
+            if (of_what := clause[found.end() : at].strip()) and not of_what.startswith("="):
+                condition = clause[found.start() : at].strip()
+                (self.said.beside if drops and at == len(clause) else self.said.when).append(condition)
+        self.said.beside += _apart(clause[at:].strip())
 
 
-def _parts(text: str, known: Collection[str]) -> Iterator[tuple[str, str]]:
-    """The parts of a sentence, each a relation, a sign that parts clauses, or a word or symbol."""
-    last = ""
-    for piece in pieces_of(text, known):
-        written = text[piece.start : piece.stop]
-        if piece.kind in ",;:":
-            yield "sign", written
-        elif piece.kind == "words":
-            last = written if written not in IS else last
-            yield "word", written
-        else:
-            for each in filter(None, (part.strip(" .~") for part in _APART.split(written))):
-                said = _OF_PERIOD.sub("", each)
-                if last in NAMED_VALUES and (said != each or not relates(each)):  # the period is 2 π √(m/k)
-                    yield "relation", f"{last} = {said}"
-                    continue
-                is_law = any(map(RELATION.match, (each[:1], each[-1:])))  # lost energy = gained energy
-                yield ("relation" if relates(each) and not is_law else "word"), each
+# -- words
 
 
-def _vanishing(words: Sequence[str], aside: bool) -> Iterator[_Relation]:
-    """``l φ' + s' is zero``."""
-    for i in range(1, len(words)):
-        if VANISHES.fullmatch(" ".join(words[i:])) and re.search(r"[^A-Za-z-]", words[i - 1]):
-            yield _Relation(f"{words[i - 1]} = 0", _opens(words[: i - 1]), aside)
-            return
-
-
-def _sets(words: Sequence[str]) -> bool:
+def _is_conditional(words: Sequence[str]) -> bool:
     """Whether a clause says what is so somewhere."""
-    return bool(words) and (SETS.fullmatch(words[0]) is not None or OPENERS.match(" ".join(words)) is not None)
+    return bool(words) and (words[0].lower() in CONDITIONAL or CONJUNCTION.match(" ".join(words)) is not None)
 
 
-def _opens(words: Sequence[str]) -> int:
-    """How surely words directly before a relation make it a condition."""
-    near = words[-ADJACENT:]
-    if near and VERBS.fullmatch(near[-1]):
-        return _NOT
-    if any(map(PREMISES.fullmatch, near)):
-        return _BEFORE
-    if not near or (LEADS.fullmatch(near[-1]) and not SETS.fullmatch(near[-1])):
-        return _NOT
-    found = [word for word in near if SETS.fullmatch(word)]
-    return _NOT if not found else _PERHAPS if WEAKLY.fullmatch(found[-1]) else _SURELY
-
-
-def _take(words: Sequence[str], said: Sentence, drops: bool = False) -> None:
-    """Puts the words of a clause to those that say when, or to the others; ``drops`` the condition at its end, which a relation says."""
-    clause = " ".join(words)
-    at = 0
-    openers = [*OPENERS.finditer(clause)]
-    for i, found in enumerate(openers):
-        if found.start() < at:
-            continue
-        said.beside += _apart(clause[at : found.start()].strip())
-        following = openers[i + 1].start() if i + 1 < len(openers) else len(clause)
-        at = found.start() + _ends(clause[found.start() : following], found.end() - found.start())
-        condition = clause[found.start() : at].strip()
-        if len(condition) > found.end() - found.start() and not condition[found.end() - found.start() :].lstrip().startswith("="):
-            (said.beside if drops and at == len(clause) else said.when).append(condition)
-    said.beside += _apart(clause[at:].strip())
+def _role(words: Sequence[str]) -> _Role:
+    """What the words directly before a relation make of it."""
+    near = [word.lower() for word in words[-ADJACENT:]]
+    if not near or near[-1] in VERBS:
+        return _Role.CLAIM
+    if not PREMISES.isdisjoint(near):
+        return _Role.PREMISE
+    found = [word for word in near if word in CONDITIONAL]
+    if near[-1] in LEADS or not found:
+        return _Role.CLAIM
+    return _Role.EITHER if found[-1] in AMBIGUOUS else _Role.CONDITION
 
 
 def _apart(words: str) -> list[str]:
     """Words that say nothing of when, where they begin with a place apart from what goes on: ``On the ramp | the friction points up``."""
-    place = PLACE.match(words)
-    ends = _ends(words, place.end()) if place else len(words)
+    first, space, _ = words.partition(" ")
+    ends = _ends(words, len(first)) if space and first.lower() in PREPOSITIONS else len(words)
     return [part for part in (words[:ends].strip(), words[ends:].strip()) if part]
 
 
-def _ends(clause: str, opener: int) -> int:
-    """Where a condition ends that a clause begins with, and the main clause begins, ``just after the impact | the rod pulls with``."""
-    found = [*re.finditer(r"\S+", clause[opener:])]
-    for i, word in enumerate(found[1:], 1):
-        one, before = word[0].lower(), found[i - 1][0].lower()
-        goes_on = FOLLOWED.fullmatch(before) or before in DETERMINERS
-        if one in PRONOUNS or (one in DETERMINERS and not goes_on):
-            return opener + word.start()
+def _ends(clause: str, begins: int) -> int:
+    """Where a condition ends that a clause begins with, up to ``begins`` in its first words, and the main clause begins:
+    ``just after the impact | the rod pulls with``."""
+    found = [*re.finditer(r"\S+", clause[begins:])]
+    for before, word in pairwise(found):
+        one, last = word[0].lower(), before[0].lower()
+        if one in PRONOUNS or (one in DETERMINERS and last not in FOLLOWED | DETERMINERS):
+            return begins + (before if last == "only" else word).start()
     return len(clause)

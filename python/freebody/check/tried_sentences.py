@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice, product
 from typing import TYPE_CHECKING
 
@@ -17,12 +18,14 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
 
 from .clause_words import reworded
+from .clauses import CLAIM
 from .language.statements import symbols_in
 from .later import AT_FIRST
 from .phases import alike, kind_of
-from .sentence_words import DETERMINERS, FOLLOWED, FROM_REST, FROM_START, SHORT, SMALL, WEAK, says
+from .pieces import relates
+from .sentence_words import CIRCUMSTANCES, DETERMINERS, FOLLOWED, FROM_REST, FROM_START, SHORT, SMALL, says
 from .sentences import Sentence, sentence
-from .verdict import Kind, Verdict
+from .verdict import EVERY_TERM_IS_0, Kind, Verdict
 from .wording import BLOW
 
 if TYPE_CHECKING:
@@ -33,7 +36,7 @@ _NOTHING = 1e-12  # of a unit, below which a side is 0 but for round-off
 LIKELY = 2.0
 """Size of a correction by which a statement is wrong, whatever some words ask."""
 _LONG = 4  # letters of a word that may name what happens
-_CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at|no [^:]* in)\b|\s*if\s*:")
+_EMPTY = re.compile(r"\s*if\s*:")
 _SOMEWHERE = re.compile(
     r"\b(?:about|around)\b(?! (?:the |its )?(?:(?:static |position of )?equilibrium|(?:place|position) of (?:rest|equilibrium)|rest|level))"
 )
@@ -48,9 +51,36 @@ _ABOUT_ONE = re.compile(
 """``sin θ ≈ θ``, ``cos θ → 1``."""
 
 
-def spoken(checker: Checker, text: str, letters: Declared | None) -> Sentence | None:
+def as_said(checker: Checker, text: str, letters: Declared | None, correcting: bool) -> Verdict:
+    """The verdict about a text as it stands; where it is not true so, but as sentences say it, that. Raises ``StatementError``."""
+    said = _spoken(checker, text, letters)
+    if said is None:
+        return _of_something(checker.check(text, letters, correcting=correcting), text)
+    judging, asked = copy(checker), copy(checker)
+    judging.correcting, asked.correcting = False, correcting and checker.correcting
+    try:
+        verdict = judging.check(text, letters)
+    except StatementError as error:
+        if "did you mean" not in error.hint and (found := _in_sentences(asked, text, said, letters, None)):
+            return found
+        raise
+    if verdict.ok:
+        return _of_something(verdict, text)
+    found = _in_sentences(asked, text, said, letters, verdict)
+    return found or (asked.check(text, letters) if asked.correcting else verdict)
+
+
+def _of_something(verdict: Verdict, text: str) -> Verdict:
+    """A verdict; not decidable where nothing is left of a statement under the condition that it gives: ``v = 0: ½ m v² = m g s``."""
+    says_nothing = verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)
+    if says_nothing and relates(text.rpartition(":")[0]):
+        return replace(verdict, kind=Kind.UNDECIDABLE, reason=f"{verdict.reason}: under that condition nothing is left of it")
+    return verdict
+
+
+def _spoken(checker: Checker, text: str, letters: Declared | None) -> Sentence | None:
     """What sentences say; None where a text is none, or a claim in words of its own."""
-    if _CLAIM.match(text):
+    if CLAIM.match(text) or _EMPTY.match(text):
         return None
     known = {*checker.mechanism.parameters, *checker.sampler.names, *checker.declared, *(letters or ())}
     said = sentence(text, known, {*checker.mechanism.parameters, *checker.sampler.names})
@@ -58,49 +88,49 @@ def spoken(checker: Checker, text: str, letters: Declared | None) -> Sentence | 
     return said if in_words else None
 
 
-def in_sentences(checker: Checker, text: str, said: Sentence, letters: Declared | None, before: Verdict | None) -> Verdict | None:
-    """The verdict about what sentences claim, in the first way in which that is true; where they can be read in none so, in the first that
-    can be read, if the text as it stands could not be judged, ``before``: wrong where not all is understood only if a likely correction is
-    true. None where they say no more than that."""
+def _in_sentences(
+    checker: Checker, text: str, said: Sentence, letters: Declared | None, before: Verdict | None
+) -> Verdict | None:
+    """The verdict about what sentences claim, in the first way in which that is true; where it is in none, and the text could not be read,
+    so that there is no verdict ``before``, in the first way in which it can be read. None where they say no more than the text did."""
     fails = before is None or before.kind is Kind.UNDECIDABLE
     elsewhere = any(_SOMEWHERE.search(words) and SMALL in says(words) for words in (*said.when, *said.beside))
     if elsewhere or not (fails or said.says_all):
         return None
-    judging, first = copy(checker), None
+    judging = copy(checker)
     judging.correcting = False
-    for read, is_whole in islice(_Readings.of(judging, said, letters).all(fails, before is None), _MOST):
-        if first and first[1] and not is_whole and said.when:  # they are understood
+    first: tuple[Verdict, _Reading] | None = None
+    for reading in islice(_Readings.of(judging, said, letters).all(fails, before is None), _MOST):
+        if first and first[1].is_whole and not reading.is_whole and said.when:  # they are understood
             break
         with suppress(StatementError):
-            found = _judged(judging, read, said.claims, letters)
-            told = f"It is read as: {f'{read}: ' * bool(read)}{', '.join(said.claims)}."
+            found = _judged(judging, reading, said.claims, letters)
+            told = f"It is read as: {reading.before(', '.join(said.claims))}."
             found = replace(found, text=text.strip(), notes=(*found.notes, told))
             at_first = not said.when and any(note.startswith(AT_FIRST) for note in found.notes)
             if found.ok and not (found.untested or at_first or _says_nothing(found, said.claims)):
                 return found
-            if not found.ok and (first is None or first[2].kind is Kind.UNDECIDABLE):
-                first = read, is_whole, found
+            if not found.ok and (first is None or first[0].kind is Kind.UNDECIDABLE):
+                first = found, reading
     return _wrong(checker, said, letters, *first) if first and before is None else None
 
 
-def _wrong(
-    checker: Checker, said: Sentence, letters: Declared | None, read: str, is_whole: bool, found: Verdict
-) -> Verdict | None:
+def _wrong(checker: Checker, said: Sentence, letters: Declared | None, found: Verdict, reading: _Reading) -> Verdict | None:
     """What is not true in one reading, with its corrections; None where not all of that is understood, and none of them is likely."""
-    if found.kind is not Kind.WRONG or not (checker.correcting or not is_whole):
-        return found if is_whole else None
+    if found.kind is not Kind.WRONG or not (checker.correcting or not reading.is_whole):
+        return found if reading.is_whole else None
     correcting = copy(checker)
     correcting.correcting = True
-    mends = _judged(correcting, read, said.claims, letters).mends
-    if not is_whole and not (mends and mends[0].size <= LIKELY):
+    mends = _judged(correcting, reading, said.claims, letters).mends
+    if not reading.is_whole and not (mends and mends[0].size <= LIKELY):
         return None
     return replace(found, mends=mends if checker.correcting else ())
 
 
-def _judged(checker: Checker, read: str, claims: Sequence[str], letters: Declared | None) -> Verdict:
-    """The verdict about all claims under a condition: the first that is not true, else the last."""
+def _judged(checker: Checker, reading: _Reading, claims: Sequence[str], letters: Declared | None) -> Verdict:
+    """The verdict about all claims in one reading: the first that is not true, else the last."""
     for claim in claims:
-        found = checker.check(f"{read}: {claim}" if read else claim, letters)
+        found = checker.check(reading.before(claim), letters)
         if not found.ok:
             break
     return found
@@ -110,6 +140,17 @@ def _says_nothing(found: Verdict, claims: Sequence[str]) -> bool:
     """Whether all that it is of is 0 there, though it does not say so."""
     zero = any(re.search(r"=\s*0\s*\Z", claim) for claim in claims)
     return not zero and found.evidence is not None and np.allclose([found.evidence.left, found.evidence.right], 0, atol=_NOTHING)
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """A condition in the words of claims; ``is_whole``: whether all that is said to be one is in it."""
+
+    condition: str
+    is_whole: bool
+
+    def before(self, claim: str) -> str:
+        return f"{self.condition}: {claim}" if self.condition else claim
 
 
 @dataclass(frozen=True)
@@ -132,52 +173,73 @@ class _Readings:
         happens = [] if lasts else [event["name"] for event in checker.sampler.spec["events"]]
         return cls(said, names, claimed, all(_jumps(checker, claim, letters) for claim in said.claims), happens)
 
-    def all(self, fails: bool, unread: bool) -> Iterator[tuple[str, bool]]:
-        """Conditions in the words of claims, the likelier ones first; each with whether all that is said to be one is in it. Where a text does
-        not ``fail`` to be judged without them, only those that say more."""
-        given = [each for condition in self.said.conditions for each in _plainly(condition)]
-        asked = [words for words in self.said.beside if len(words.split()) <= SHORT or WEAK.match(words)]
-        asked = [words for words in asked if not _is_label(words)]
-        states = [words for words in asked if kind_of(words) and not self._found(words)]
-        states += [words for words in self.said.beside if _is_label(words)]
-        ways = [[*self._ways(words)] for words in self.said.when]
-        starts = [[*self._starts(words)] for words in self.said.when]
-        sure = [
-            *(found for words in asked if (found := self._found(words))),
-            *([words[0].lower() + words[1:]] for words in states),
-        ]
-        unclear = any(WEAK.match(words) and not self._found(words) and words not in states for words in asked)
-        others = [condition for words in self.said.beside if words not in asked for condition in self._found(words)]
-        perhaps = dict.fromkeys([*others, *(each for words in self.said.beside for each in self._named(words))])
-        for chosen in product(*ways, *sure):
-            if fails or chosen or given:
-                yield _joined([*chosen, *given]), not unclear
+    def all(self, fails: bool, unread: bool) -> Iterator[_Reading]:
+        """All of them, the likelier ones first. Where a text does not ``fail`` to be judged without them, only those that say more; where it is
+        ``unread``, also those in which not all words that say when are taken for that."""
+        surely, perhaps = self._surely(), self._perhaps()
+        whole = [self._ways(words) for words in self.said.when]
+        for chosen in product(*whole, *surely):
+            if fails or chosen or self.said.conditions:
+                yield self._reading(chosen, self._is_clear)
         for more in perhaps:
-            for chosen in product(*ways, *sure):
-                yield _joined([more, *chosen, *given]), False
-        if not unread or not ways or self.said.labelled:
+            yield from (self._reading((more, *chosen), False) for chosen in product(*whole, *surely))
+        if not unread or not whole or self.said.labelled:
             return
-        for chosen in product(*starts, *sure):
-            yield _joined([*chosen, *given]), False
-        for extra in [[], *([more] for more in perhaps)]:
-            for chosen in product(*sure):
-                yield _joined([*extra, *chosen, *given]), False
+        starts = [self._starts(words) for words in self.said.when]
+        yield from (self._reading(chosen, False) for chosen in product(*starts, *surely))
+        for extra in ((), *((more,) for more in perhaps)):
+            yield from (self._reading((*extra, *chosen), False) for chosen in product(*surely))
 
-    def _ways(self, words: str) -> Iterator[str]:
+    def _reading(self, chosen: Sequence[str], is_whole: bool) -> _Reading:
+        given = (each for condition in self.said.conditions for each in _plainly(condition))
+        return _Reading(_joined([*chosen, *given]), is_whole)
+
+    # -- words that may say when without a conjunction
+
+    @cached_property
+    def _asked(self) -> list[str]:
+        """Those that are short, as a label is, or begin as a circumstance does."""
+        return [words for words in self.said.beside if len(words.split()) <= SHORT or _first(words) in CIRCUMSTANCES]
+
+    @cached_property
+    def _states(self) -> list[str]:
+        """Those that are read as they stand: ``rolling``, ``on the ramp``."""
+        asked = [words for words in self._asked if not _is_label(words) and kind_of(words) and not self._found(words)]
+        return [*asked, *filter(_is_label, self.said.beside)]
+
+    @property
+    def _is_clear(self) -> bool:
+        """Whether all that begins as a circumstance does is understood."""
+        open_ones = (words for words in self._asked if _first(words) in CIRCUMSTANCES and not _is_label(words))
+        return all(self._found(words) or words in self._states for words in open_ones)
+
+    def _surely(self) -> list[list[str]]:
+        """For each of these that is a condition the ways to read it."""
+        found = [self._found(words) for words in self._asked if not _is_label(words)]
+        return [*filter(None, found), *([words[0].lower() + words[1:]] for words in self._states)]
+
+    def _perhaps(self) -> list[str]:
+        """What other words may say."""
+        asked = {words for words in self._asked if not _is_label(words)}
+        others = [condition for words in self.said.beside if words not in asked for condition in self._found(words)]
+        return [*dict.fromkeys([*others, *(each for words in self.said.beside for each in self._named(words))])]
+
+    # -- what words say
+
+    def _ways(self, words: str) -> list[str]:
         """Ways to read words that say when: what is found in them, and they themselves."""
-        if not _is_label(words):
-            yield from self._found(words)
         first, *others = words.split()
-        yield " ".join([first.lower(), *others])
+        found = [] if _is_label(words) else self._found(words)
+        found.append(" ".join([first.lower(), *others]))
         if first.lower() == "after" and self.jumps and re.search(BLOW, words):  # what is so from then on is so just then
-            yield f"just after {' '.join(others)}"
+            found.append(f"just after {' '.join(others)}")
+        return found
 
-    def _starts(self, words: str) -> Iterator[str]:
+    def _starts(self, words: str) -> list[str]:
         """The first of the words that say when, for those behind them may be of the main clause."""
         first, *others = words.split()
-        for count in range(min(len(others), SHORT) - 1, 0, -1):
-            if not FOLLOWED.fullmatch(last := others[count]) and last not in DETERMINERS:
-                yield " ".join([first.lower(), *others[: count + 1]])
+        ends = (n for n in range(min(len(others), SHORT) - 1, 0, -1) if others[n].lower() not in FOLLOWED | DETERMINERS)
+        return [" ".join([first.lower(), *others[: n + 1]]) for n in ends]
 
     def _found(self, words: str) -> list[str]:
         """The conditions that words name; small is what they say is so, else what something is claimed of."""
@@ -202,6 +264,10 @@ def _is_label(words: str) -> bool:
     """Whether words are read in exercise books' own way, but of what is small."""
     read = reworded(words)
     return read is not None and "small" not in read
+
+
+def _first(words: str) -> str:
+    return words.partition(" ")[0].lower()
 
 
 def _mentions(text: str, name: str) -> bool:

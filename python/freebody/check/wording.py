@@ -23,6 +23,10 @@ _FREQUENCIES = re.compile(
     r"(?:,?\s*\b(?:for|the))*\s*\b(?:(?:natural\s+)(?:circular\s+|angular\s+)?frequenc(?:y|ies)|(?:frequency|characteristic)\s+equation)(?:\s+(?:ω|\\?omega)\w*)?\s*(?:,|\Z)",
     re.IGNORECASE,
 )
+DOING = re.compile(
+    r"\b(?!(?:ring|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
+)
+"""Words of what something does."""
 BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump|jerk"
 LASTS = re.compile(
     r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b|(?:\w+\s+)?hanging\b(?! still)"
