@@ -23,3 +23,12 @@ test.each([[0, -100], [0, 100], [100, 0], [-100, 0], [60, -80]])("an arrow of %d
     }
   }
 });
+
+test.each([350, 1060])("arrows as long as a phone leave a third of a stage %d px wide to the mechanism", (width) => {
+  const by: Point[] = [[500, 0], [-500, 0], [0, -500], [0, 500]];
+  const camera = new Camera({ bounds: [0, 3, -2, 0], size: 0.05 } as Scene, () => null, by.map((each) => ({ at: [1.5, -1] as Point, by: each })));
+  camera.width = width;
+  camera.height = camera.tallness(844);
+  const [[left, top], [right, bottom]] = [camera.screen([0, 0]), camera.screen([3, -2])];
+  expect(Math.max((right - left) / width, (bottom - top) / camera.height)).toBeGreaterThan(0.3);
+});

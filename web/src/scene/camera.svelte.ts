@@ -2,9 +2,9 @@ import type { Point, Scene } from "../data/types";
 import type { Shaft } from "../loads/shafts";
 
 const ROOM = { aside: 40, above: 30, below: 62 }; // px at least, for symbols and the scales
-const LONGEST = 160; // px of an arrow that is made room for: a longer one is a peak, not worth making all else small
+const LONGEST = 160; // px of an arrow that is made room for, and at most a quarter of the width: a longer one is a peak, not worth making all else small
 const LABEL = 20; // px beyond its head
-const LEAST = 40; // px, however narrow the stage
+const LEAST = 0.35; // of the stage for the mechanism itself, however far arrows reach
 
 const SYMBOL = { least: 6, most: 12 }; // px
 
@@ -43,7 +43,7 @@ export class Camera {
   #roomAt(fit: number): typeof ROOM {
     const { middle, wide, tall } = this.#box;
     return this.shafts.reduce((room, { at: [x, y], by: [dx, dy] }) => {
-      const drawn = Math.min(1, LONGEST / Math.hypot(dx, dy));
+      const drawn = Math.min(1, Math.min(LONGEST, this.width / 4) / Math.hypot(dx, dy));
       const [right, up] = [drawn * dx + fit * (x - middle[0]), fit * (y - middle[1]) - drawn * dy];
       return {
         aside: Math.max(room.aside, Math.abs(right) - (fit * wide) / 2 + LABEL),
@@ -55,7 +55,7 @@ export class Camera {
 
   #fitIn({ aside, above, below }: typeof ROOM): number {
     const [wide, tall] = [this.width - 2 * aside, this.height - above - below];
-    return Math.min(Math.max(wide, LEAST) / this.#box.wide, Math.max(tall, LEAST) / this.#box.tall);
+    return Math.min(Math.max(wide, LEAST * this.width) / this.#box.wide, Math.max(tall, LEAST * this.height) / this.#box.tall);
   }
 
   /** The smaller the mechanism, the farther arrows reach out of it: this settles in a few rounds. */
