@@ -28,6 +28,7 @@ from freebody.check.file import WORDS, judged_alone
 from freebody.check.language.statements import Equation, symbols_in, terms
 from freebody.check.prose import plainly
 from freebody.check.residual import HOLDS, residual
+from freebody.check.sentences import sentence
 from freebody.check.two_moments import across_impact
 from freebody.check.verdict import Verdict
 from freebody.check.wording import as_claim, with_condition_first
@@ -64,7 +65,7 @@ NOT_FOUND = {
     ("weight_lands_block_slides_on", "acceleration while the weight falls"): "says of a stretch what a body does on it",
     ("weight_lands_block_slides_on", "whole way"): "is of the way up to a rest that comes later",
     ("pencil_tips_over", "loss by rubbing"): "slides back the other way, and does not turn back",
-    ("set_up_springs", "motion to the middle"): "is of the root that holds up to a place",
+    ("bar_on_half_cylinder", "force that just holds"): "is of an equilibrium without the friction that the model has",
     ("set_up_springs", "very soft springs"): "is of the period of large swings",
     ("puck_round_curved_wall", "size of the acceleration"): "has a letter a_t of a particle that nothing guides",
     ("wheel_up_a_kerb", "least speed"): "is of the motion that just gets up, of which the start would have to be found",
@@ -111,6 +112,11 @@ NOT_FOUND = {
 }
 """What is right of the half for mending and not found to be, with the reason."""
 CALLED_WRONG = {
+    (
+        "sled_runs_onto_gravel",
+        "running on is a quarter of a vibration",
+    ): "is of motions from the start, which are looked for with corrections",
+    ("sled_runs_onto_gravel", "push of the drawbar"): "is of motions from the start, which are looked for with corrections",
     ("pencil_tips_over", "where it begins to slip"): "is of the moment at which something begins to slip for the first time",
     ("girder_crane", "peak on a stiff girder"): "is of the greatest of a force, in a limit",
     ("lorry_helper_spring", "static deflection"): "is of the rest behind a contact to which other numbers do not come",
@@ -284,7 +290,9 @@ class Book:
 
     def place(self, verdict: Verdict, correction: str) -> str:
         """At which place the correction of a tutor stands; of several equations that of one of them, of a conclusion that of its end."""
-        ways = dict.fromkeys((correction, _FOLLOWS.split(correction)[-1]))
+        names = {*self.checker.mechanism.parameters, *self.checker.sampler.names}
+        said = sentence(correction, names | {*self.checker.declared}, names)
+        ways = dict.fromkeys((correction, _FOLLOWS.split(correction)[-1], *(said.claims if said else ())))
         found = [i for i, each in enumerate(verdict.mends) if any(self.says_the_same(each.equation, way) for way in ways)]
         return "missing" if not found else "first" if found[0] == 0 else "among three" if found[0] < 3 else "behind the third"
 

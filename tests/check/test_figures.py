@@ -90,7 +90,7 @@ def test_a_printed_figure_is_true_to_its_last_digit(name: str) -> None:
     rng, mechanism = random.Random(5), Mechanism.loads(_MODELS[name])
     checker = Checker(mechanism)
     run, undecided = mechanism.simulate(rtol=1e-13), 0  # the check judges by a run of its own, at the model's tolerance
-    _, end = checker.moment("end")
+    _, end = checker.happens.moment("end")
     for scale in islice(cycle(_SCALES), _FIGURES):
         t, reading = round(rng.uniform(0.05, end), 3), rng.choice(_READ).format(rng.choice(checker.sampler.names))
         figure = _printed(scale * float(run.evaluate(reading, t)), rng.randint(2, 5))
@@ -113,7 +113,7 @@ def test_a_figure_of_which_no_digit_holds_is_not_decided() -> None:
         _MODELS["a double pendulum"].replace("theta: -0.3, phi: 0.4", "theta: -0.7, phi: 3").replace("until: 2 s", "until: 40 s")
     )
     checker = Checker(Mechanism.loads(text + "report: {turned: theta}\n"))
-    run, end = checker.moment("end")
+    run, end = checker.happens.moment("end")
     assert run.accuracy.none_from is not None
     for figure in (run.evaluate("theta", end), run.evaluate("theta", end) + 0.1):
         for claim in (f"at end: theta = {figure:.4g}", f"report: turned = {figure:.4g}"):

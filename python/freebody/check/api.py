@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
-from functools import cached_property, partial
+from functools import partial
 from time import thread_time
 from typing import TYPE_CHECKING, Any
 
@@ -15,17 +15,16 @@ import numpy as np
 
 from freebody.core import ModelError, MotionError
 from freebody.model.errors import ModelFileError, ModelProblem
-from freebody.model.start import quantity
-from freebody.run.moments import ORDINALS, PATIENT, Unreached, time_of
+from freebody.run.moments import Unreached
 from freebody.symbolic.errors import StatementError
 
-from .asked_model import does
 from .assumptions import FROM_START, family, free_parameter
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
 from .families import ALL, BEFORE, Family, NoMotion
-from .frequency_claims import OMEGA, PERIOD
+from .frequency_claims import OMEGA, PERIOD, as_period
+from .happenings import Happenings
 from .held import without_others
 from .language.glyphs import CONDITION
 from .language.statements import symbols_in
@@ -33,7 +32,6 @@ from .later import also_later, corrected_later, only_later
 from .laws import without_laws
 from .motion_sampler import MotionSampler
 from .of_bodies import without_place
-from .phases import NOT_FIRST, alike, called, kind_of, phase, with_names
 from .printed_symbols import PrintedSymbols
 from .prose import plainly
 from .symbols import Symbols
@@ -42,22 +40,20 @@ from .tried_readings import stated
 from .tried_sentences import LIKELY, as_said
 from .verdict import Kind, Verdict
 from .vibration import Vibration
-from .wording import BLOW, as_claim, with_condition_first
+from .wording import as_claim, with_condition_first
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder
 
-_ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
-"""Words that say of something that it happens."""
 _ROOT = re.compile(r"√|sqrt")
-_BLOW = re.compile(BLOW)
-_ARTICLE = re.compile(r"\A(?:the|an?)\s+")
+_STRETCH = re.compile(r"\b(?:while|until|during|as long as)\b|\b(?:for|where|when|if)\b[^:]*(?:[<>≤≥]|\\[lg]eq?\b)")
+"""Words for a stretch of the model's own motion."""
+_FIRST = re.compile(r"\bfirst\b")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
 _WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
-_SAME_TIME = 1e-6  # of a run: by less the moments of two runs of one motion differ
 _SMALL_ONE = re.compile(r"small\s+([^\s:,=]+)\s*:(?=.*(?:ω|omega|τ|tau|\b[Tf]\b|\b[Tf]_))", re.S)
 """``small θ_1: T_1 = …``."""
 Declared = Mapping[str, str | Sequence[str | float]]
@@ -78,7 +74,7 @@ class Checker:
         self.mechanism = mechanism
         self.declared = dict(letters or {})
         self.sampler, self.printed = MotionSampler(mechanism, seed, **asked), PrintedSymbols(mechanism, **asked)
-        self.vibration = Vibration(self.sampler)
+        self.vibration, self.happens = Vibration(self.sampler), Happenings(self)
         self.hypothesis = ALL
         self.correcting, self.is_at_first = True, False
         self.no_place: frozenset[str] = frozenset()  # what is not of a balance of the bodies that are named
@@ -86,7 +82,6 @@ class Checker:
         self.budget = Budget(self.seconds)
         self.whole: Budget | None = None
         self._seed, self._asked = seed, asked
-        self._runs: dict[float | None, Any] = {}  # the model's own, by when they end, once they are asked for
         self._vibrations: dict[
             tuple[str, tuple[tuple[str, float], ...]], Vibration
         ] = {}  # of what swings alone, with what is held
@@ -154,7 +149,7 @@ class Checker:
 
     def _keeps(self, senses: str, letters: Declared | None) -> bool:
         """Whether rates have such senses on the model's own motion, as what rises has on its way."""
-        run = self.own_motion
+        run = self.happens.run
         rates = [run.evaluate(text, run.t) for text in family(senses, self, letters or {}).above]
         return all(rate.any() and np.all(rate >= -_ROUND_OFF * np.abs(rate).max()) for rate in rates)
 
@@ -175,9 +170,9 @@ class Checker:
     def _of_frequencies(self, text: str, letters: Declared | None, *how: Any) -> Verdict | None:
         """The verdict where ω, which has no other meaning, stands among quantities of the model alone: it is what small vibrations have."""
         condition, colon, said = with_condition_first(plainly(text)[0]).rpartition(":")
-        if self.vibration.count > 1 and PERIOD.match(said) and not OMEGA.search(said):
-            said = PERIOD.sub(r"ω = 2*pi/(\1)", said)
-            text = f"{condition}{colon} {said}"
+        if self.vibration.count > 1 and (period := PERIOD.match(said)) and not OMEGA.search(said):
+            found = self._of_frequencies(f"{condition}{colon} ω = 2*pi/({period[2]})", letters, *how)
+            return found and replace(found, mends=tuple(as_period(mend, period[1]) for mend in found.mends))
         if "frequencies:" in text or not OMEGA.search(said):
             return None
         # Of several one alone stays finite where a stiffness grows without bound.
@@ -252,7 +247,11 @@ class Checker:
             verdict = replace(verdict, notes=(*verdict.notes, *passed))
             if verdict.kind is Kind.TRUE_IF and _SENSES.fullmatch(words := verdict.assumption) and self._keeps(words, letters):
                 verdict = replace(verdict, kind=Kind.TRUE, reason=f"holds where {words}, as in the whole motion of the model")
+            if verdict.kind is Kind.TRUE_IF and verdict.assumption == FROM_START and _STRETCH.search(text):
+                why = f"holds on {FROM_START}, of a stretch of which it speaks"
+                verdict = replace(verdict, kind=Kind.TRUE, reason=why, assumption="", mends=(), evidence=None)
             rooted = verdict.ok and not found and checker.hypothesis == ALL and verdict.assumption == FROM_START
+            rooted &= _FIRST.search(text) is None
             if rooted and _ROOT.search(plain) and not holds_on_run(checker, letters or {}, with_condition_first(plain)):
                 verdict = replace(
                     verdict, kind=Kind.TRUE_IF, reason=f"holds on {FROM_START} at first, and later with the other root"
@@ -293,7 +292,7 @@ class Checker:
     def beside(self, side: str, event: str, held: Mapping[str, float]) -> Checker:
         """The same of the model ``before`` or ``after`` something that happens, as a person calls it: by the name of the event or of a
         part that changes; with parameters that are ``held``. Raises ``ModelProblem``."""
-        return self._of_moment(side, self.happening(event), held)
+        return self._of_moment(side, self.happens.called(event), held)
 
     def at_time(self, t: float) -> Checker:
         """The same of the model as its own motion has it at a time, s."""
@@ -328,127 +327,3 @@ class Checker:
             sampler = MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)})
             self._vibrations[key] = Vibration(sampler, self.vibration.alone)
         return self._vibrations[key]
-
-    def happening(self, event: str) -> str:
-        """The name of what happens on the model's own run that words speak of."""
-        events = {e["name"]: None for e in self.sampler.spec["events"]}
-        kinds = {e["name"]: "released" if does(e, "release") else kind_of(e["name"]) for e in self.sampler.spec["events"]}
-        said = _ARTICLE.sub("", event)
-        if said in events:
-            return said
-        run = self.own_motion
-        parts = dict.fromkeys(part for change in run.changes for part in change.of)
-        said = with_names(said, parts)
-        which, _, again = said.partition(" ")
-        if {said, again if which in ORDINALS else said} & {
-            f"{change.kind} {part}" for change in run.changes for part in change.of
-        }:
-            return said
-        if (found := NOT_FIRST.search(said)) and (often := self._again(found[0], said)):
-            return often
-        if found:
-            raise ModelProblem(
-                f"the motion of this model does not come to a {found[0]} of these",
-                "write `at 0.3 s: …`, or say when it is",
-            )
-        alike_in_kind = [name for name, its in kinds.items() if (kind := kind_of(said)) and kind == its]
-        if len(alike_in_kind) == 1 and kinds[alike_in_kind[0]] == "released":  # before the cord is cut: not of the cord else
-            return alike_in_kind[0]
-        words = re.findall(r"\w+", said)
-        begins, ends = (when.changes if (when := phase(self, f"{said}{over}")) else () for over in ("", " is over"))
-        for found in (called(events, words), begins, called(parts, words), ends):  # after slipping: what goes on ends
-            if len(found) == 1:
-                return found[0]
-        if len(alike_in_kind) == 1:
-            return alike_in_kind[0]
-        several = [part for part in parts if any(alike(own, word) for own in part.split() for word in words)]
-        if several and kind_of(said) == "touch":  # the first of them
-            return several[0]
-        times = [event.t for event in run.events]
-        later = [change for change in run.changes if change.t > run.t[0] and change.t not in times]
-        if len(self.impacts) == 1 and _BLOW.search(said):
-            return next(iter(self.impacts))
-        if len(events) == 1 and not later:  # nothing else can be meant
-            return next(iter(events))
-        what = ", ".join({**events, **parts}) or "nothing does"
-        raise ModelProblem(f"`{event}` is nothing that happens on the motion of this model", f"what happens: {what}")
-
-    def _again(self, which: str, words: str) -> str | None:
-        """The name of the second impact, say, of all, or of the part that words name; None where there is none."""
-        kinds = ("impact", "contact") if kind_of(words) == "touch" else ()
-        parts = called(dict.fromkeys(part for change in self.own_motion.changes for part in change.of), re.findall(r"\w+", words))
-        for kind in kinds:
-            name = f"{which} {kind} {parts[0]}" if len(parts) == 1 else f"{which} {kind}"
-            with suppress(Unreached):
-                time_of(self.own_motion, name)
-                return name
-        return None
-
-    @property
-    def switches(self) -> tuple[str, ...]:
-        """What switches on the model's own run for the first time after its moment, by its kind and part."""
-        run = self.own_motion
-        begins = self.sampler.own.t + _SAME_TIME * float(run.outcome.t) if self.sampler.moment else run.t[0]
-        first: dict[str, float] = {}
-        for change in run.changes:
-            for part in change.of:
-                first.setdefault(f"{change.kind} {part}", change.t)
-        return tuple(name for name, t in first.items() if t > begins)
-
-    @cached_property
-    def impacts(self) -> set[str]:
-        """The parts at which there are impacts on the model's own run, and the strings that jerk when they first go taut."""
-        first = {part: change for change in reversed(self.own_motion.changes) for part in change.of}
-        found = (change for change in self.own_motion.impacts if change.kind == "impact" or first[change.of[0]] is change)
-        return {change.of[0].partition(".")[0] for change in found if change.kind in ("impact", "taut")}
-
-    @cached_property
-    def only_impact(self) -> str | None:
-        """What the impacts on the model's own run are at, where it is one part, and nothing happens at its start."""
-        if self.sampler.moment or any(event["opening"] for event in self.sampler.spec["events"]):
-            return None
-        starts = any(change.t == self.own_motion.t[0] and change.of[0] in self.impacts for change in self.own_motion.impacts)
-        return next(iter(self.impacts)) if len(self.impacts) == 1 and not starts else None
-
-    @property
-    def only_happening(self) -> str | None:
-        """The only impact on the model's own run, else the only event that changes the model; None where there are several."""
-        events = [event["name"] for event in self.sampler.spec["events"] if event["then"] not in ([], ["stop"])]
-        return self.only_impact or (events[0] if len(events) == 1 and not self.sampler.moment else None)
-
-    def event_called(self, words: str) -> str | None:
-        """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state
-        there: ``the lowest point``, ``the clutch grips``."""
-        said = re.findall(r"\w+", words) if re.search("[=<>]", words) is None else []
-        named = called([e["name"] for e in self.sampler.spec["events"]], said)
-        found = [e for e in self.sampler.spec["events"] if e["name"] in named]
-        found = found or (self.sampler.spec["events"] if _ENDS.search(words) and kind_of(words) != "reversal" else [])
-        return found[0]["name"] if len(found) == 1 and not found[0]["opening"] and found[0]["then"] in ([], ["stop"]) else None
-
-    @cached_property
-    def own_motion(self) -> Any:
-        """The model's own run; where the model does not say how long it runs, one on which something switches that may."""
-        run, _ = self.moment("end")
-        open_ended = self.mechanism.run_numbers().until is None and not any(change.t > run.t[0] for change in run.changes)
-        may_switch = bool(self.sampler.spec["events"]) or bool(self.sampler.core.instant(self.sampler.own).limits)
-        if open_ended and may_switch:
-            return self._runs.get(PATIENT) or self._runs.setdefault(PATIENT, self.mechanism.simulate(PATIENT))
-        return run
-
-    def moment(self, name: str) -> tuple[Any, float]:
-        """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
-        name = name if name in (events := {e["name"] for e in self.sampler.spec["events"]}) else _ARTICLE.sub("", name)
-        until = None if self.mechanism.run_numbers().until is not None else 1.0
-        with suppress(ModelProblem):
-            until = until and max(until, quantity("at", name, "s"))
-        if until and name in events:
-            until = PATIENT  # it may come late
-        run = self._runs.get(until) or self._runs.setdefault(until, self.mechanism.simulate(until))
-        times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
-        times |= {event.name: event.t for event in reversed(run.events)}
-        try:
-            return run, times[name] if name in times else quantity("at", name, "s")
-        except ModelProblem:
-            raise ModelProblem(
-                f"the run has no moment `{name}`", f"there are {', '.join(times)}, and times like `0.3 s`"
-            ) from None

@@ -75,7 +75,8 @@ _SOME = 4  # states on motions from the start, near which terms may still be sma
 _PART = 0.85  # of the budget, so that there is time for the balance that comes nearest
 _AT_MOMENT = 0.3  # of it, where each state is a run up to a moment
 _TINY = 1e-7  # rad, or so much of a typical length, at which what is left of a true linear equation is little beside its terms, and round-off, too
-_TINY_OF_ENERGY = 1e-4  # the same of an energy, whose square of it is no round-off
+_TINY_SQUARED = 1e-4  # the same of an energy, or of an angle that changes to second order alone: the square of it is no round-off
+_OF_SECOND_ORDER = 1e-5  # rad, below which an angle does so, where others are SMALL
 _SMALLER = 2  # times that what is small is taken ten times as small
 _NEGLIGIBLE = 0.03  # share of the least term that may be left where it is true to first order
 _NOTHING = 1e-9  # of its parts, below which a term is 0
@@ -132,8 +133,11 @@ def nearer(case: Case) -> Case:
     """The same statement, where it is of small motions of such small ones."""
     if not (given := case.hypothesis.small):
         return case
-    energies = any(not n.symbols.isdisjoint(case.meaning.vocabulary.energies) for n in case.equations)
-    small = tuple((text, size * (_TINY_OF_ENERGY if energies else _TINY) / SMALL) for text, size in given)
+    known, values = case.meaning.vocabulary, case.values()
+    angles = (n for n in symbols_in(case.program) if n in known.coordinates and n in known.angular)
+    squares = any(not n.symbols.isdisjoint(known.energies) for n in case.equations)
+    squares |= any(np.median(np.abs(values[n.key])) < _OF_SECOND_ORDER for n in angles)
+    small = tuple((text, size * (_TINY_SQUARED if squares else _TINY) / SMALL) for text, size in given)
     return replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
 
 
@@ -345,7 +349,11 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     if part == SMALL_MOTIONS:
         rest = checker.vibration.rest
         places = rest.q if rest else np.zeros(len(checker.sampler.names))
-        free = np.abs(checker.sampler.free_rates).max(axis=1, initial=0.0) > _HELD  # what is prescribed cannot be small
+        model = checker.sampler
+        rates = model.rates_free_in(model.core.free_bodies(rest)) if rest else model.free_rates
+        free = (
+            np.abs(rates).max(axis=1, initial=0.0) > _HELD
+        )  # what is prescribed, or moves to second order alone, cannot be small
         named = zip(checker.sampler.names, places.tolist(), free, strict=True)
         near = tuple((f"({spell(name)}) - ({q!r})", SMALL) for name, q, moves in named if moves)
         return replace(given, small=(*given.small, *near))

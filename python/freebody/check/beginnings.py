@@ -24,7 +24,7 @@ def is_start(checker: Checker, words: str) -> bool:
     if _LET_GO.fullmatch(words) and not checker.sampler.spec["events"]:
         parts = [*checker.symbols().bodies, *checker.sampler.core.instant(checker.sampler.own).limits]
         return not called(parts, re.findall(r"\w+", words))  # of what is not in the model
-    happens = {one.kind for one in checker.own_motion.changes}
+    happens = {one.kind for one in checker.happens.run.changes}
     lands = _LANDING.fullmatch(words) is not None and not happens & {"impact", "contact"}
     return lands or (_LAUNCH.fullmatch(words) is not None and "lift-off" not in happens)
 

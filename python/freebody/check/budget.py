@@ -13,6 +13,7 @@ import numpy as np
 T = TypeVar("T")
 _CORRECTIONS = 0.8  # of the budget, so that there is time for assumptions
 _GONE = 0.7  # of the budget, as which counts what is gone at most where a claim asks again
+_ALL_BUT_GONE = 0.9  # the same, where the whole is used up
 _SECONDS = (10, 20), (2.0, 10.0)
 """Bodies, and how long a statement about them may take."""
 
@@ -33,8 +34,10 @@ class Budget:
         return float(np.interp(bodies, *_SECONDS))
 
     def part(self) -> Budget:
-        """What is left of it for one question of a claim that asks several."""
-        return Budget(self.seconds, begins=max(self.begins, thread_time() - _GONE * self.seconds), whole=self)
+        """What is left of it for one question of a claim that asks several; little where nothing is."""
+        now = thread_time()
+        gone = _GONE if now - self.begins < self.seconds else _ALL_BUT_GONE
+        return Budget(self.seconds, begins=max(self.begins, now - gone * self.seconds), whole=self)
 
     @property
     def words(self) -> str:

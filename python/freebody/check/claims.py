@@ -48,7 +48,7 @@ _FEWEST = 8  # places at which they have to be
 def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
     """The verdict about a claim; None where the text is none of the forms. Raises ``StatementError`` and ``ModelProblem``."""
     given, claim = _defined(with_condition_first(text))
-    if (found := _JUST.match(claim)) and (happening := checker.only_happening):
+    if (found := _JUST.match(claim)) and (happening := checker.happens.only_one):
         claim = f"{found[1]} {happening}:{claim[found.end() :]}"
     claim = as_claim(claim)
     if found := of_amplitudes(checker, {**declared, **given}, claim):
@@ -74,10 +74,10 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
 
 def _after_blow(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
     """Behind ``impact:`` with letters of no moment, what is so just after it, or nearly so; else None."""
-    if checker.only_impact is None or _BESIDE_BLOW.match(words):
+    if checker.happens.only_impact is None or _BESIDE_BLOW.match(words):
         return None
     with suppress(ModelProblem, StatementError):
-        after = checker.check(f"just after {checker.only_impact}: {statement}", declared, correcting=checker.correcting)
+        after = checker.check(f"just after {checker.happens.only_impact}: {statement}", declared, correcting=checker.correcting)
         if (after.ok and not after.assumption) or after.mends:
             return replace(after, notes=(*after.notes, f"`{words}` is read as just after it."))
     return None
@@ -124,7 +124,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
     if given.above and verdict.kind is Kind.UNDECIDABLE and (found := on_later_stretch(checker, declared, condition, statement)):
         return found
     places = () if given.at_start else _PLACES.findall(condition)  # at the top (v = 0): of the motion that comes there
-    if event := next((event for words in places if (event := checker.event_called(words))), None):
+    if event := next((event for words in places if (event := checker.happens.event(words))), None):
         there = timed_claims.at(checker, declared, event, statement)
         if there.ok:
             return there
@@ -205,7 +205,7 @@ def _has_meaning(checker: Checker, declared: Declared, name: str) -> bool:
 def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
     """At a moment of the model's own run."""
     try:
-        checker.moment(moment)
+        checker.happens.moment(moment)
     except ModelProblem as problem:
         return labelled(checker, declared, moment, statement, problem)
     return timed_claims.at(checker, declared, moment, statement)

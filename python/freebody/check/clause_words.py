@@ -66,6 +66,11 @@ _WORDS: tuple[tuple[str, str], ...] = (
         r"(?:[a-z]+ )*?(?:(?:at|with|in) (?:an? )?(?:constant|steady|uniform)|const\.?|constant) (?:speed|velocity)|(?:constant|steady|uniform) (?:riding|running|driving|towing|hoisting)",
         "at constant speed",
     ),
+    (r"(?:the )?(?!beam |floor |gravity )([a-z]+) (?:is )?(vertical|upright|horizontal)", r"when the \1 is \2"),
+    (
+        r"(?:in )?between (?:the )?(?:two |both |first and (?:the )?second )?(impact|blow|collision|bounce|shock|hit)s?",
+        r"after the first \1",
+    ),
     (r"(?:and )?before (?:the )?(?:second|next|third)\b.*", ""),
     (r"(?:pure )?(rolling|rolls|sliding|slides|slipping|slips) \([^()=]+=[^()]+\)", r"while \1"),
     (rf"({INSTANT}(?:after|at)|at) ((?:the )?(?:release|start|beginning))(?: from rest)? ?\([^()1-9]*=[^()1-9]*\)", r"\1 \2"),

@@ -118,4 +118,4 @@ def _along(checker: Checker, state: State, until_change: bool) -> tuple[Samples,
 def _happens(checker: Checker, parts: Sequence[str], motion: Trajectory, begins: float) -> bool:
     """Whether rates jump on a motion, by something of parts that changes on the model's own run, too."""
     jumps = any(each.before is not None for each in motion.changes if each.t > begins)
-    return jumps and any({*each.of} & {*parts} for each in checker.own_motion.changes if each.t > 0)
+    return jumps and any({*each.of} & {*parts} for each in checker.happens.run.changes if each.t > 0)

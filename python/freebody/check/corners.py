@@ -28,7 +28,7 @@ def on_corner(checker: Checker, words: str) -> Checker | None:
     found = _ABOUT.search(words)
     if found is None or not checker.sampler.spec["contacts"]:
         return None
-    sampler, end = checker.sampler, checker.own_motion.t[-1]
+    sampler, end = checker.sampler, checker.happens.run.t[-1]
     run = sampler.run(sampler.first, end - sampler.first.t)
     times = np.linspace(sampler.first.t, min(end, run.end.t), _MOMENTS)
     for contact in sampler.spec["contacts"]:

@@ -400,8 +400,10 @@ class _Search:
 
     @cached_property
     def fresh(self) -> Mapping[str, Array]:
-        """The symbols on other true states."""
-        return _where_known(self.equation, self.case.values(self.family, _FRESH, _FRESH_STATES))
+        """The symbols on other true states; on the same where no others are found."""
+        with suppress(NoMotion):
+            return _where_known(self.equation, self.case.values(self.family, _FRESH, _FRESH_STATES))
+        return self.values
 
     def _confirmed(self, equation: Equation) -> bool:
         holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))

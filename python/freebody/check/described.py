@@ -45,6 +45,10 @@ _STOPS = re.compile(
     r"\b(?:stops|stopped|comes? to (?:rest|a (?:stop|halt|standstill))|stands? still|(?:momentarily|instantaneously) at rest)\b"
 )
 _SPEED = re.compile(r"\b(?:speed|velocity|fast(?:est)?|slow(?:est)?)\b")
+_UPRIGHT = re.compile(
+    r"\b(?P<thing>\w+)\s+(?:(?:is|gets|hangs|stands|becomes|comes|has\s+become|passes\s+(?:through\s+)?the)\s+)?(?:(?P<up>vertical|upright|plumb)|horizontal|level)\b"
+)
+_AT_START = re.compile(r"\b(?:releas|start|from\s+rest|initial|begin|let\s+go)")
 _LOOKS = 33  # times of a run, at which it is looked for what moves most
 _STILL = 1e-6  # of the rate with which something moves at first: below it it rests
 _TURNS = 1e-6  # of what is typical, what a second derivative is at least where something turns: what stays so does not
@@ -65,6 +69,23 @@ def way_of(words: str, checker: Checker) -> str:
     moving = _MOVING.search(words) or re.search(r"\b(?:ris|fall|sink|climb|ascend|descend)(?:s|es|ing)\b", words)
     body = _body(words, checker)
     return f"{body} moves {found[0]}" if len(found) == 1 and moving and body else ""
+
+
+def place_of(words: str, checker: Checker) -> str:
+    """Where a rod, a link or a spring is ``vertical`` or ``horizontal``, as an equation of the model language; none where words do not tell."""
+    found = None if _AT_START.search(words) else _UPRIGHT.search(words)
+    if found is None:
+        return ""
+    spec, name = checker.sampler.spec, found["thing"]
+    rods = [body["name"] for body in spec["bodies"] if any(piece["shape"] == "rod" for piece in body["pieces"])]
+    if name in rods or (name == "it" and len(rods) == 1):
+        return f"{'cos' if found['up'] else 'sin'}(angle({quote(name if name in rods else rods[0])})) = 0"
+    linked = {joint["name"]: joint["with"]["of"] for joint in spec["joints"] if joint["type"] == "link"}
+    linked |= {force["name"]: force["with"]["between"] for force in spec["forces"] if "between" in force["with"]}
+    if name not in linked:
+        return ""
+    one, other = (f"{'x' if found['up'] else 'y'}({end})" for end in linked[name])
+    return f"{one} = {other}"
 
 
 def _way(words: str, checker: Checker) -> Family | None:
@@ -98,7 +119,7 @@ def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
 
 def _coming_to_rest(checker: Checker) -> str | None:
     """The coordinate whose rate vanishes where all comes to rest: the only one, or that which moves most where the others come to rest with it."""
-    run, names = checker.own_motion, checker.sampler.names
+    run, names = checker.happens.run, checker.sampler.names
     if len(names) == 1:
         return names[0]
     begins, ends = max(float(run.t[0]), checker.sampler.own.t), float(run.outcome.t)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, product
 from typing import TypeVar
 
-from freebody.symbolic.dimensions import NUMBER_ONLY
+from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY
 from freebody.symbolic.tree import (
     Add,
     Column,
@@ -51,7 +51,7 @@ _LARGER = {
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 """Whole numbers that are mistaken for each other."""
 _ONE = Num(1.0, "1")
-_SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos")}
+_SWAPS = {"sin": ("cos",), "cos": ("sin",), "tan": ("sin", "cos"), "asin": ("acos",), "acos": ("asin",)}
 OTHER = {"sin": "cos", "cos": "sin"}
 
 
@@ -178,8 +178,9 @@ def _below(factors: tuple[Node, ...], span: tuple[int, int]) -> Iterator[Node]:
 
 def _own_motions(factors: tuple[Node, ...], vocabulary: Vocabulary, span: tuple[int, int]) -> Iterator[Node]:
     """Masses that were taken to move as one: M v² + m ẏ² for (M + m) v²."""
-    totals = [f for f in factors if isinstance(f, Add) and all(n in vocabulary.parameters for n in f.terms)]
+    totals = [f for f in factors if isinstance(f, Add) and f.symbols <= {*vocabulary.parameters}]
     motions = [(f, f.base if isinstance(f, Pow) else f) for f in factors]
+    yield from _own_arms(factors, totals, vocabulary, span)
     for (factor, motion), total in product(motions, totals):
         moves = isinstance(motion, Sym) and motion not in vocabulary.parameters
         for other in vocabulary.motions_like(motion) if moves else ():
@@ -188,6 +189,19 @@ def _own_motions(factors: tuple[Node, ...], vocabulary: Vocabulary, span: tuple[
                 parts = ((mass, moved if mass is alone else factor) for mass in total.terms)
                 each = (tuple(m if f is total else x if f is factor else f for f in factors) for m, x in parts)
                 yield Add(tuple(map(Mul, each)), span=span)
+
+
+def _own_arms(factors: tuple[Node, ...], totals: Sequence[Add], vocabulary: Vocabulary, span: tuple[int, int]) -> Iterator[Node]:
+    """Inertias that were taken to turn as one, as on a rope that does not stretch: J θ̈ + m r ÿ for (J + m r²) θ̈."""
+    lengths = {n for n, its in vocabulary.parameters.items() if its == LENGTH}
+    turning = [f for f in factors if isinstance(f, Sym) and Sym(f.name) in vocabulary.coordinates and f.dots == 2]
+    linear = [Sym(n.name, 2) for n, its in vocabulary.coordinates.items() if its == LENGTH]
+    for total, motion, other in product(totals, turning, linear):
+        for term in total.terms:
+            arm = next((n for n in walk(term) if isinstance(n, Pow) and n.base in lengths and n.exponent == Num(2.0, "2")), None)
+            if arm is not None:
+                own = Mul((exchange(term, arm, arm.base), other))
+                yield Add(tuple(own if t is term else Mul((t, motion)) for t in total.terms), span=span)
 
 
 def _of_sums(terms: tuple[Node, ...], span: tuple[int, int]) -> Iterator[tuple[str, Node]]:

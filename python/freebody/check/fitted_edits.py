@@ -22,7 +22,7 @@ from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
-from .roots import other_sides, resultants, rooted
+from .roots import on_the_way, other_sides, resultants, rooted
 from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, is_asked, required_terms
 from .spans import proportional, spanning
@@ -38,6 +38,7 @@ _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sig
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
+_PART = 0.3  # for a letter that is a part of what it stands for
 _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
@@ -93,6 +94,8 @@ class FittedEdits:
                 Edit.at(equation, "resultant", node, new, _ANOTHER * lost + 0.02 * depth(new) * lost)
                 for new, lost in resultants(required, self.values, self.vocabulary, self._monomials(equation))
             )
+            ways = on_the_way(required, self.values, self.vocabulary, self._monomials(equation))
+            yield from (Edit.at(equation, "way", node, new, _ANOTHER + 0.02 * depth(new)) for new in ways)
             yield from (
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
             )
@@ -101,11 +104,15 @@ class FittedEdits:
             yield from (Edit.at(equation, "resultant", node, new, _ANOTHER + 0.02 * depth(new)) for new in at_angle)
             if isinstance(node, Add) and required.missing.ndim == 1:
                 yield from self._squares.of_components(equation, [(term, _ONE) for term in node.terms], required.missing)
+                for term in self._squares.crossed(node, required.missing):
+                    yield Edit("missing term", None, term, exchange(equation, node, more(node, term)), 0.01 * depth(term))
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
                 yield from self._parts(equation, required)
             if isinstance(node, Add) or id(node) in whole:
                 yield from self._missing(equation, required)
+            elif isinstance(node, Sym) and required.missing.ndim == 1 and not node.dots:
+                yield from self._part_of_length(equation, required)
             if node in (equation.left, equation.right) and not any(symbols_in(n.bottom) for n in quotients):
                 yield from self._denominator(equation, required)
 
@@ -222,7 +229,7 @@ class FittedEdits:
             return
         number, own = powers_of(node)
         sizes = self.vocabulary.sizes
-        still = [n for n in own if not isinstance(n, Sym) or n in sizes] + _calls(equation)
+        still = [n for n in own if not isinstance(n, Sym) or n in sizes] + _calls(equation) + self._bare_angles(equation)
         lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), (), self.blur).powers(factor)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
             return
@@ -242,6 +249,12 @@ class FittedEdits:
             plain = powered(node, rest, lacked) if min(lacked.values()) > 0 else None
             size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
             yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1))
+
+    def _bare_angles(self, equation: Equation) -> list[Sym]:
+        """Angles that stand in an equation as lengths do, as that of a spiral."""
+        within = {id(part) for call in _calls(equation) if call.name in ("sin", "cos", "tan") for part in walk(call)}
+        angles = self.vocabulary.angular & {*self.vocabulary.coordinates}
+        return [n for n in walk(equation) if isinstance(n, Sym) and n in angles and id(n) not in within]
 
     def _parts(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """Two terms of a sum of more that lack the same factor."""
@@ -274,6 +287,13 @@ class FittedEdits:
                 continue  # another number is a factor
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, more(required.node, term)), size)
+
+    def _part_of_length(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """A letter that is only a part of what stands there, as of a stretch or an amplitude: A for A + F/k."""
+        for term in self._monomials(equation).equal_to(required.missing):
+            if symbols_in(term) and term.symbols <= {*self.vocabulary.parameters}:
+                new = Add((required.node, term), span=required.node.span)
+                yield Edit.at(equation, "symbol", required.node, new, _PART + 0.02 * depth(term))
 
     def _of_components(self, equation: Equation, wanted: Array) -> Iterator[Node]:
         """Vectors along i and j whose components are one term each."""

@@ -21,11 +21,14 @@ from .vibration import OfVibration
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
+    from .stated import Correction
 
 _FEWEST = 8  # places at which something has to swing
-OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
-PERIOD = re.compile(r"\A[\s$]*(?:T|τ|\\tau)\s*=([^=]+?)[\s$]*\Z")
+OMEGA = re.compile(r"(?:ω|\\omega(?![A-Za-z])|\bomega)(?:_\{?(?!d)[A-Za-z]\}?)?(?![A-Za-z0-9_(₀-₉])")
+"""A natural frequency; ω_d is that of damped vibrations."""
+PERIOD = re.compile(r"\A[\s$]*(T|τ|\\tau)\s*=([^=]+?)[\s$]*\Z")
 """A period alone on its side, of a model that has several."""
+_OF_PERIOD = re.compile(r"omega_\w+ = 2\*pi/\((.+)\)")
 _SAYS_OMEGA = re.compile(
     rf"[\s$]*{OMEGA.pattern}\s*(?:²|\^\s*\{{?2\}}?)?\s*(?:=(?!.*(?:±|\\pm))[^=]*|[-−](?!.*{OMEGA.pattern})[^=±]*=\s*0[\s$.]*)"
 )
@@ -53,6 +56,12 @@ def frequencies(checker: Checker, declared: Declared, number: str, statement: st
         return replace(best, kind=Kind.TRUE, reason=reason, mends=(), evidence=None)
     alone = [one for one in _of_each(checker, declared, statement) if one.ok or one.mends] if checker.hypothesis != ALL else []
     return min(alone or (checker.check(text, declared) for text in said), key=_wrong)
+
+
+def as_period(mend: Correction, letter: str) -> Correction:
+    """The correction of a frequency that was said by its period, ω = 2π/T, as that."""
+    found = _OF_PERIOD.fullmatch(mend.equation)
+    return replace(mend, equation=f"{letter} = {found[1]}") if found else mend
 
 
 def _wrong(verdict: Verdict) -> tuple[bool, float]:

@@ -32,6 +32,11 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     # start → first touch: …
     (r"\bstart\s*(?:→|->|\\to\b)\s*(?:the\s+)?(?=[a-z]{3})([a-z][a-z ]*?)(?=\s*[:,])", r"at the \1"),
     (r"(\bat\s+rest\s+on\s+(?:the\s+)?\w+)\s+and\s+moves?\s+(?:along\s+)?with\s+(?:it|him|them)\b", r"\1"),
+    # at lift-off (N → 0): … says twice when
+    (
+        r"(\b(?:lift-?off|separation|leav(?:es|ing)|slack|comes? off|los(?:es|ing) contact)\b[^():=]*)\(\s*[NRSTF](?:_\{?\w+\}?)?\s*(?:→|->|\\to)\s*0\s*\)(?=\s*[:,])",
+        r"\1",
+    ),
     (r"\b(?:[Ii]n\s+the\s+)?[Ll]imit\s+(?=\$?\\?[^\W\d]\w*\$?\s*(?:→|->|\\to\b))", ""),
     (r"\A([a-z]+\s+just\s+[a-z]+s)\.\s+(?=[a-z]+:)", r"\1, "),  # weight just lands. energy: …
     (r"\A\s*(?:\([a-z]\)\s*)?[A-Z][^?=:]*\?\s+(?=[A-Z])", ""),  # Does the rope stay taut? For …

@@ -27,6 +27,7 @@ _MOST_ARMS = 8
 _MOST_SHARING = 12
 _MOST_INERTIAS = 40
 _SAME = 1e-8  # relative: below it two values are one
+STIFFNESS = MASS.times(TIME, -2)
 _ACCELERATION, _SPIN = LENGTH.times(TIME, -2), NUMBER_ONLY.times(TIME, -1)
 
 
@@ -49,17 +50,18 @@ def _squared(powers: Mapping[Node, int]) -> list[Node]:
 
 
 def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
-    """An energy of before an impact, of which only a share stays: what moved then beside all that moves on, m/(m + M) or J/(I + J + m l²)."""
+    """What only a share stays of: that of what moved before an impact beside all that moves on, m/(m + M) or J/(I + J + m l²); that of one mass in a force
+    on all; that of a mass or a stiffness that works through another, M/(m + M)."""
     node, factor, known = required.node, required.factor, {*vocabulary.parameters}
-    if isinstance(node, Sym) or not node.symbols <= known or factor is None or not np.all((factor > 0) & (factor < 1)):
+    if not node.symbols <= known or factor is None or factor.ndim != 1 or not np.all((factor > 0) & (factor < 1)):
         return
-    masses, lengths, inertias = (
-        [n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH, INERTIA)
+    masses, lengths, inertias, stiffnesses = (
+        [n for n in vocabulary.parameters if vocabulary.dimension(n) == its] for its in (MASS, LENGTH, INERTIA, STIFFNESS)
     )
     turning = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)]
-    for parts in (masses[:_MOST_SHARING], turning[:_MOST_SHARING]):
+    for parts in (masses[:_MOST_SHARING], turning[:_MOST_SHARING], stiffnesses[:_MOST_SHARING]):
         rows = [sampled(part, values) for part in parts]
-        for own in (i for i, part in enumerate(parts) if part.symbols <= node.symbols):
+        for own in range(len(parts)):
             others = [i for i in range(len(parts)) if i != own]
             for some in (some for count in (1, 2) for some in combinations(others, count)):
                 if np.allclose(rows[own], factor * sum(rows[i] for i in (own, *some)), rtol=_SAME, atol=0):

@@ -40,7 +40,7 @@ def also_later(checker: Checker, verdict: Verdict, text: str, letters: Declared 
     """The verdict about what holds as the model is at first: wrong where it does not hold after something switches, and some of it is 0 at
     first; else that is told."""
     said = ", ".join(f"`{term}`" for term in verdict.untested)
-    for name in checker.switches if verdict.untested else checker.switches[:_SWITCHES]:
+    for name in checker.happens.switches if verdict.untested else checker.happens.switches[:_SWITCHES]:
         with suppress(ModelProblem, StatementError):
             later = checker.beside("after", name, {}).check(text, letters, correcting=bool(verdict.untested))
             if later.kind is not Kind.WRONG:
@@ -68,7 +68,7 @@ def only_later(checker: Checker, verdict: Verdict, text: str, letters: Declared 
     words = re.findall(r"\w+", label)
     if any(phase(checker, clause.strip()) for clause in re.split("[,()]", label) if IN_WORDS.fullmatch(clause.strip())):
         return verdict  # it is understood, as of the model at first
-    for name in checker.switches:
+    for name in checker.happens.switches:
         if name.startswith(_SETS_FREE) and called([name.partition(" ")[2]], words):  # of what is there, before
             continue
         with suppress(ModelProblem, StatementError):
@@ -94,7 +94,7 @@ def corrected_later(checker: Checker, verdict: Verdict, text: str, letters: Decl
     """The verdict about what is wrong as the model is at first, where parts of it are 0 or move as one: with the corrections of after
     something switches that are true at first, too."""
     holds = lambda asked, correction: asked.check(correction.equation, letters, correcting=False).ok
-    for name in [name for name in checker.switches if name.startswith(_SETS_FREE)][:_SWITCHES]:
+    for name in [name for name in checker.happens.switches if name.startswith(_SETS_FREE)][:_SWITCHES]:
         with suppress(ModelProblem, StatementError):
             there = checker.beside("after", name, {})
             if holds(there, verdict.mends[0]):

@@ -216,7 +216,7 @@ class Likelihood:
         )
         divided = isinstance(old, Add) and any(n < before.get(base, 0) for base, n in after.items())  # rather times it elsewhere
         bound = _BOUND * (self._at_instant and bool(unsaid))
-        bound += _SOLVED * any(side is old for side in self.its.sides if isinstance(side, Sym))  # rather on the other side
+        bound += _SOLVED * any(side is old for side in self.its.sides if is_answer(side))  # rather on the other side
         return bound + _ODD * divided + _NEW * (strange + len(unsaid) * (len(gained) > 1)) + _ODD * (bool(lost) and bool(gained))
 
     def _of_term(self, kind: str, term: Node) -> float:

@@ -144,7 +144,7 @@ def _extreme(checker: Checker, declared: Declared, words: str, others: Sequence[
 
 def _ends(checker: Checker) -> list[str]:
     """The events that do nothing but end the model's own run, where one has."""
-    if checker.own_motion.outcome.name is not OutcomeKind.STOPPED_BY_EVENT:
+    if checker.happens.run.outcome.name is not OutcomeKind.STOPPED_BY_EVENT:
         return []
     return [name for name, event in checker.mechanism.model.events.items() if event.actions() == ["stop"]]
 

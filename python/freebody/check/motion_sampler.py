@@ -159,7 +159,8 @@ class MotionSampler(FollowedModel):
         start, reach = None, reach * (_NEXT if family.near else 1.0)
         if family.steady:
             values = self._tied(values, family)
-            return (found, None) if (found := steady_state(self, rng, values, EXACT)) else None
+            found = steady_state(self, rng, values, EXACT)
+            return (found, None) if found and self.are_above(family.above, found) else None
         driven = bool(family.vanishing and self.spec["motions"]) and not self.free_rates.size
         if (family.since or driven) and not family.at_start:
             found, start = self._since_start(rng, values, family)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .api import Checker, Declared
 
 _STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no(?:t|\s+longer)?|(?:does|do) not|without)\s+(?:to\s+)?"
-_OVER = r"\s+(?:has\s+|is\s+|have\s+)?(?:stop|cease|end|over)\w*"
+_OVER = r"\s+(?:(?:has\s+|is\s+|have\s+)?(?:stop|cease|end)\w*|(?:is|are)\s+over\b)"
 _KINDS = {
     "stick": rf"at\s+rest\s+(?:on|in)\b|(?:(?:end|stop)\s+of\s+(?:the\s+)?|{_STOPS}|neither\s+(?:\w+\s+)?)(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}"
     r"|roll(?:s|ing)?|rid(?:es?|ing)|sticks?|sticking|stuck|grips?"
@@ -77,6 +77,13 @@ _JOINED = re.compile(r"\b(?:coupled|joined|hooked|latched|locked)(?:\s+together)
 """What bodies are that an event puts together."""
 _Change = tuple[float, str, str]
 """When something changes, s, what does, and the name of that change."""
+_HOLDS = re.compile(
+    r"\b(?:held|stopped|caught|kept|blocked|locked)\s+by\s+(?:the\s+)?(\w+)|\b(\w+)\s+(?:holds|catches|engages|bites|bears|acts|has\s+caught)\b"
+)
+_FACT = re.compile(
+    r"\b(?:impact|blow|collision|shock|contact)s?\s+(?:is|are)\s+(?:[a-z]+\s+)?(?:(?:in)?elastic|plastic|smooth|rough|short|central|oblique)\b"
+)
+"""``the impact is plastic``, which says how, and not when."""
 _MOVES = re.compile(
     r"(?:while|(?P<comes>once|when|after)|as long as)\s+(?:the\s+)?(?P<body>\w+)\s+(?:still\s+)?"
     r"(?:(?P<moves>moves|(?:is\s+)?(?:moving|in\s+motion|under\s+way))|stands(?:\s+still)?|does\s+not\s+move|(?:is|stays)\s+(?:still\s+)?at\s+rest)"
@@ -122,11 +129,17 @@ def is_moment(words: str, kind: str | None = None) -> bool:
 def phase(checker: Checker, words: str) -> Phase | None:
     """What words say of the model's own motion; None where that does not have it."""
     limits = checker.sampler.core.instant(checker.sampler.own).limits
+    if _FACT.search(words):
+        return None
     words = with_names(words, limits)
+    for name in (name for name in checker.symbols().bodies if kind_of(name)):  # the stick is no sticking
+        words = re.sub(rf"\b(the|an?|its)\s+{re.escape(name)}\b", r"\1 body", words)
     if moving := _moving(checker, words):
         return moving
     if joins := _joining(checker, words):
         return Phase(False, (joins,), False)
+    if not words.startswith("until") and (held := _held_by(checker, words, limits)):
+        return held
     kind, place, rests = kind_of(words), _ON.match(words.lower()), _RESTS_ON.search(words) is not None
     lasts = LASTS.match(words) is not None or place is not None or rests
     if rests and not any(limit.state in _STATES.values() for limit in limits.values()):  # nothing rubs
@@ -137,7 +150,7 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return None
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
-    run, begins = checker.own_motion, checker.sampler.own.t if checker.sampler.moment else checker.own_motion.t[0]
+    run, begins = checker.happens.run, checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
     settled = [f"rest {change.of[0]}" for change in run.changes if change.kind == "rest" and change.t > begins]
     if rests and settled:
         return Phase(False, tuple(dict.fromkeys(settled)), False)
@@ -190,7 +203,7 @@ def stretch_of(checker: Checker, declared: Declared, parts: Sequence[str]) -> tu
     later = next(((found, words) for words, found in said.items() if found.changes), None)
     if later is None or len(said) < 2:
         return later
-    for name in checker.switches:
+    for name in checker.happens.switches:
         with suppress(ModelProblem):
             there = checker.beside("after", name, {})
             if all((found := lasting(there, words)) and found.at_first for words in said):
@@ -203,7 +216,7 @@ def _moving(checker: Checker, words: str) -> Phase | None:
     found = _MOVES.fullmatch(words)
     if found is None or found["body"] not in checker.symbols().bodies:
         return None
-    run, energy = checker.own_motion, f"kinetic({quote(found['body'])})"
+    run, energy = checker.happens.run, f"kinetic({quote(found['body'])})"
     begins = {run.t[0]: ""} | {
         change.t: f"{change.kind} {change.of[0]}" for change in reversed(run.changes) if change.t > run.t[0]
     }
@@ -214,6 +227,18 @@ def _moving(checker: Checker, words: str) -> Phase | None:
     comes = found["comes"] is not None and not fits[0]
     k = next((k for k in range(len(fits)) if fits[k] and (k or not comes)), None)
     return None if k is None else Phase(k == 0, (begins[times[k]],) if k else (), False)
+
+
+def _held_by(checker: Checker, words: str, limits: Mapping[str, Any]) -> Phase | None:
+    """The stretch on which a stop or a contact holds something, which words call by its name: ``once the pawl holds``; None where they call none."""
+    name = next((found[1] or found[2] for found in _HOLDS.finditer(words) if (found[1] or found[2]) in limits), None)
+    if name is None:
+        return None
+    begins = checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
+    firsts = _firsts(checker.happens.run, begins, "touch", (), False)
+    changes = tuple(change for change, (_, part) in firsts.items() if part == name)[-1:]
+    at_first = limits[name].state != "open"
+    return Phase(at_first, changes, False) if at_first or changes else None
 
 
 def _sets_free(checker: Checker) -> bool:

@@ -147,12 +147,14 @@ class Reading:
     def _fitting(self, program: Program, names: Sequence[str], units: bool) -> Program:
         """The same, or where its dimensions do not fit, as it fits: T a period, 5 m/s a speed though m and s are symbols, 2k/3m with m below
         the stroke."""
-        if not misfit(program, self.known.dimensions, strictly=True):
-            return self._measured(program, names) if units else program
-        ways = [*([{"units": True}] if units else []), {"apart": True}, {"tight": True}]
         energy = self.known.meanings.get("T") if "T" in self.known.assumed else None
         period = self.known.vibration.meanings(["period"]).get("period") if energy and self.known.vibration else None
-        for meaning in (energy, period) if period else (None,):
+        of_numbers = all(n.name in (*self.known.constants, "T") for n in symbols_in(program))
+        fits = not misfit(program, self.known.dimensions, strictly=True)
+        if fits and not (period and of_numbers):  # a kinetic energy changes
+            return self._measured(program, names) if units else program
+        ways = [*([{"units": True}] if units else []), {"apart": True}, {"tight": True}]
+        for meaning in ((period, energy) if fits else (energy, period)) if period else (None,):
             if meaning:
                 self.known.meanings["T"] = meaning
             for way in ([{}] if meaning and meaning is period else []) + ways:

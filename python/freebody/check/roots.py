@@ -12,6 +12,7 @@ from freebody.symbolic.dimensions import FORCE, LENGTH, TIME
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, unsigned
 
+from .coefficients import more
 from .language.dimensions import dimension
 from .monomials import Monomials
 from .powers import power_of, powers_of, written
@@ -20,6 +21,7 @@ from .vocabulary import Vocabulary
 
 _SAME = 1e-8  # relative: below it two values are one
 _OF_VECTORS = (LENGTH, LENGTH.times(TIME, -1), LENGTH.times(TIME, -2), FORCE, FORCE.times(TIME, 1))
+_OF_MOTION = (LENGTH.times(TIME, -1), FORCE.times(TIME, 1))
 _MOST_FACTORS = 6  # of a product of which some stand below a root
 _MOST_TERMS = 4  # of a sum that is that of two components
 
@@ -80,6 +82,18 @@ def resultants(
     if required.addend and its in _OF_VECTORS and np.all(rest > _SAME * needed**2):
         for other in terms.equal_to(np.sqrt(rest), in_size=True):
             yield Fn("sqrt", (Add((_squared(node), _squared(other))),), span=node.span), 1
+
+
+def on_the_way(required: RequiredTerm, values: Mapping[str, Array], vocabulary: Vocabulary, terms: Monomials) -> Iterator[Node]:
+    """For a speed or momentum that was taken to stay as it was, the root of its square and what is lost or won on the way: √(v₀² − 2 μ g d)."""
+    node, value, needed = required.node, required.value, required.needed
+    if not required.addend or dimension(node, vocabulary.dimensions) not in _OF_MOTION or value.ndim != 1 or needed.ndim != 1:
+        return
+    rest, known = needed**2 - value**2, {*vocabulary.parameters, *vocabulary.coordinates}
+    if node.symbols <= {*vocabulary.parameters} and np.all(needed > 0) and np.all(np.abs(rest) > _SAME * needed**2):
+        for other in terms.equal_to(rest):
+            if other.symbols <= known and not any(n.dots for n in other.symbols):
+                yield Fn("sqrt", (more(_squared(node), other),), span=node.span)
 
 
 def _at_angles(whole: Add, needed: Array, values: Mapping[str, Array], vocabulary: Vocabulary) -> Iterator[Node]:

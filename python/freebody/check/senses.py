@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from freebody.core import quote
-from freebody.symbolic.tree import Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, is_zero, walk
+from freebody.model.errors import ModelProblem
+from freebody.symbolic.errors import StatementError
+from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, is_zero, walk
 
+from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 
 if TYPE_CHECKING:
@@ -18,7 +23,7 @@ if TYPE_CHECKING:
     from .families import Family
 
 _BOTH = 2  # terms
-_SIZE = re.compile(r"speed\(|hypot\(")
+_SIZE = re.compile(r"speed\(|hypot\(|distance\(")
 _DEPENDS = re.compile(r"\b(?:abs|sign)\(")
 _RUBBED = re.compile(r"\bsign\(((?:rate|omega|vx|vy)\([^()]*\))\)")
 """What dry friction takes the sense of."""
@@ -40,12 +45,17 @@ def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
 
 
 def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
-    """The same of a rate that is said to be a root, θ' = √(…), and of those of which a size is made, v_B = L ω."""
+    """The same of a rate that is said to be a root, θ' = √(…), and of those of which a size is made, v_B = L ω; of the differences of parameters
+    of which one is made, r = (m e − M a) …, the sign that they have in the model."""
     known, pairs = case.meaning, said_of_each(equation)
     rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
     sizes = [other for one, other in pairs if isinstance(one, Sym) and any(map(_SIZE.match, known.texts(Sym(one.name))))]
     linear = (n for other in sizes for n in symbols_in(other) if known.vocabulary.is_rate(n))
     moving = {n: known.read_from(n) for n in linear if n not in known.vocabulary.parameters}
+    fixed = {*known.vocabulary.parameters}
+    differences = [n for other in sizes for n in _sums(other) if n.symbols <= fixed and _has_minus(n)]
+    with suppress(StatementError, ModelProblem):
+        moving |= {n: known.symbols.expression(spell(n)) for n in differences}
     return _as_at_start(case, {n: known.read_from(n) for n in rates} | moving)
 
 
@@ -66,15 +76,32 @@ def holds_with_either_root(case: Case, equation: Equation) -> bool:
     return replace(one, ratio=np.fmin(np.abs(one.ratio), np.abs(other.ratio))).holds_but_for_few
 
 
-def _as_at_start(case: Case, texts: dict[Sym, str]) -> tuple[Family, str] | None:
+def _sums(node: Node) -> Iterator[Add]:
+    """The sums by which a product or a quotient has its sign."""
+    match node:
+        case Add():
+            yield node
+        case Mul(factors=factors):
+            yield from (each for factor in factors for each in _sums(factor))
+        case Quotient(top=top, bottom=bottom):
+            yield from (*_sums(top), *_sums(bottom))
+        case Negative(of=of):
+            yield from _sums(of)
+
+
+def _has_minus(whole: Add) -> bool:
+    return any(isinstance(term, Negative) for term in whole.terms)
+
+
+def _as_at_start(case: Case, texts: Mapping[Node, str]) -> tuple[Family, str] | None:
     """The motions in which rates have the sense that they have at the start, in words."""
     if not texts:
         return None
     read, own = case.sampler.core.evaluate, case.sampler.own
     began = dict(zip(texts, read([*texts.values()], own), strict=True))
-    for n in (n for n in texts if not began[n] and n.name in case.sampler.names):  # as it is at once
+    for n in (n for n in texts if isinstance(n, Sym) and not began[n] and n.name in case.sampler.names):  # as it is at once
         began[n] = float(read([f"accel({quote(n.name)})"], own)[0])
-    words = ", ".join(f"{n.key} {'<' if began[n] < 0 else '>'} 0" for n in texts)
+    words = ", ".join(f"{spell(n)} {'<' if began[n] < 0 else '>'} 0" for n in texts)
     above = tuple(f"-({text})" if began[n] < 0 else text for n, text in texts.items())
     return replace(case.hypothesis, above=(*case.hypothesis.above, *above)), words
 

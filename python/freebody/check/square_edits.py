@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, permutations
+from itertools import product as product_of
 
 import numpy as np
 
@@ -25,6 +26,14 @@ from .vocabulary import Vocabulary
 _NEARLY = 1e-5  # relative spread below which a factor is meant to be one number, or a sum what is needed
 _ACCELERATION = LENGTH.times(TIME, -2)
 _SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
+
+
+def _root(square: Node) -> Node | None:
+    """What a term is the square of; None where it is of none."""
+    number, powers = powers_of(square)
+    if number <= 0 or any(power % 2 for power in powers.values()):
+        return None
+    return written(float(np.sqrt(number)), {n: power // 2 for n, power in powers.items()})
 
 
 @dataclass
@@ -75,6 +84,20 @@ class SquareEdits:
                     number, powers = powers_of(Mul((required.node, nodes[place], call)))
                     squares = (power_of(unsigned(node), 2) for node in (required.node, nodes[place]))
                     yield Fn("sqrt", (Add((*squares, written(sign * number, powers))),), span=required.node.span)
+
+    def crossed(self, node: Add, missing: Array) -> Iterator[Node]:
+        """What the square of a sum of two velocities has beside their squares: that of a point by its components, and that of what turns about it."""
+        speed = _SPEEDS[0].times(_SPEEDS[0])
+        roots = [_root(term) for term in node.terms if dimension(term, self.vocabulary.dimensions) == speed]
+        rates = [n for n in roots if isinstance(n, Sym) and n.dots]
+        for whole in (n for n in roots if n is not None and n not in rates):
+            for (one, other), angle in product_of(permutations(rates, 2), self.vocabulary.angles):
+                parts = [Mul((one, Fn("cos", (angle,)))), Mul((other, Fn("sin", (angle,))))]
+                along, across = (sampled(Mul((Num(2.0, "2"), whole, part)), self.values) for part in parts)
+                for signs in product_of((1, -1), repeat=2):
+                    if np.abs(signs[0] * along + signs[1] * across - missing).max() <= _NEARLY * np.abs(missing).max():
+                        both = Add(tuple(part if sign > 0 else Negative(part) for sign, part in zip(signs, parts, strict=True)))
+                        yield Mul((Num(2.0, "2"), whole, both))
 
     def of_components(
         self,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from freebody.symbolic.dimensions import Known
 from freebody.symbolic.evaluate import is_zero
-from freebody.symbolic.tree import Add, Node, Num, Pow, Sym, unsigned, walk
+from freebody.symbolic.tree import Add, Node, Num, Pow, Quotient, Sym, unsigned, walk
 
 from .edits import Edit
 from .language.dimensions import dimension
@@ -33,7 +33,7 @@ class Subject:
         return is_constraint(self.equation, self._known)
 
     def is_changed(self, edits: Sequence[Edit], after: Equation) -> bool:
-        """Whether two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
+        """Whether a derivative by what moves is no longer that, or two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
         after two edits, or with all gone from it that was said of forces, masses, weights or, after two, of a given speed."""
         own = {n.key for n in symbols_in(after)}
         solved = {n.key for n in symbols_in(self.equation) if self._meaning.solved(n)}
@@ -45,15 +45,25 @@ class Subject:
         gone = (n for n in symbols_in(self.equation) if n in self._known.parameters and n.key not in own)
         given = two and any((its := self._known.dimension(n)) is not None and its.time for n in gone)
         kept_answers = not self.answers or not self.answers.isdisjoint(after.symbols)
+        if not self._slopes <= {*walk(after)}:
+            return True
         return (two and ((bool(solved) and not solved & own) or not kept_answers)) or (
             (given or (((two and lost) or mechanics) and not self.is_constraint)) and self._case.is_kinematic(after)
         )
 
     @cached_property
     def answers(self) -> set[Node]:
-        """The symbols that stand alone on a side."""
+        """The symbols that stand alone on a side; of two those that are no parameters, if one is none."""
         sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
-        return {side for side in sides if isinstance(side, Sym)}
+        alone = {side for side in sides if isinstance(side, Sym)}
+        return {side for side in alone if side not in self._known.parameters} or alone
+
+    @cached_property
+    def _slopes(self) -> set[Node]:
+        """Derivatives by what moves that stand alone on a side, ``dv/dφ``."""
+        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
+        is_rate = lambda n: isinstance(n, Sym) and n.dots > 0
+        return {side for side in sides if isinstance(side, Quotient) and is_rate(side.top) and is_rate(side.bottom)}
 
     def is_no_answer(self, after: Equation) -> bool:
         """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""

@@ -41,7 +41,7 @@ _ALIKE = 1e-7  # spread of what is the same in several runs, relative: what the 
 def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Verdict:
     """At a moment of the model's own run, with its own numbers; figures to their printed digits."""
     case, values, t = _read(checker, declared, moment, statement)
-    run, _ = checker.moment(moment)
+    run, _ = checker.happens.moment(moment)
     for equation in case.equations:
         with np.errstate(all="ignore"):
             sides = equation_sides(equation, values)
@@ -65,7 +65,7 @@ def at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ver
 
 def holds_on_run(checker: Checker, declared: Declared, statement: str) -> bool:
     """Whether equations hold all along the model's own run, from the moment of which they are said to the next switch."""
-    case, run = checker.case(statement, declared), checker.own_motion
+    case, run = checker.case(statement, declared), checker.happens.run
     begins = max(float(run.t[0]), checker.sampler.own.t)
     ends = min((change.t for change in run.changes if change.t > begins), default=float(run.outcome.t))
     values = case.meaning.values(_OnRun(run, np.linspace(begins, ends, _TIMES)[1:-1], checker, run.evaluate))
@@ -82,7 +82,7 @@ def _symbolically(checker: Checker, declared: Declared, event: str, statement: s
 
 def report(checker: Checker, declared: Declared, label: str, figure: str) -> Verdict:
     """A quantity of the section ``report``, from the model's own run with its own numbers."""
-    run = checker.own_motion
+    run = checker.happens.run
     if label not in run.report:
         raise ModelProblem(f"the model reports no `{label}`", f"it reports {', '.join(run.report)}")
     printed = parse(f"0 = {figure}").equations[0]
@@ -106,7 +106,7 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
             other = type(checker)(checker.mechanism, checker.declared)
             case, values, t = _read(other, declared, moment, f"{expression} = 0")
             found[number] = sampled(case.equations[0].left, values)[0]
-            unsure.append(partial(_unsure, other, case, case.equations[0], other.moment(moment)[0], t))
+            unsure.append(partial(_unsure, other, case, case.equations[0], other.happens.moment(moment)[0], t))
     finally:
         checker.mechanism.parameters[name] = before
     every = np.array(list(found.values()))
@@ -122,7 +122,7 @@ def same(checker: Checker, declared: Declared, moment: str, name: str, numbers: 
 def _read(checker: Checker, declared: Declared, moment: str, statement: str) -> tuple[Case, Mapping[str, Array], float]:
     """A statement with the values of its symbols at a moment, and its time."""
     case = checker.case(statement, declared)
-    run, t = checker.moment(moment)
+    run, t = checker.happens.moment(moment)
     return case, case.meaning.values(_OnRun(run, np.array([t]), checker, run.evaluate)), t
 
 

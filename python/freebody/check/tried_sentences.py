@@ -30,6 +30,7 @@ from .wording import BLOW
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
+    from .stated import Correction
 
 _MOST = 16  # readings that are tried
 _NOTHING = 1e-12  # of a unit, below which a side is 0 but for round-off
@@ -64,7 +65,7 @@ def as_said(checker: Checker, text: str, letters: Declared | None, correcting: b
         if "did you mean" not in error.hint and (found := _in_sentences(asked, text, said, letters, None)):
             return found
         raise
-    if verdict.ok:
+    if verdict.ok and not (said.follows and _is_empty(verdict)):
         return _of_something(verdict, text)
     found = _in_sentences(asked, text, said, letters, verdict)
     return found or (asked.check(text, letters) if asked.correcting else verdict)
@@ -72,10 +73,14 @@ def as_said(checker: Checker, text: str, letters: Declared | None, correcting: b
 
 def _of_something(verdict: Verdict, text: str) -> Verdict:
     """A verdict; not decidable where nothing is left of a statement under the condition that it gives: ``v = 0: ½ m v² = m g s``."""
-    says_nothing = verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)
-    if says_nothing and relates(text.rpartition(":")[0]):
+    if _is_empty(verdict) and relates(text.rpartition(":")[0]):
         return replace(verdict, kind=Kind.UNDECIDABLE, reason=f"{verdict.reason}: under that condition nothing is left of it")
     return verdict
+
+
+def _is_empty(verdict: Verdict) -> bool:
+    """Whether nothing is left of what is true."""
+    return verdict.ok and bool(verdict.untested) and verdict.reason.startswith(EVERY_TERM_IS_0)
 
 
 def _spoken(checker: Checker, text: str, letters: Declared | None) -> Sentence | None:
@@ -92,8 +97,9 @@ def _in_sentences(
     checker: Checker, text: str, said: Sentence, letters: Declared | None, before: Verdict | None
 ) -> Verdict | None:
     """The verdict about what sentences claim, in the first way in which that is true; where it is in none, and the text could not be read,
-    so that there is no verdict ``before``, in the first way in which it can be read. None where they say no more than the text did."""
-    fails = before is None or before.kind is Kind.UNDECIDABLE
+    so that there is no verdict ``before``, in the first way in which it can be read, else the likelier corrected one of both. None where
+    they say no more than the text did."""
+    fails = before is None or before.kind is Kind.UNDECIDABLE or before.ok
     elsewhere = any(_SOMEWHERE.search(words) and SMALL in says(words) for words in (*said.when, *said.beside))
     if elsewhere or not (fails or said.says_all):
         return None
@@ -112,7 +118,26 @@ def _in_sentences(
                 return found
             if not found.ok and (first is None or first[0].kind is Kind.UNDECIDABLE):
                 first = found, reading
-    return _wrong(checker, said, letters, *first) if first and before is None else None
+    if first is None or (before and fails and not (first[1].condition and first[0].kind is Kind.WRONG)):
+        return None
+    return _wrong(checker, said, letters, *first) if fails else _corrected(checker, text, said, letters, *first)
+
+
+def _corrected(
+    checker: Checker, text: str, said: Sentence, letters: Declared | None, found: Verdict, reading: _Reading
+) -> Verdict | None:
+    """The verdict in a reading of all words, with its corrections, where they are likely, and none of the text as it stands is."""
+    if not (checker.correcting and reading.is_whole and found.kind is Kind.WRONG):
+        return None
+    as_it_stands = checker.check(text, letters)
+    if as_it_stands.kind is not Kind.WRONG or _is_likely(as_it_stands.mends):
+        return as_it_stands
+    mends = _judged(checker, reading, said.claims, letters).mends
+    return replace(found, mends=mends) if _is_likely(mends) else as_it_stands
+
+
+def _is_likely(mends: Sequence[Correction]) -> bool:
+    return bool(mends) and mends[0].size <= LIKELY
 
 
 def _wrong(checker: Checker, said: Sentence, letters: Declared | None, found: Verdict, reading: _Reading) -> Verdict | None:
@@ -122,7 +147,8 @@ def _wrong(checker: Checker, said: Sentence, letters: Declared | None, found: Ve
     correcting = copy(checker)
     correcting.correcting = True
     mends = _judged(correcting, reading, said.claims, letters).mends
-    if not reading.is_whole and not (mends and mends[0].size <= LIKELY):
+    nothing = any(mend.equation.endswith("= 0") for mend in mends[:1]) and not any(claim.endswith("0") for claim in said.claims)
+    if not (reading.is_whole or (_is_likely(mends) and not nothing)):  # where nothing moves it may not be meant
         return None
     return replace(found, mends=mends if checker.correcting else ())
 

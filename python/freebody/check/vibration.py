@@ -319,7 +319,7 @@ class Vibration:
         if self._later:
             try:
                 there = self._at_rest(self._placed(self.sampler.at_moment_with(values)))
-            except (MotionError, ModelError, ModelProblem, SingularConfiguration):
+            except (MotionError, ModelError, ModelProblem, SingularConfiguration, ValueError):
                 return None
             return a if there and self._is_there(there) and _swings(a := _space(core, there).a) else None
         p = core.bind(values | self._amplitude)
@@ -330,7 +330,7 @@ class Vibration:
                     there = rest.p + done * (p - rest.p)
                     near, _ = core.assemble(there, rest.t, guess=dict(zip(self.sampler.names, state.q.tolist(), strict=True)))
                     state = self._at_rest(self._placed(near))
-                except (MotionError, ModelError, SingularConfiguration):
+                except (MotionError, ModelError, SingularConfiguration, ValueError):
                     state = None
                 if state is None:
                     break

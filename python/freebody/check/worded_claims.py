@@ -20,7 +20,7 @@ from . import timed_claims
 from .assumptions import WORDS
 from .beginnings import events_named, is_start
 from .corners import on_corner
-from .described import described, way_of
+from .described import described, place_of, way_of
 from .families import BEFORE, SINCE_START
 from .language.statements import symbols_in
 from .later import AT_FIRST, only_at_first
@@ -60,8 +60,11 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
     that is the ``problem``. Raises it."""
     if is_start(checker, words):
         return checker.check(f"at the start: {statement}", declared, correcting=checker.correcting)
+    if place := place_of(words, checker):
+        verdict = checker.check(f"at {place}: {statement}", declared, correcting=checker.correcting)
+        return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as at {place}."))
     lasts, said = LASTS.match(words) is not None, _is_plain(words)
-    if not lasts and not _CONDITION.match(statement) and (event := checker.event_called(words)):
+    if not lasts and not _CONDITION.match(statement) and (event := checker.happens.event(words)):
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
         return _of_phase(checker, declared, found, words, statement, problem)
@@ -104,11 +107,11 @@ def _of_moment(checker: Checker, declared: Declared, words: str, statement: str)
             return checker.check(f"at the greatest {turning[0]}: {statement}", declared)
     if _OVER.search(words):
         with suppress(ModelProblem):
-            return in_phase(checker, declared, Phase(False, (checker.happening(words),), False), words, statement)
+            return in_phase(checker, declared, Phase(False, (checker.happens.called(words),), False), words, statement)
     if kind := kind_of(words):
         lasts = kind in ("taut", "slack") and not is_moment(words)  # what a string is, not what it does
         with suppress(ModelProblem):  # an event by what goes on from there
-            return in_phase(checker, declared, Phase(False, (checker.happening(words),), not lasts), words, statement)
+            return in_phase(checker, declared, Phase(False, (checker.happens.called(words),), not lasts), words, statement)
     return None
 
 
@@ -129,9 +132,10 @@ def _label_or_stretch(checker: Checker, declared: Declared, words: str, statemen
         if lasts and verdict is not None and not (found := _later(checker, declared, words, statement, verdict, problem)).ok:
             return found  # whichever stretch is meant
         raise problem
-    run = checker.own_motion
+    run = checker.happens.run
     others = any(change.t > run.t[0] for change in run.changes)  # stretches of the motion
-    elsewhere = not verdict.ok or (others and _awaits(checker, declared, statement, verdict))
+    waits = _awaits(checker, declared, statement, verdict) or (lasts and _stands(verdict))  # while it tips, it moves
+    elsewhere = not verdict.ok or (others and waits)
     idle = lasts and others and verdict.is_idle  # of a part by its name, which does nothing yet
     if (stretch or (placed and others) or idle) and elsewhere and not _FIRST_OF_ALL.search(words):
         return _later(checker, declared, words, statement, verdict, problem)
@@ -193,7 +197,7 @@ def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, st
 
 def _before_another(checker: Checker, declared: Declared, found: Phase, words: str, statement: str) -> Verdict | None:
     """True just before an event that words may mean beside what they are taken for; else None."""
-    for name in dict.fromkeys(event.name for event in checker.own_motion.events if event.name not in " ".join(found.changes)):
+    for name in dict.fromkeys(event.name for event in checker.happens.run.events if event.name not in " ".join(found.changes)):
         with suppress(ModelProblem, StatementError):
             there = beside_event(checker, declared, "just ", "before", name, statement)
             if there.ok and not _says_nothing(there):
@@ -205,7 +209,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
     """What does not hold as the model is at first, behind words that say how long it should: true where it holds after something
     that happens, wrong where it holds on none of these stretches, whichever is meant. Raises the ``problem`` of the words for what
     should stay the same, of which nothing says how long."""
-    run = checker.own_motion
+    run = checker.happens.run
     happens = dict.fromkeys([*(event.name for event in run.events), *(part for change in run.changes for part in change.of)])
     found = in_phase(checker, declared, Phase(False, tuple(happens), False), words, statement, [at_first])
     judging = copy(checker)
@@ -225,7 +229,7 @@ def _later(checker: Checker, declared: Declared, words: str, statement: str, at_
 
 def on_later_stretch(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict | None:
     """Under a hypothesis of which there are no motions as the model is at first, as of what slides back: after what switches."""
-    for name in () if checker.is_at_first else checker.switches:
+    for name in () if checker.is_at_first else checker.happens.switches:
         with suppress(ModelProblem, StatementError):
             found = in_phase(checker, declared, Phase(False, (name,), False), condition, f"if {condition}: {statement}")
             if found.kind is not Kind.UNDECIDABLE:
@@ -245,6 +249,8 @@ def in_phase(
     found: list[tuple[Place | None, Verdict]] = [(None, one) for one in verdicts]
     problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
     for place, name in zip(places, names[len(names) - len(places) :], strict=True):
+        if found and not checker.budget.lasts():
+            return Verdict(Kind.UNDECIDABLE, statement, f"there was no time for all stretches that `{words}` may mean: say which")
         try:
             one = _judged_at(checker, declared, place, statement, checker.correcting and len(places) == 1)
         except (ModelProblem, StatementError) as error:
@@ -284,7 +290,7 @@ def _corrected(
     given = [one for place, one in found if place is None]
     for idle in (False, True) if checker.correcting else ():
         asked = [place for place, one in found if place and one.is_idle is idle]
-        some = [_judged_at(checker, declared, place, statement, True) for place in asked]
+        some = [_judged_at(checker, declared, place, statement, True) for place in checker.budget.within(asked, 1.0)]
         if any(one.mends for one in (*given, *some)):
             return [*given, *some]
     return [one for _, one in found]
@@ -303,6 +309,12 @@ def _awaits(checker: Checker, declared: Declared, statement: str, one: Verdict) 
 def _says_nothing(one: Verdict) -> bool:
     """Whether something that a statement is of is 0 where it holds, and may act on another stretch."""
     return bool(one.untested) and one.is_idle
+
+
+def _stands(one: Verdict) -> bool:
+    """Whether no part moves of which something is said."""
+    rates = [value for name, value in one.evidence.letters.items() if name.endswith("dot")] if one.evidence else []
+    return bool(one.untested) and bool(rates) and not np.any(rates)
 
 
 def _least_wrong(verdicts: Sequence[Verdict]) -> Verdict:
@@ -325,7 +337,7 @@ def beside_words(checker: Checker, declared: Declared, just: str, side: str, eve
     try:
         return beside_event(checker, declared, just, side, event, statement)
     except ModelProblem:
-        happens = () if side == "before" or NOT_FIRST.search(event) or re.search("[=<>]", event) else checker.switches
+        happens = () if side == "before" or NOT_FIRST.search(event) or re.search("[=<>]", event) else checker.happens.switches
         if not happens:
             raise
         words = " ".join(filter(None, ((just or "").strip(), side, event)))
@@ -342,7 +354,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
             raise ModelProblem(f"`{event}` is past there", "say one moment or stretch")
         return checker.check(statement, declared)
     held = {name: float(value) for name, value in checker.hypothesis.held if _FIGURE.fullmatch(str(value))}
-    if just and side == "after" and not checker.sampler.spec["events"] and not checker.own_motion.changes:
+    if just and side == "after" and not checker.sampler.spec["events"] and not checker.happens.run.changes:
         verdict = checker.check(statement, declared, replace(checker.hypothesis, at_start=True))
         return replace(
             verdict, notes=(*verdict.notes, f"`{event}` is read as what the model starts with: nothing else happens on it.")
@@ -357,7 +369,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
         verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
         return verdict
-    up_to = replace(SINCE_START, until=checker.happening(event))  # what is before it may be the motion up to it
+    up_to = replace(SINCE_START, until=checker.happens.called(event))  # what is before it may be the motion up to it
     until = checker.check(statement, declared, up_to)
     return until if until.ok or (until.mends and not verdict.mends) else verdict
 
@@ -365,7 +377,7 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
 def _is_past(checker: Checker, event: str) -> bool:
     """Whether what happens has done so already at the moment of which is spoken."""
     with suppress(ModelProblem, Unreached):
-        return time_of(checker.own_motion, checker.happening(event)) <= checker.sampler.own.t * (1 + _ROUND_OFF)
+        return time_of(checker.happens.run, checker.happens.called(event)) <= checker.sampler.own.t * (1 + _ROUND_OFF)
     return False
 
 

@@ -27,7 +27,7 @@ DOING = re.compile(
     r"\b(?!(?:ring|string|spring|bearing|during|being|using|taking|considering|reduced|combined)\b)[a-z]{2,}(?:ing|ed)\b"
 )
 """Words of what something does."""
-BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump|jerk"
+BLOW = "impact|collision|bounce|rebound|hit|strike|struck|blow|knock|shock|bump|jerk|catch"
 LASTS = re.compile(
     r"(?:while|until|during|between|(?:as|so) long as)\b(?! at rest)|in (?:the )?(?:free )?(?:flight|air)\b|(?:\w+\s+)?hanging\b(?! still)"
 )

@@ -149,7 +149,7 @@ def rest_near(source: CompiledModel, state: State, touching: State | None = None
             rest = replace(rest, p=p).at(closed(rest.q + part * change))
             if sizes.max(initial=0.0) < _FOUND and np.abs(own).max(initial=0.0) <= _FOUND * np.abs(p).max(initial=1.0):
                 return rest if _rests(source, rest) else None
-    except (MotionError, np.linalg.LinAlgError, SingularConfiguration):
+    except (MotionError, ValueError, SingularConfiguration):  # a law of forces has no value everywhere
         pass
     return None
 

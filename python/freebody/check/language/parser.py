@@ -24,7 +24,7 @@ from typing import Any
 from freebody.symbolic.differentiate import partial, rate
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.symbols import folded
-from freebody.symbolic.tree import Node, Sym, exchange, substitute, walk
+from freebody.symbolic.tree import Fn, Node, Num, Pow, Sym, exchange, substitute, walk
 
 from .grammar import CLOSES, RELATIONS, SIGNED, Line
 from .statements import Assignment, Equation, Partial, Program, Rate, written_out
@@ -118,14 +118,23 @@ def _meanings(rows: Sequence[Sequence[Equation]], known: set[str]) -> list[Assig
 
 
 def _definition(line: Equation, taken: set[str], begun: set[Node], alone: Sequence[Sym]) -> Assignment | None:
-    """The line as one that gives a name: to its left side, or, where no other line begins with it, to its right side. The rate of
-    a name that stands ``alone`` somewhere is none."""
-    for name, said in ((line.left, line.right), (line.right, line.left)):
-        if not isinstance(name, Sym) or name.name in taken or (name is line.right and name in begun):
+    """The line as one that gives a name: to its left side, or, where no other line begins with it, to its right side; also by its square,
+    p² = k/m. The rate of a name that stands ``alone`` somewhere is none."""
+    for side, other in ((line.left, line.right), (line.right, line.left)):
+        name, said = (side, other) if (root := _squared(side)) is None else (root, Fn("sqrt", (other,), span=other.span))
+        if not isinstance(name, Sym) or name.name in taken or (side is line.right and side in begun):
             continue
         own = any(isinstance(n, Sym) and n.name == name.name for n in walk(said))
         if not own and not (name.dots and Sym(name.name) in alone):
             return Assignment(name, said, span=line.span)
+    return None
+
+
+def _squared(side: Node) -> Sym | None:
+    """The name of which a side is the square; a frequency is said by its square, and judged."""
+    match side:
+        case Pow(base=Sym(name=name) as base, exponent=Num(value=2.0)) if not name.startswith(("ω", "omega")):
+            return base
     return None
 
 
