@@ -11,7 +11,7 @@ import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from time import process_time
@@ -24,6 +24,7 @@ from slipped import slipped
 
 from freebody.check import Checker, Kind
 from freebody.check.case import Case
+from freebody.check.families import ALL
 from freebody.check.file import WORDS, judged_alone
 from freebody.check.language.statements import Equation, symbols_in, terms
 from freebody.check.prose import plainly
@@ -32,6 +33,7 @@ from freebody.check.sentences import sentence
 from freebody.check.two_moments import across_impact
 from freebody.check.verdict import Verdict
 from freebody.check.wording import as_claim, with_condition_first
+from freebody.core import ModelError, MotionError
 from freebody.mechanism import Mechanism
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
@@ -46,7 +48,18 @@ _OMEGA = re.compile(r"(?:ω|\\omega|\bomega)(?:_\{?n\}?)?(?![A-Za-z0-9_₀-₉])
 _NUMBERED = re.compile(r"\bomega_\d\b")
 """One of several natural frequencies, as a correction writes it."""
 _FOLLOWS = re.compile(r"⇒|\\Rightarrow|\\implies")
+_AT_START = re.compile(r"\b(?:release[ds]?|from rest|at the start|let go)\b")
+_AT_STARTS = 16
 _BODY = re.compile(r"(.*:(?!=)\s*)?(.+?)(\bas\s+\S+\s*(?:→|->).*)?", re.S)
+
+
+def _is_one_at_start(cases: Sequence[Case], one: Equation, other: Equation) -> bool:
+    """Whether two equations of the start are one but for a number as joints and laws of forces allow there, at other loads."""
+    try:
+        given = [case.meaning.values(case.sampler.admissible.samples(replace(ALL, at_start=True), _AT_STARTS)) for case in cases]
+        return _proportional(one, other, {**given[0], **given[1]})
+    except (ValueError, KeyError, ModelError, MotionError):
+        return False
 
 
 def _files(half: str) -> dict[str, Path]:
@@ -212,8 +225,10 @@ class Book:
                 cases = [self.checker.case(text, letters) for text in said]
             except StatementError:
                 return False
-        one = cases[0].equations[0]
-        return any(self._is_one(cases, one, other) for other in cases[1].equations)
+        starts, one = _AT_START.search(other) is not None, cases[0].equations[0]
+        return any(
+            self._is_one(cases, one, each) or (starts and _is_one_at_start(cases, one, each)) for each in cases[1].equations
+        )
 
     def _is_one(self, cases: Sequence[Case], one: Equation, other: Equation) -> bool:
         """The same of equations of two cases."""

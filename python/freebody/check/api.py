@@ -83,7 +83,7 @@ class Checker:
         self.whole: Budget | None = None
         self._seed, self._asked = seed, asked
         self._vibrations: dict[
-            tuple[str, tuple[tuple[str, float], ...]], Vibration
+            tuple[str, tuple[str, ...], tuple[tuple[str, float], ...]], Vibration
         ] = {}  # of what swings alone, with what is held
         self._beside: dict[tuple[Any, ...], Checker] = {}  # the same of other moments
 
@@ -322,8 +322,8 @@ class Checker:
         held = tuple((name, float(value)) for name, value in family.held if str(value).replace(".", "", 1).isdecimal())
         if not held:
             return self.vibration
-        key = (self.vibration.alone, held)
+        key = (self.vibration.alone, self.vibration.places, held)
         if key not in self._vibrations:
             sampler = MotionSampler(self.mechanism, self._seed, **{**self._asked, **dict(held)})
-            self._vibrations[key] = Vibration(sampler, self.vibration.alone)
+            self._vibrations[key] = Vibration(sampler, self.vibration.alone, self.vibration.places)
         return self._vibrations[key]

@@ -361,6 +361,11 @@ class AskedModel:
         held = np.array(rows).reshape(len(rows), len(self.names)) * self.sizes
         return np.linalg.svd(held)[2][len(independent(held)) :].T
 
+    @property
+    def moves_one_way(self) -> bool:
+        """Whether one rate says all others."""
+        return self.free_rates.shape[1] == 1
+
     @cached_property
     def loops(self) -> int:
         """How many joints close a loop."""

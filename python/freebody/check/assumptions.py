@@ -393,7 +393,9 @@ def _also(given: Family, part: str, checker: Checker, declared: Declared) -> Fam
     vanishing = _meant(f"({left}) - ({right})", checker, declared)
     if found := _NO_FORCE.fullmatch(vanishing):
         checker.sampler.require_touch([found[1]])
-    if _are_moving_angles(left, right, checker, declared):  # a whole turn between two directions makes no difference
+    if _are_moving_angles(left, right, checker, declared) or _goes_round(
+        left, checker, declared
+    ):  # a whole turn makes no difference
         vanishing = f"sin(({vanishing})/2)"
     asks_past = "⟦" in vanishing or OF_TIME.search(vanishing)
     since = given.since or ("start" if asks_past else "")
@@ -405,6 +407,14 @@ def _are_moving_angles(left: str, right: str, checker: Checker, declared: Declar
     with suppress(ModelProblem, StatementError):
         moving = all(_moves(_meant(side, checker, declared), checker) for side in (left, right))
         return moving and checker.symbols(declared).measured(left)[1] == ANGLE
+    return False
+
+
+def _goes_round(side: str, checker: Checker, declared: Declared) -> bool:
+    """Whether a side is an angle that is driven."""
+    driven = {spell(motion["of"]) for motion in checker.sampler.spec["motions"]}
+    with suppress(ModelProblem, StatementError):
+        return _meant(side, checker, declared).strip("()") in driven and checker.symbols(declared).measured(side)[1] == ANGLE
     return False
 
 

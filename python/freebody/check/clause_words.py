@@ -32,7 +32,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
         rf"(?!(?:{CONDITION})\b)((?:[a-z]+ )*(?:touch(?:ed|ing)|still touch(?:es)?|in (?:contact|touch)|(?:com)?pressed)(?: [a-z]+)*)",
         r"while \1",
     ),
-    (r"(?:once|when|after) ((?:it|both|all|(?:the )?[a-z]+)) (?:is|are) at rest again", r"after \1 has come to rest"),
+    (r"(?:(?:once|when|after) )?((?:it|both|all|(?:the )?[a-z]+)) (?:is |are )?at rest again", r"after \1 has come to rest"),
     (r"(?:the )?((?:first )?(?:swing|fall|climb|descent|ascent|glide)(?: (?:on|down|up|from|of) [a-z0-9 ]+)?)", r"during the \1"),
     (r"(?:the )?([a-z]+) just (lands|stops|leaves|slips|lifts|touches|tips)", r"when the \1 \2"),
     (r"(?:still )?in (?:contact|touch)((?: with [a-z ]+)?)", r"while in contact\1"),

@@ -15,7 +15,7 @@ import numpy as np
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Node, Num, Sym, exchange, is_zero, unsigned
+from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, is_zero, unsigned, walk
 
 from .assumptions import first_order
 from .coefficients import tidied
@@ -166,7 +166,10 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
         return []
     since, case = replace(given, since="start"), replace(case, meaning=case.meaning.of_start(), known={})
     with suppress(NoMotion, StatementError):
-        if residual(row, case.values(since)).worst < HOLDS:
+        values = case.values(since)
+        if any(not is_zero(side) and _vanishes(side, values) for side in (row.left, row.right)):
+            return []  # as things are at first nothing is said
+        if residual(row, values).worst < HOLDS:
             since = replace(since, through=True)
     return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.together), part))
 
@@ -347,7 +350,7 @@ class _Search:
         length = len(spell(tidied(found.after))) + _WORTH * self.likely_size(found)
         strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
         new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
-        solved = any(edit.old in self.subject.answers for edit in found.edits) or self.subject.is_no_answer(found.after)
+        solved = any(edit.old in self.subject.answer_sides for edit in found.edits) or self.subject.is_no_answer(found.after)
         solved |= not self.subject.answers.union(self._likelihood.taken.differences) <= {
             *map(unsigned, (found.after.left, found.after.right))
         }
@@ -384,15 +387,20 @@ class _Search:
         return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
 
     def _is_idle(self, edit: Edit, beside_another: bool) -> bool:
-        """Whether an edit puts 0 in the place of something."""
-        return (beside_another or edit.kind in _SWAPPED) and edit.new is not None and not self._moves(edit.new)
+        """Whether an edit puts 0 in the place of something, or adds it within a part."""
+        if edit.new is None:
+            return False
+        sums = (part for part in walk(edit.new) if isinstance(part, Add))
+        nothing = any(term not in self._parts and not self._moves(term) for whole in sums for term in whole.terms)
+        return nothing or ((beside_another or edit.kind in _SWAPPED) and not self._moves(edit.new))
+
+    @cached_property
+    def _parts(self) -> set[Node]:
+        return {*walk(self.equation)}
 
     def _moves(self, node: Node) -> bool:
         """Whether a part has a value other than 0."""
-        try:
-            return bool(np.any(np.abs(sampled(node, self.few)) > _ROUND_OFF * magnitude(node, self.few)))
-        except (KeyError, ValueError):
-            return True
+        return not _vanishes(node, self.few)
 
     @cached_property
     def _likelihood(self) -> Likelihood:
@@ -430,6 +438,14 @@ class _Search:
             return self._edited.residual(equation) if values is self.few else residual(equation, values)
         except ValueError:
             return None
+
+
+def _vanishes(node: Node, values: Mapping[str, Array]) -> bool:
+    """Whether a part is 0 on all states, but for round-off."""
+    try:
+        return not np.any(np.abs(sampled(node, values)) > _ROUND_OFF * magnitude(node, values))
+    except (KeyError, ValueError):
+        return False
 
 
 def _where_known(equation: Equation, values: Mapping[str, Array]) -> Mapping[str, Array]:

@@ -150,8 +150,15 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):
-        return _of(f"y({quote(body)}.G)", least) if body else ()
+        return _of(f"y({quote(body)}.G)" if body else _level(checker), least) if body or checker.sampler.moves_one_way else ()
     return _of(spell(names[0]), least) if _PLACE.search(words) and len(names) == 1 else ()
+
+
+def _level(checker: Checker) -> str:
+    """The height of all bodies, each by its mass, of a mechanism that moves in one way alone."""
+    masses = {body["name"]: body["mass"] for body in checker.sampler.metadata["bodies"] if body.get("mass")}
+    weighed = (f"{mass!r}*y({quote(name)}.G)" for name, mass in masses.items())
+    return f"({' + '.join(weighed)})"
 
 
 def _second(letter: Meaning) -> list[str]:

@@ -248,6 +248,7 @@ class FittedEdits:
         else:
             plain = powered(node, rest, lacked) if min(lacked.values()) > 0 else None
             size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
+            size += any(n > 0 and own.get(base) for base, n in lacked.items()) and min(lacked.values()) < 0  # r²/h for r/cos φ
             yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1))
 
     def _bare_angles(self, equation: Equation) -> list[Sym]:
@@ -290,6 +291,8 @@ class FittedEdits:
 
     def _part_of_length(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A letter that is only a part of what stands there, as of a stretch or an amplitude: A for A + F/k."""
+        if dimension(required.node, self.vocabulary.dimensions) not in (LENGTH, NUMBER_ONLY):
+            return
         for term in self._monomials(equation).equal_to(required.missing):
             if symbols_in(term) and term.symbols <= {*self.vocabulary.parameters}:
                 new = Add((required.node, term), span=required.node.span)

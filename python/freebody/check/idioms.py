@@ -37,6 +37,12 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"(\b(?:lift-?off|separation|leav(?:es|ing)|slack|comes? off|los(?:es|ing) contact)\b[^():=]*)\(\s*[NRSTF](?:_\{?\w+\}?)?\s*(?:→|->|\\to)\s*0\s*\)(?=\s*[:,])",
         r"\1",
     ),
+    # small oscillations about α = β = 0: where one is, the other follows
+    (r"(\b(?:about|around)\s+\$?\\?[^\W\d]\w*\$?)\s*=\s*\\?[^\W\d]\w*\s*(?==\s*\$?0)", r"\1 "),
+    # … (for x ≠ 0)
+    (r"\A(?=[^:]*\Z)(.*=.*?)\s*\(\s*(?:for|if|when)\s+(\$?[^()=<>:]{1,20}(?:\\neq?\b|≠|!=)[^()=<>:]{1,20})\)\s*\Z", r"if \2: \1"),
+    # For M = 0 and small φ: …
+    (r"\A\s*[Ff]or\s+([^:,=]{1,12}=[^:,=]+?)\s+and\s+(?:for\s+)?small\s+(?=[^:=]*:)", r"if \1, for small "),
     (r"\b(?:[Ii]n\s+the\s+)?[Ll]imit\s+(?=\$?\\?[^\W\d]\w*\$?\s*(?:→|->|\\to\b))", ""),
     (r"\A([a-z]+\s+just\s+[a-z]+s)\.\s+(?=[a-z]+:)", r"\1, "),  # weight just lands. energy: …
     (r"\A\s*(?:\([a-z]\)\s*)?[A-Z][^?=:]*\?\s+(?=[A-Z])", ""),  # Does the rope stay taut? For …

@@ -61,7 +61,7 @@ def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, 
     turning = [*inertias, *(Mul((mass, power_of(length, 2))) for mass in masses for length in lengths)]
     for parts in (masses[:_MOST_SHARING], turning[:_MOST_SHARING], stiffnesses[:_MOST_SHARING]):
         rows = [sampled(part, values) for part in parts]
-        for own in range(len(parts)):
+        for own in (i for i, part in enumerate(parts) if isinstance(part, Sym) or part.symbols <= node.symbols):
             others = [i for i in range(len(parts)) if i != own]
             for some in (some for count in (1, 2) for some in combinations(others, count)):
                 if np.allclose(rows[own], factor * sum(rows[i] for i in (own, *some)), rtol=_SAME, atol=0):

@@ -52,6 +52,7 @@ _ROOTED = 0.6  # that a root of a number, as of a sine, is beside what moves and
 _USUAL = 0.1  # for one usual number for another
 _MIXED = 1.0  # for an acceleration or a force in an energy or a momentum
 _FORGOTTEN = 0.3  # for a number before a weight or a mass times its acceleration
+_STATICS = 0.2  # by which what accelerates is likelier forgotten where a balance has nothing that moves
 _ONCE = 0.15  # for a term that has no place, and is not counted twice
 _SOLVED = 0.2  # for another quantity in the place of that which is alone on a side
 _PRESSES = 0.3  # for a force in the place of a weight, of which the equation did not speak
@@ -172,7 +173,8 @@ class Likelihood:
         inside = all(part is not term and unsigned(part) is not term for side in self.its.sides for part in terms_of(side))
         its = dimension(term, self.vocabulary.dimensions)
         inside &= its is None or bool(its.mass) or its.time != -1  # a speed is easily taken as one beside another
-        return _ODD * solved + _ONCE * (not self.its.is_there(term, but=term)) + _INSIDE * inside
+        inside_of_statics = _ODD * (inside and self.its.is_static)
+        return _ODD * solved + _ONCE * (not self.its.is_there(term, but=term)) + _INSIDE * inside + inside_of_statics
 
     def _of_symbol(self, old: Sym, new: Sym) -> float:
         known = self.vocabulary
@@ -234,6 +236,8 @@ class Likelihood:
         )
         size += _ODD * (kind == "missing term" and abs(powers_of(term)[0]) > _MOST_TIMES)
         size += _TAKEN_OUT * (self.its.moves_as_one and any(map(self.its.is_reaction, term.symbols - self.its.said)))
+        accelerates = any(map(self.its.is_acceleration, term.symbols - {*self.vocabulary.parameters}))
+        size -= _STATICS * (kind == "missing term" and self.its.is_static and accelerates)
         return size - PARTNER * self.its.is_centripetal(term)
 
     def _strange(self, term: Node, missing: bool) -> Iterator[Node]:

@@ -127,7 +127,7 @@ def _swinging(checker: Checker, given: Family, limits: str) -> Checker:
         return checker
     there = copy(checker)
     there.vibration = checker.vibration.about(places)
-    if there.vibration.rest is None:
+    if there.vibration_of(given).rest is None:
         said = limits.replace(" -> ", " = ")
         raise ModelProblem(f"this model does not swing about {said}", "it has no place of rest there, or no stable one")
     return there

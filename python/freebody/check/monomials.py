@@ -106,11 +106,19 @@ class Monomials:
     def _factors(self) -> dict[Node, Array]:
         return {}
 
+    def _cancels(self, factor: Node, base: Node, power: int) -> bool:
+        """Whether a factor and a power of a base are 1 together: the same, or what is the same here."""
+        if factor == base:
+            return True
+        with np.errstate(all="ignore"):
+            column = np.log(np.abs(self._known(factor))) + power * np.log(np.abs(self._known(base)))
+        return bool(np.isfinite(column).all() and np.abs(column).max() <= _ONE)
+
     def _term(self, powers: list[int], place: int, wanted: Array, in_size: bool) -> Node | None:
         """The term of such powers; None where its number is none that a person writes."""
         own = {node: n for node, n in zip(self.bases, powers, strict=True) if n}
-        if any(own.get(factor, 0) < 0 for factor in self._shapes[place]):
-            return None  # it cancels
+        if any(self._cancels(factor, base, n) for factor in self._shapes[place] for base, n in own.items() if n < 0):
+            return None
         ratio = wanted / sampled(_product(own, self._shapes[place]), self.values)
         ratio = np.abs(ratio) if in_size else ratio
         if np.ptp(ratio) > self.same * np.abs(ratio).max():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
@@ -161,7 +161,11 @@ class MotionSampler(FollowedModel):
             values = self._tied(values, family)
             found = steady_state(self, rng, values, EXACT)
             return (found, None) if found and self.are_above(family.above, found) else None
-        driven = bool(family.vanishing and self.spec["motions"]) and not self.free_rates.size
+        if self.rolls_in_loop and (fixed := tuple(text for text in family.vanishing if self._is_of_numbers(text))):
+            values = self._tied(values, replace(family, vanishing=fixed))
+        driven = bool(family.vanishing and self.spec["motions"]) and (
+            not self.free_rates.size or self._are_driven(family.vanishing)
+        )
         if (family.since or driven) and not family.at_start:
             found, start = self._since_start(rng, values, family)
             found = found if found and self._comes_as_usual(family, start, found) else None
@@ -183,13 +187,26 @@ class MotionSampler(FollowedModel):
             return None
         return found, start
 
+    def _are_driven(self, texts: Sequence[str]) -> bool:
+        """Whether of the coordinates those alone stand in expressions that motions prescribe."""
+        said = {name for text in texts for name in self._moving_in(text)}
+        return bool(said) and said <= {motion["of"] for motion in self.spec["motions"]}
+
+    def _is_of_numbers(self, text: str) -> bool:
+        """Whether parameters alone stand in an expression."""
+        return {*re.findall(r"[^\W\d]\w*", text)} <= {*self.free_parameters}
+
+    def _moving_in(self, text: str) -> set[str]:
+        """The coordinates that stand in an expression."""
+        return {name for name in self.names if re.search(rf"(?<!\w){re.escape(name)}(?!\w)", text)}
+
     def _tied(self, values: dict[str, float], family: Family) -> dict[str, float]:
         """Parameters with other values of those that are not held, so that what vanishes does so. Raises ``NoMotion``."""
         if not family.vanishing:
             return values
         free = [name for name in self.free_parameters if name not in dict(family.held) and name not in self._closing]
         if (found := with_parameters(self, family.vanishing, self.started(values), values, free)) is None:
-            raise NoMotion(f"`{stated(family.vanishing[0])}` cannot be arranged by parameters in the steady state")
+            raise NoMotion(f"`{stated(family.vanishing[0])}` cannot be arranged by parameters")
         numbers = dict(zip((p["name"] for p in self.metadata["parameters"]), found.p.tolist(), strict=True))
         return {name: numbers.get(name, value) for name, value in values.items()}
 
@@ -230,8 +247,7 @@ class MotionSampler(FollowedModel):
         place = near.q + reach * move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
         state = self.moved(near, place, rates, t=t, p=self.core.bind(values))
-        free = self._adjustable(family)
-        made = arranged(self, self._conditions(rng, family), state, rates, family, values, free)
+        made = arranged(self, self._conditions(rng, family), state, rates, family, values, self._adjustable(family))
         return self._judging(made, family) if self._is_small(family, made) else None
 
     def _is_small(self, family: Family, state: State) -> bool:

@@ -148,6 +148,12 @@ def phase(checker: Checker, words: str) -> Phase | None:
     on_body = place and place[1] in checker.symbols().bodies - touched
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
+    if not limits and kind in _STATES:  # an event may join them
+        named = [
+            event["name"] for event in checker.sampler.spec["events"] if kind_of(event["name"]) == kind and does(event, "lock")
+        ]
+        if len(named) == 1:
+            return Phase(False, (named[0],), False)
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
     run, begins = checker.happens.run, checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
@@ -179,7 +185,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     every = _ALL.search(words) is not None
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
-    states = {name: limits[name].state for name in meant if name in limits}
+    at_once = {part for change in run.changes if change.t <= begins and change.kind in _TOUCHES for part in change.of}
+    states = {name: limits[name].state for name in meant - at_once if name in limits}
     again = _AGAIN.search(words) is not None and bool(changes)
     at_first = not (comes or again) and _goes_on_at_first(
         kind, lasts and not (begun and times), every, states, run, meant, not limits and not _sets_free(checker)

@@ -62,7 +62,7 @@ _STRETCH_BEHIND = re.compile(rf"(.*\S)\s{{2,}}\(((?=[^()]*\b(?:{_GOES_ON})\b)[a-
 _STANDS_FOR = re.compile(r"(?<=\S)\s{2,}\((\\?[^\W\d]\w*\s*=\s*[^()=:;]{1,30})\)\s*\Z")
 """``J α = M   (α = θ'')``."""
 _IN_LATEX = re.compile(
-    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([,;]?\s*[A-Za-z]+(?:[\s,'-]+[A-Za-z]+)*\s*[,.:]?\s*)\}(?!\s*[_^'])"
+    r"(?<![_^{])\s*\\(?:text|textrm|mbox|mathrm)\s*\{\s*([,;(]?\s*[A-Za-z]+(?:[\s,'-]+[A-Za-z]+)*\s*[,.:]?\s*)\}(?!\s*[_^'])"
 )
 _OF_WHOM = re.compile(r"(?:\s*,|[\s~$\\,;(]*(?:\\Sigma|\\sum|[Σ∑]))[^=:\n]*:(?!=)|\s*:(?!=)")
 """What stands behind the name of a part in a label, ``\\text{vane}, \\Sigma F_r:``."""

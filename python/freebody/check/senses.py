@@ -46,14 +46,15 @@ def one_sense(case: Case, equation: Equation) -> tuple[Family, str] | None:
 
 def of_root(case: Case, equation: Equation) -> tuple[Family, str] | None:
     """The same of a rate that is said to be a root, θ' = √(…), and of those of which a size is made, v_B = L ω; of the differences of parameters
-    of which one is made, r = (m e − M a) …, the sign that they have in the model."""
+    of which one is made, r = (m e − M a) …, or that stand below a line, the sign that they have in the model."""
     known, pairs = case.meaning, said_of_each(equation)
     rates = [one for one, other in pairs if isinstance(one, Sym) and one.dots == 1 and is_root(other)]
     sizes = [other for one, other in pairs if isinstance(one, Sym) and any(map(_SIZE.match, known.texts(Sym(one.name))))]
     linear = (n for other in sizes for n in symbols_in(other) if known.vocabulary.is_rate(n))
     moving = {n: known.read_from(n) for n in linear if n not in known.vocabulary.parameters}
     fixed = {*known.vocabulary.parameters}
-    differences = [n for other in sizes for n in _sums(other) if n.symbols <= fixed and _has_minus(n)]
+    below = [n.bottom for n in walk(equation) if isinstance(n, Quotient)]
+    differences = [n for each in (*sizes, *below) for n in _sums(each) if n.symbols <= fixed and _has_minus(n)]
     with suppress(StatementError, ModelProblem):
         moving |= {n: known.symbols.expression(spell(n)) for n in differences}
     return _as_at_start(case, {n: known.read_from(n) for n in rates} | moving)

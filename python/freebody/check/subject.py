@@ -59,6 +59,13 @@ class Subject:
         return {side for side in alone if side not in self._known.parameters} or alone
 
     @cached_property
+    def answer_sides(self) -> set[Node]:
+        """The same, and powers of one: ``ω_n²``."""
+        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
+        powers = {side for side in sides if isinstance(side, Pow) and isinstance(side.base, Sym)}
+        return self.answers | {side for side in powers if side.base not in self._known.parameters}
+
+    @cached_property
     def _slopes(self) -> set[Node]:
         """Derivatives by what moves that stand alone on a side, ``dv/dφ``."""
         sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}

@@ -118,6 +118,13 @@ class Traits:
         return any(self.vocabulary.is_load(n) for n in self.said if n in self.vocabulary.others)
 
     @cached_property
+    def is_static(self) -> bool:
+        """Whether it is a balance of forces or moments in which nothing moves."""
+        known = self.vocabulary
+        moving = (n for n in self.said if n not in known.parameters and (known.is_rate(n) or self.is_acceleration(n)))
+        return self.has_load and self.dimension in (FORCE, ENERGY) and not any(moving)
+
+    @cached_property
     def parts(self) -> set[Node]:
         return {*walk(self.equation)}
 

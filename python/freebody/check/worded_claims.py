@@ -249,7 +249,7 @@ def in_phase(
     found: list[tuple[Place | None, Verdict]] = [(None, one) for one in verdicts]
     problem: ModelProblem | StatementError = ModelProblem(f"`{words}` is nothing that this model comes to")
     for place, name in zip(places, names[len(names) - len(places) :], strict=True):
-        if found and not checker.budget.lasts():
+        if found and not (checker.whole or checker.budget).lasts(_AT_MOST):
             return Verdict(Kind.UNDECIDABLE, statement, f"there was no time for all stretches that `{words}` may mean: say which")
         try:
             one = _judged_at(checker, declared, place, statement, checker.correcting and len(places) == 1)
@@ -398,6 +398,7 @@ def _speaks_of_time(checker: Checker, declared: Declared, statement: str) -> boo
 
 Place = tuple[str, str, str]
 """``just`` or nothing, ``before`` or ``after``, and what happens there."""
+_AT_MOST = 3.0  # times what a statement may take, for all the stretches that words may mean
 _WRONG = (Kind.WRONG, Kind.DIMENSIONS)
 _ROUND_OFF = 1e-9  # of a time, by which moments of two runs of one motion differ
 _SOON = 0.01  # of the time typical of a model

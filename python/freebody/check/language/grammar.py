@@ -297,7 +297,8 @@ class Line:
         return found
 
     def bare_argument(self, token: Token) -> Node:
-        """One symbol, a number before it, and behind it a ``t`` or ``t_1``, or directly behind what is constant what is not: sin pδ."""
+        """One symbol, a number before it, and behind it a ``t`` or ``t_1``, or directly behind what is constant what is not: sin pδ, or a
+        bracket that begins with t: cos p(t − t_1)."""
         sign = self.accept("-")
         if self.now.kind not in ("number", "symbol", "frac", "function"):
             raise StatementError(f"`{token.text}` of what?", token.span, f"write `{token.text}(…)`")
@@ -313,8 +314,14 @@ class Line:
         changing = fixed and self.now.attached and self.now.text not in self.names.constants
         if self.now.kind == "symbol" and not self.now.dots and (_is_time(self.now) or changing):
             factors.append(self.primary())
+        if fixed and self.now.kind == "(" and self.now.attached and self._brackets_of_time():  # cos p(t − t_1)
+            factors.append(self.primary())
         found = _product(factors)
         return Negative(found, span=self.span(sign)) if sign else found
+
+    def _brackets_of_time(self) -> bool:
+        """Whether the bracket that opens here begins with t."""
+        return _is_time(self.row[self.at + 1]) and self.row[self.at + 2].kind in _ADDS
 
     def rate(self, of: Node, count: int, begins: Token | Node) -> Node:
         """A derivative by time, written out where it can be."""
