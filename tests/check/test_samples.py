@@ -8,7 +8,7 @@ from books import Book
 
 from freebody.catalogue import model_file
 from freebody.check import Checker, Kind
-from freebody.check.assumptions import SMALL, family
+from freebody.check.hypotheses import SMALL, family
 from freebody.mechanism import Mechanism
 
 T, W, IF = Kind.TRUE, Kind.WRONG, Kind.TRUE_IF

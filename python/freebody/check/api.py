@@ -18,7 +18,7 @@ from freebody.model.errors import ModelFileError, ModelProblem
 from freebody.run.moments import Unreached
 from freebody.symbolic.errors import StatementError
 
-from .assumptions import FROM_START, family, free_parameter
+from .assumptions import FROM_START
 from .budget import Budget
 from .case import Case, StatementSymbols
 from .claims import claimed
@@ -26,6 +26,7 @@ from .families import ALL, BEFORE, Family, NoMotion
 from .frequency_claims import OMEGA, PERIOD, as_period
 from .happenings import Happenings
 from .held import without_others
+from .hypotheses import family, free_parameter
 from .language.glyphs import CONDITION
 from .language.statements import symbols_in
 from .later import also_later, corrected_later, only_later

@@ -19,20 +19,20 @@ from freebody.symbolic.tree import Sym
 
 from . import timed_claims
 from .amplitudes import of_amplitudes
-from .assumptions import family
 from .case import Case
 from .condition_edits import other_conditions
 from .constant_claims import constant, reading
-from .correction import MOST
 from .families import Samples
 from .frequency_claims import frequencies
 from .held import with_held
+from .hypotheses import family
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .limit_claims import limit
 from .phases import phase, stretch_of
 from .residual import jacobian, magnitude, residual
+from .search import MOST
 from .two_moments import BETWEEN, PLACES, across_impact, between, between_places, changes
 from .verdict import Evidence, Kind, Verdict, evidence
 from .worded_claims import beside_words, in_phase, in_words, labelled, on_later_stretch

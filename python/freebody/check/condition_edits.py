@@ -12,10 +12,11 @@ from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Sym, is_zero
 
-from .assumptions import family, says_zero
+from .assumptions import says_zero
 from .case import Case
 from .coefficients import multiplied
 from .families import Family, NoMotion
+from .hypotheses import family
 from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation

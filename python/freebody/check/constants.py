@@ -17,7 +17,6 @@ from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quoti
 
 from .coefficients import more, multiplied, product, tidied
 from .conventions import conventions
-from .correction import EQUAL, MOST
 from .edits import Edit, depth, edits, exchanged, forgotten_factors
 from .energy_terms import lacking_energies
 from .fitted_edits import FittedEdits
@@ -28,6 +27,7 @@ from .likelihood import Likelihood
 from .monomials import Monomials
 from .powers import power_of, powers_of, written
 from .residual import magnitude
+from .search import EQUAL, MOST
 from .slips import why
 from .solve_for_term import RequiredTerm, parts_inside
 from .square_edits import SquareEdits
@@ -114,7 +114,7 @@ class _Search:
         except (StatementError, KeyError, ValueError):
             return
         of_rates = Equation(changes, _ZERO)
-        for term in self._fitting.terms_equal_to(of_rates, lost):
+        for term in self._fitting.terms.monomials(of_rates).equal_to(lost):
             if (
                 self.fits(Equation(changes, term))
                 and self._likelihood.lack(Edit("missing term", None, term, of_rates)) < _OF_POWER

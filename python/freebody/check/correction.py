@@ -3,103 +3,35 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
-from heapq import heappop, heappush
-from itertools import chain, combinations
-from typing import TYPE_CHECKING, Any, TypeVar
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from freebody.symbolic.errors import StatementError
-from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, is_zero, unsigned, walk
+from freebody.symbolic.tree import Sym, is_zero
 
-from .assumptions import first_order
-from .coefficients import tidied
-from .component_edits import component_edits, exchanges
-from .conventions import conventions
-from .derivative_edits import DerivativeEdits
-from .edits import Edit, depth, edits, forgotten_factors, other_figures, with_unit_vectors
-from .energy_terms import energy_edits
+from .assumptions import FROM_START
 from .families import NoMotion
-from .fitted_edits import FittedEdits
-from .language.spelling import spell
-from .language.statements import Equation, rows, symbols_in, terms
-from .likelihood import PARTNER, Likelihood
-from .marks import Marks
-from .momentum_edits import momentum_edits
-from .relative_edits import seen_from_elsewhere
-from .residual import HOLDS, OFTEN, REACH, Edited, Residual, magnitude, residual, unreached
+from .language.statements import Equation, rows, symbols_in
+from .residual import HOLDS, residual
+from .search import LIKELIEST, Found, Search, vanishes
 from .senses import of_root, one_sense
-from .slips import why
-from .stated import Correction, stated
-from .subject import Subject
+from .stated import Correction
 
 if TYPE_CHECKING:
     from .case import Case
     from .families import Family
 
-EQUAL = 0.35
-"""Edits whose sizes differ by less are equally small."""
-_VAIN = 0.3  # more, for a correction by what is always 0
-_WITHIN = 0.5  # more, for one of what has been differentiated
-_FEW = 5  # states on which an edit is tried first
-_PROMISING = 1e-7  # worst residual there of one that is tried on all
-_BEST = 40  # single edits of which pairs are tried
-_PLAIN = ("sign", "function")  # edits of which all pairs are tried
-_MOST_PLAIN = 24
-_BEST_FIGURES = 12
-MOST = 3  # corrections that are given
 FIRST, SECOND = 0.5, 0.8
 """Parts of the budget after which a first search ends, and one that comes after it."""
-_FOR_EQUALS = 0.2  # of what is left when a likely edit is found
-_CONFIRMING = 0.1  # of it, for what was found by then
-_OF_BALANCE = 0.5  # more, where motions alone were spoken of, for what only a balance makes true
-_FRESH, _FRESH_STATES = 1, 16
-_WORTH = 10  # characters that an edit of size 1 may save
-_LIKELIEST = 1.0  # size of a single edit; none is smaller
 _LIKELY = 2.0  # size of a single edit above which pairs may be as likely
-_LINEAR = 2e-6  # what is left of a true linear equation where all is small, for terms of higher order and round-off
-_LITTLE = 0.01  # of the least term: what is left there of one that is no slip
-_LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _OF_START = 1.0  # by which what is so from the start alone is less likely to be meant
-_OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
-_BLUR = 1e3  # of what is lacking there, beside round-off
-_ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
-_KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
-_SWAPPED = ("missing factor", "symbol", "other term")
-_IN_OTHER_LETTERS = ("missing term", "missing factor", "symbol", "rates", "resultant")
-"""What may stand in the place of the same part of an equation of motions alone in many letters."""
-_REPLACED = (("extra term", "missing term"), ("missing factor", "missing factor"), ("derivative", "missing factor"))
-"""Pairs that take something away and put another in its place: no correction."""
-FROM_START = "motions from the start of this model"
-
-
-@dataclass(frozen=True)
-class _Found:
-    edits: tuple[Edit, ...]
-
-    @property
-    def after(self) -> Equation:
-        return self.edits[-1].after
-
-    @property
-    def size(self) -> float:
-        return sum(edit.size for edit in self.edits)
-
-    def correction(self, given: str, why: str, as_written: Callable[[Equation], Equation]) -> Correction:
-        edits = self.edits
-        where = tuple(e.old.span for e in edits if e.old is not None and e.old.span != (0, 0))
-        shown = edits[0].shown if len(edits) == 1 and edits[0].shown else as_written(self.after)
-        return Correction(tuple(map(stated, edits)), spell(tidied(shown)), self.size, where, given, why)
-
-
-T = TypeVar("T")
-Step = Callable[["_Search"], Iterator[_Found]]
+Step = Callable[[Search], Iterator[Found]]
 """A way to look for corrections."""
+_SINGLE: tuple[Step, ...] = (Search.singles, Search.other_terms)
 
 
 def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator[Correction]:
@@ -119,7 +51,7 @@ def corrections(case: Case, equation: Equation, part: float = FIRST) -> Iterator
         yield from whole
         return
     for row in parts:
-        yield from _of_row(case, row, families, (*_SINGLE, _Search.together, _Search.pairs), part)
+        yield from _of_row(case, row, families, (*_SINGLE, Search.together, Search.pairs), part)
 
 
 def _of_row(
@@ -129,14 +61,14 @@ def _of_row(
     searches = []
     for family, given in families:
         with suppress(NoMotion):
-            searches.append((_Search(case, row, family, part), given))
+            searches.append((Search(case, row, family, part), given))
     if any(search.right for search, _ in searches):
         return
-    tried: list[list[_Found]] = [[] for _ in searches]
-    some: list[tuple[list[_Found], str]] = []
+    tried: list[list[Found]] = [[] for _ in searches]
+    some: list[tuple[list[Found], str]] = []
     least = np.inf
     for step in steps:
-        if step is _Search.pairs:
+        if step is Search.pairs:
             late = _from_start(case, row, families, part)
             if late and late[0].size + _OF_START < least:
                 yield from late
@@ -149,7 +81,7 @@ def _of_row(
             if found := search.best(seen):
                 some.append((found, given))
                 least = min(least, search.likely_size(found[0]))
-                if found[0].size <= _LIKELIEST:  # no smaller one is in a narrower family
+                if found[0].size <= LIKELIEST:  # no smaller one is in a narrower family
                     break
         if some and least < _LIKELY:
             break
@@ -167,292 +99,8 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
     since, case = replace(given, since="start"), replace(case, meaning=case.meaning.of_start(), known={})
     with suppress(NoMotion, StatementError):
         values = case.values(since)
-        if any(not is_zero(side) and _vanishes(side, values) for side in (row.left, row.right)):
+        if any(not is_zero(side) and vanishes(side, values) for side in (row.left, row.right)):
             return []  # as things are at first nothing is said
         if residual(row, values).worst < HOLDS:
             since = replace(since, through=True)
-    return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, _Search.together), part))
-
-
-class _Search:
-    """The edits of one equation beside one family of motions."""
-
-    def __init__(self, case: Case, equation: Equation, family: Family, part: float) -> None:
-        self.equation, self.family, self.vocabulary = equation, family, case.meaning.vocabulary
-        self.values = _where_known(equation, case.values(family))
-        self.few = {key: value[:_FEW] for key, value in self.values.items()}
-        self._edited = Edited(equation, self.few)
-        self.fit = case.meaning.fits
-        self.said = {n.key for n in symbols_in(equation)}
-        self.given, self.case, self.subject = case.meaning.given(), case, Subject(case, equation)
-        self.other, self.free = case.elsewhere(self.few), case.elsewhere(self.few, bound=False)
-        self._part = part
-        self._marks = Marks(
-            equation, self.vocabulary.parameters, self.given, (self.other, self.free), family.at_start, self._residual
-        )
-        self.lasts = partial(case.budget.lasts, part=part + _CONFIRMING)
-        self.fits = FittedEdits(
-            self.values, self.vocabulary, self.within, _BLUR if family.small or family.scaled else 1.0, bool(family.small)
-        )
-        self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
-        self.holds, self._near = (
-            (_LIMIT, _LIMIT)
-            if family.scaled or family.late
-            else (min(_LINEAR, _LITTLE * self._least_share),) * 2
-            if family.small
-            else (_OF_RUN if case.sampler.moment else HOLDS, _PROMISING)
-        )
-        self.right = self._worst(equation, self.values) < self.holds
-
-    @cached_property
-    def _least_share(self) -> float:
-        """What the least term is of all of them: where one is small, what is left has to be little beside that one."""
-        with np.errstate(all="ignore"):
-            sizes = [np.abs(sampled(term, self.values)) for term in terms(self.equation, expand=True)]
-            shares = [np.median(size / sum(sizes)) for size in sizes if size.ndim == 1 and size.any()]
-        return float(min(filter(np.isfinite, shares), default=1.0))
-
-    def singles(self) -> Iterator[_Found]:
-        """Every single edit that may make it true."""
-        readable = self._residual(self.equation, self.few)
-        units = tuple(n for n in self.vocabulary.vectors if n in map(Sym, "ijk"))
-        found = chain(  # the likely ones first: there may be no time for all
-            () if readable else with_unit_vectors(self.equation, units),
-            edits(self.equation, self.vocabulary),
-            self.differentiated.likely(),
-            self._fitted(self.equation) if readable else (),
-            conventions(self.equation, self.vocabulary),
-            seen_from_elsewhere(self.equation, self.vocabulary),
-            exchanges(self.equation, self.vocabulary),
-            self.differentiated.others(),
-            momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
-            () if readable else forgotten_factors(self.equation, self.vocabulary),
-        )
-        for edit in self._promising(found):
-            if edit.size <= _LIKELIEST:  # only its equals are looked for
-                self._part = min(self._part, self.case.budget.with_rest(_FOR_EQUALS))
-            yield _Found((edit,))
-
-    def within(self, found: Iterable[T]) -> Iterator[T]:
-        """What there is, as long as there is time for this search."""
-        for each in found:
-            if not self.case.budget.lasts(self._part):
-                return
-            yield each
-
-    def other_terms(self) -> Iterator[_Found]:
-        """Every term that should be quite another."""
-        if self._residual(self.equation, self.few):
-            yield from (_Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
-
-    def together(self) -> Iterator[_Found]:
-        """All terms that it lacks of an energy, or all inertias that turn as one; the components of two forces."""
-        found = list(self._promising(energy_edits(self.case, self.equation, self.family)))
-        components = component_edits(self.equation, self.few, self.vocabulary)
-        others = self._promising(chain(() if found else self.fits.as_one(self.equation), components))
-        yield from (_Found((edit,)) for edit in chain(found, others))
-
-    def pairs(self) -> Iterator[_Found]:
-        """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
-        every = list(self.within(chain(*(of(self.equation, self.vocabulary) for of in (edits, forgotten_factors)))))
-        yield from self._both([edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN])
-        yield from (_Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
-        near = self._nearest(every, _BEST)
-        yield from self._both(near)
-        for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
-            found = self._promising(self._fitted(first.after))
-            found = (edit for edit in found if edit.kind != "resultant" and (first.kind, edit.kind) not in _REPLACED)
-            yield from (_Found((first, edit)) for edit in found)
-
-    def _both(self, found: Sequence[Edit]) -> Iterator[_Found]:
-        """Two edits of other places."""
-        for first, second in combinations(found, 2):
-            replaced = (first.kind, second.kind) in _REPLACED
-            if second.old is not None and (second.new is not None or second.kind == "extra term") and not replaced:
-                both = exchange(first.after, second.old, second.new or Num(0.0, "0"))
-                made = [replace(second, after=both)] if both is not first.after else []
-                yield from (_Found((first, edit)) for edit in self._promising(made))
-
-    def _nearest(self, found: Iterable[Edit], count: int) -> list[Edit]:
-        """The edits after which the least is left."""
-        tried = ((edit, self._residual(edit.after, self.few)) for edit in self.within(found))
-        left = [(np.mean(each.ratio**2) if each else 0.0, edit) for edit, each in tried]
-        return [edit for _, edit in sorted(left, key=lambda pair: pair[0] if pair[0] > 0 else np.inf)[:count]]
-
-    def _fitted(self, equation: Equation) -> Iterator[Edit]:
-        with suppress(StatementError):
-            yield from self.fits.edits(equation)
-
-    def best(self, found: Iterable[_Found]) -> list[_Found]:
-        """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
-        kept: dict[tuple[float, ...], list[_Found]] = {}
-        alike: dict[tuple[Any, ...], tuple[float, ...]] = {}
-        least, found = 0.0, list(found)
-        alone = len(found) == 1  # then nothing else may say the same
-        for tried, (size, each) in enumerate(self._ranked(found)):
-            if tried >= MOST and not self.lasts():
-                break
-            if (kept and size > least + EQUAL) or np.isinf(size):
-                break
-            mark = self._marks.of(each.after)
-            idle = any(self._is_idle(edit, len(each.edits) > 1) for edit in each.edits)
-            # T (R̈ − R θ̇²) = 0 holds whatever the symbols are that it has from the equation given: it says nothing of T
-            own = self.said & {n.key for n in symbols_in(each.after)}
-            free = (own, own & {n.key for n in self.subject.answers})  # nor of what it is solved for
-            vacuous = any(
-                keys and self._worst(each.after, self.few | {key: self.free[key] for key in keys}) < HOLDS for keys in free
-            )
-            if mark is None or idle or vacuous or self.subject.is_changed(each.edits, each.after) or not self.fit(each.after):
-                continue
-            place = self._place(each)
-            mark = mark if alone else alike.setdefault(self._beside_balances(each.after) or place or mark, mark)
-            if place and mark in kept:
-                continue  # in other letters
-            if mark in kept or self._confirmed(each.after):
-                least = size if not kept else least
-                kept.setdefault(mark, []).append(each)
-        chosen = [min(same, key=self._oddness) for same in kept.values()]
-        if len(chosen) > 1 and self.case.is_kinematic(chosen[0].after):  # then no balance is asked for
-            chosen = [each for each in chosen if self.case.is_kinematic(each.after)]
-        if chosen and len(chosen[0].edits) == 1:
-            chosen = [each for each in chosen if len(each.edits) == 1]
-        return chosen[:MOST]
-
-    def _ranked(self, found: Iterable[_Found]) -> Iterator[tuple[float, _Found]]:
-        """By size, those of one size by how much there is of them, as long as there is time; the first few at any rate. How unlikely they are is
-        only asked where it matters."""
-        waiting: list[tuple[float, int, int, _Found]] = []
-        for i, each in enumerate(sorted(found, key=lambda each: each.size)):
-            while waiting and waiting[0][0] < each.size - PARTNER:
-                size, _, _, first = heappop(waiting)
-                yield size, first
-            heappush(waiting, (self.likely_size(each), depth(each.after), i, each))
-        yield from ((size, each) for size, _, _, each in sorted(waiting))
-
-    def _beside_balances(self, equation: Equation) -> tuple[float, ...]:
-        """What is left of an equation where no balance holds; nothing where that is nothing."""
-        found = self._residual(equation, self.case.admissible) if self.case.admissible else None
-        if found is None or not np.isfinite(found.ratio).all() or found.worst < _KINEMATIC:
-            return ()
-        left = found.sides.residual.ravel()
-        return tuple(np.round(left / left[np.argmax(np.abs(left))], 7).tolist())
-
-    def _place(self, found: _Found) -> tuple[Any, ...]:
-        """Which part of an equation of motions alone is another: what stands there is the same in all letters."""
-        (first, *others) = found.edits
-        if others or first.kind not in _IN_OTHER_LETTERS or not self.case.is_kinematic(found.after):
-            return ()
-        return (first.kind, id(first.old))
-
-    def _oddness(self, found: _Found) -> tuple[bool, int, int, float]:
-        """Of corrections that say the same, how unlike a person's one is: changing what an equation is solved for, in symbols of which
-        nothing was said, or places of the start that have letters of their own, long, and large."""
-        length = len(spell(tidied(found.after))) + _WORTH * self.likely_size(found)
-        strange = (*self.vocabulary.coordinates, *self.vocabulary.others)
-        new = {n.name for n in symbols_in(found.after)} - {n.name for n in symbols_in(self.equation)}
-        solved = any(edit.old in self.subject.answer_sides for edit in found.edits) or self.subject.is_no_answer(found.after)
-        solved |= not self.subject.answers.union(self._likelihood.taken.differences) <= {
-            *map(unsigned, (found.after.left, found.after.right))
-        }
-        moved = sum(n in self.vocabulary.coordinates for n in found.after.symbols - self.equation.symbols) * self.family.at_start
-        return (
-            solved or any(map(self.subject.is_elsewhere, found.edits)),
-            moved + len(new & {n.name for n in strange}),
-            len(new),
-            length,
-        )
-
-    def why(self, found: _Found) -> str:
-        """What was wrong, a sentence for each edit."""
-        return "; ".join(dict.fromkeys(filter(None, (why(edit, self.equation, self.vocabulary) for edit in found.edits))))
-
-    def _leaves_nothing(self, found: _Found) -> bool:
-        """Whether it says of what is small, or of when something happens, that it is 0."""
-        sides = found.after.left, found.after.right
-        other = next((one for one, zero in (sides, sides[::-1]) if is_zero(zero)), None)
-        return isinstance(other, Sym) and bool(self.family.small or other.name == "t") and found.edits[-1].kind == "extra term"
-
-    def likely_size(self, found: _Found) -> float:
-        """How large a correction is; larger where it adds what is always 0 here, or is no slip that people make."""
-        new = symbols_in(found.after)
-        if self.subject.is_of_other_dimension(found.after) or any(
-            n.key not in self.said and not np.any(self.few[n.key]) for n in new
-        ):
-            return np.inf
-        if self._leaves_nothing(found):
-            return np.inf
-        odd = sum(map(self._likelihood.lack, found.edits))
-        odd += _OF_BALANCE * (self.subject.is_constraint and not self.case.is_kinematic(found.after))
-        odd += _WITHIN * any(map(self.differentiated.is_within, found.edits))
-        return found.size + odd + _VAIN * any(edit.new is not None and not self._moves(edit.new) for edit in found.edits)
-
-    def _is_idle(self, edit: Edit, beside_another: bool) -> bool:
-        """Whether an edit puts 0 in the place of something, or adds it within a part."""
-        if edit.new is None:
-            return False
-        sums = (part for part in walk(edit.new) if isinstance(part, Add))
-        nothing = any(term not in self._parts and not self._moves(term) for whole in sums for term in whole.terms)
-        return nothing or ((beside_another or edit.kind in _SWAPPED) and not self._moves(edit.new))
-
-    @cached_property
-    def _parts(self) -> set[Node]:
-        return {*walk(self.equation)}
-
-    def _moves(self, node: Node) -> bool:
-        """Whether a part has a value other than 0."""
-        return not _vanishes(node, self.few)
-
-    @cached_property
-    def _likelihood(self) -> Likelihood:
-        return Likelihood(self.equation, self.vocabulary, self.few, self.other, bool(self.family.vanishing))
-
-    @cached_property
-    def fresh(self) -> Mapping[str, Array]:
-        """The symbols on other true states; on the same where no others are found."""
-        with suppress(NoMotion):
-            return _where_known(self.equation, self.case.values(self.family, _FRESH, _FRESH_STATES))
-        return self.values
-
-    def _confirmed(self, equation: Equation) -> bool:
-        holds = all(self._worst(equation, values) < self.holds for values in (self.values, self.fresh))
-        reach = REACH * (self._least_share if self.family.small else 1.0)
-        held = self.family.held and unreached(
-            equation, self.values, reach=reach
-        )  # what is held at 0, or stays it, may hide what is wrong
-        if (
-            holds and self.family.small and not equation.symbols.isdisjoint(self.vocabulary.energies)
-        ):  # which all are 0 to first order
-            with suppress(NoMotion):
-                holds = first_order(self.case, equation, self.family)
-        return holds and not held and not (self.family.since and not all(map(self._moves, terms(equation))))
-
-    def _promising(self, found: Iterable[Edit]) -> Iterator[Edit]:
-        return (edit for edit in self.within(found) if self._worst(edit.after, self.few) < self._near)
-
-    def _worst(self, equation: Equation, values: Mapping[str, Array]) -> float:
-        found = self._residual(equation, values)
-        return float("inf") if found is None or np.isnan(found.worst) else found.worst
-
-    def _residual(self, equation: Equation, values: Mapping[str, Array]) -> Residual | None:
-        try:
-            return self._edited.residual(equation) if values is self.few else residual(equation, values)
-        except ValueError:
-            return None
-
-
-def _vanishes(node: Node, values: Mapping[str, Array]) -> bool:
-    """Whether a part is 0 on all states, but for round-off."""
-    try:
-        return not np.any(np.abs(sampled(node, values)) > _ROUND_OFF * magnitude(node, values))
-    except (KeyError, ValueError):
-        return False
-
-
-def _where_known(equation: Equation, values: Mapping[str, Array]) -> Mapping[str, Array]:
-    """The values where all symbols of an equation have one: not every position has a natural frequency."""
-    found = [np.isfinite(values[n.key]) for n in symbols_in(equation) if n.key in values]
-    known = np.all([each.reshape(len(each), -1).all(axis=1) for each in found], axis=0)
-    return values if np.all(known) or np.sum(known) < OFTEN else {key: value[known] for key, value in values.items()}
-
-
-_SINGLE: tuple[Step, ...] = (_Search.singles, _Search.other_terms)
+    return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, Search.together), part))

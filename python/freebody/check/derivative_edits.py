@@ -153,7 +153,7 @@ class DerivativeEdits:
         """A term that is lacking."""
         if (lost := self._lost(node)) is None:
             return
-        nodes, _ = self.fits.dictionary(given, highest=1)
+        nodes, _ = self.fits.terms.dictionary(given, highest=1)
         rows = self._rates(nodes)
         for place in proportional(rows, lost):
             number = float(np.sum(lost * rows[place]) / np.sum(rows[place] ** 2))

@@ -47,7 +47,7 @@ _LARGER = {
     "components": 0.3,
     "other term": 1.3,
 }
-"""By how much edits of a kind are larger than 1; those within ``correction.EQUAL`` are equally small."""
+"""By how much edits of a kind are larger than 1; those within ``search.EQUAL`` are equally small."""
 FIGURES = (1.0, 2.0, 3.0, 4.0, 6.0, 12.0)
 """Whole numbers that are mistaken for each other."""
 _ONE = Num(1.0, "1")

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, combinations
 from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY, Dimension, Known
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, NUMBER_ONLY
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, unsigned, walk
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
 from .inertia_edits import about_another_point, mass_centres, of_whole, shares, wheels
+from .known_terms import KnownTerms, calls_in
 from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
@@ -42,11 +43,8 @@ _PART = 0.3  # for a letter that is a part of what it stands for
 _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
-_MOST_LETTERS = 3  # of rates of which the equation says nothing
 _ANOTHER = 0.3  # for the second component of which a resultant consists
 _ONE = Num(1.0, "1")
-_MOST_SHARES = 2  # parameters without a dimension, of which 1 + e and 1 − e are thought of
-_MOST_LENGTHS = 5  # of which, as of masses, sums and differences are thought of
 
 
 @dataclass
@@ -60,9 +58,6 @@ class FittedEdits:
     blur: float = 1.0
     small: bool = False
     """Whether angles stand for their sines."""
-    _made: dict[object, tuple[list[Node], Array]] = field(default_factory=dict)
-    _terms: dict[Equation, Monomials] = field(default_factory=dict)
-    _numbers: dict[Node, bool] = field(default_factory=dict)
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
@@ -86,15 +81,15 @@ class FittedEdits:
             if required.addend or id(node) in below_roots:
                 yield from self._forgotten(equation, required)
                 yield from self._factors(equation, required)
-                turned = about_another_point(required, self._monomials(equation))
+                turned = about_another_point(required, self.terms.monomials(equation))
                 yield from (Edit.at(equation, "factor", node, new) for new in turned)
                 yield from (Edit.at(equation, "share", node, new) for new in shares(required, self.vocabulary, self.values))
             yield from (Edit.at(equation, "root", node, new) for new in rooted(required, self.values))
             yield from (
                 Edit.at(equation, "resultant", node, new, _ANOTHER * lost + 0.02 * depth(new) * lost)
-                for new, lost in resultants(required, self.values, self.vocabulary, self._monomials(equation))
+                for new, lost in resultants(required, self.values, self.vocabulary, self.terms.monomials(equation))
             )
-            ways = on_the_way(required, self.values, self.vocabulary, self._monomials(equation))
+            ways = on_the_way(required, self.values, self.vocabulary, self.terms.monomials(equation))
             yield from (Edit.at(equation, "way", node, new, _ANOTHER + 0.02 * depth(new)) for new in ways)
             yield from (
                 Edit.at(equation, "symbol", node, new, 0.1) for new in other_sides(required, self.values, self.vocabulary)
@@ -121,7 +116,7 @@ class FittedEdits:
         with np.errstate(all="ignore"):
             for required in self.within(required_terms(equation, self.values)):
                 whole = any(required.node is part for side in (equation.left, equation.right) for part in (side, unsigned(side)))
-                for term in self._matching(equation, required.needed) if required.addend and not whole else ():
+                for term in self.terms.matching(equation, required.needed) if required.addend and not whole else ():
                     yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
 
     def _symbols(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
@@ -138,6 +133,11 @@ class FittedEdits:
             case Pow(base=Sym() as base, exponent=Num(value=2.0) as two) if required.value.ndim == needed.ndim == 1:
                 yield from ((Pow(Sym(n.name, n.dots), two, span=span), 0.1) for n in alike(rows**2) if n != base)
         yield from self._of_sums_of_two.edits(required)
+
+    @cached_property
+    def terms(self) -> KnownTerms:
+        """What an equation may hold."""
+        return KnownTerms(self.values, self.vocabulary, self.within, self.blur)
 
     @cached_property
     def _of_sums_of_two(self) -> SumEdits:
@@ -229,7 +229,7 @@ class FittedEdits:
             return
         number, own = powers_of(node)
         sizes = self.vocabulary.sizes
-        still = [n for n in own if not isinstance(n, Sym) or n in sizes] + _calls(equation) + self._bare_angles(equation)
+        still = [n for n in own if not isinstance(n, Sym) or n in sizes] + calls_in(equation) + self._bare_angles(equation)
         lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), (), self.blur).powers(factor)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
             return
@@ -253,7 +253,7 @@ class FittedEdits:
 
     def _bare_angles(self, equation: Equation) -> list[Sym]:
         """Angles that stand in an equation as lengths do, as that of a spiral."""
-        within = {id(part) for call in _calls(equation) if call.name in ("sin", "cos", "tan") for part in walk(call)}
+        within = {id(part) for call in calls_in(equation) if call.name in ("sin", "cos", "tan") for part in walk(call)}
         angles = self.vocabulary.angular & {*self.vocabulary.coordinates}
         return [n for n in walk(equation) if isinstance(n, Sym) and n in angles and id(n) not in within]
 
@@ -270,19 +270,15 @@ class FittedEdits:
 
     # -- terms
 
-    def terms_equal_to(self, equation: Equation, wanted: Array) -> Iterator[Node]:
-        """Terms of the dimension of an equation whose values are the ``wanted`` ones."""
-        return self._monomials(equation).equal_to(wanted)
-
     def _missing(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
         """A sum that lacks a term."""
         scalar = required.missing.ndim == 1
         ratio = required.missing / required.value if scalar and not isinstance(required.node, Add) else np.full(1, np.nan)
         is_number = np.ptp(ratio) < _NEARLY * np.abs(ratio).max()
         if scalar:
-            found: Iterator[Node] = self._monomials(equation).equal_to(required.missing)
+            found: Iterator[Node] = self.terms.monomials(equation).equal_to(required.missing)
         else:
-            found = chain(self._matching(equation, required.missing), self._of_components(equation, required.missing))
+            found = chain(self.terms.matching(equation, required.missing), self._of_components(equation, required.missing))
         for term in map(_linear, found) if self.small else found:
             if is_number and {*symbols_in(term)} <= {*symbols_in(equation)}:
                 continue  # another number is a factor
@@ -293,7 +289,7 @@ class FittedEdits:
         """A letter that is only a part of what stands there, as of a stretch or an amplitude: A for A + F/k."""
         if dimension(required.node, self.vocabulary.dimensions) not in (LENGTH, NUMBER_ONLY):
             return
-        for term in self._monomials(equation).equal_to(required.missing):
+        for term in self.terms.monomials(equation).equal_to(required.missing):
             if symbols_in(term) and term.symbols <= {*self.vocabulary.parameters}:
                 new = Add((required.node, term), span=required.node.span)
                 yield Edit.at(equation, "symbol", required.node, new, _PART + 0.02 * depth(term))
@@ -302,7 +298,7 @@ class FittedEdits:
         """Vectors along i and j whose components are one term each."""
         units = [Sym("i"), Sym("j")]
         if wanted.ndim == 2 and {*units} <= {*self.vocabulary.vectors} and np.isfinite(wanted).all():
-            terms = self._monomials(equation)
+            terms = self.terms.monomials(equation)
             along = [next(terms.equal_to(np.ascontiguousarray(wanted[:, k])), None) for k in range(2)]
             if None not in along:
                 yield Add(tuple(Mul((term, unit)) for term, unit in zip(along, units, strict=True)))
@@ -313,7 +309,7 @@ class FittedEdits:
         if required.factor is None or not np.isfinite(required.factor).all() or not required.factor.all():
             return
         node, other = required.node, equation.right if required.node is equation.left else equation.left
-        for term in self._monomials(equation).equal_to(1 / required.factor - 1):
+        for term in self.terms.monomials(equation).equal_to(1 / required.factor - 1):
             if symbols_in(term) and not any(n.dots or n in self.vocabulary.others for n in symbols_in(term)):
                 more = Add((Num(1.0, "1"), term))
                 old, new = (other, Mul((more, other))) if is_asked(node) else (node, Quotient(node, more))
@@ -321,49 +317,12 @@ class FittedEdits:
                 size = 0.02 * depth(term) + _NO_ANSWER * (not answers)
                 yield Edit("missing term", None, term, exchange(equation, old, new), size)
 
-    def _monomials(self, equation: Equation) -> Monomials:
-        """The terms that an equation may lack."""
-        if equation not in self._terms:
-            known, said = self.vocabulary, symbols_in(equation)
-            sizes = known.sizes
-            sums = [n for n in walk(equation) if isinstance(n, Add) and n.symbols <= {*sizes, *known.parameters, Sym("t")}]
-            lengths, masses = ([n for n in known.parameters if known.dimension(n) == its] for its in (LENGTH, MASS))
-            alike = [Add(some) for count in (2, 3) for some in combinations(masses[:_MOST_LENGTHS], count)]
-            bases = sorted(sizes, key=lambda n: (n not in known.parameters, n not in said, n in known.letters))
-            alike += [Add((a, Negative(b))) for a, b in combinations(masses[:_MOST_LENGTHS], 2)]
-            alike += [Add((a, c)) for a, b in combinations(lengths[:_MOST_LENGTHS], 2) for c in (Negative(b), b)]
-            kept = [n for n, its in known.parameters.items() if its == NUMBER_ONLY and n not in known.angular]
-            alike += [Add((_ONE, c)) for n in kept[:_MOST_SHARES] for c in (n, Negative(n))]  # 1 − e² of a blow
-            own = [n for n in (*bases, Sym("t")) if n in said]
-            moving = [n for n in said if Sym(n.name) in known.others]
-            answers = [side for side in map(unsigned, (equation.left, equation.right)) if isinstance(side, Sym)]
-            if all(known.dimension(n) == FORCE for n in answers):  # no answer, or that of a force
-                moving += [n for n in known.others if n in known.letters and known.is_rate(n) and n not in said][:_MOST_LETTERS]
-            fixed = lambda n: n.symbols <= {*known.parameters}
-            calls = [n for n in _calls(equation) if n.name not in ("sin", "cos") and fixed(n)]
-            every = known.shapes(self._of(equation), moving, self._angles(equation), calls)
-            brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
-            falls = [n for n in dict.fromkeys(_calls(equation)) if n.name == "cos"]  # from rest there
-            brackets += [Add((_ONE, Negative(n))) for n in falls if Add((_ONE, Negative(n))) not in brackets]
-            every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
-            shapes = (shape for shape in every if not any(map(self._has_number, shape)))
-            self._terms[equation] = Monomials(
-                self.values, dict.fromkeys((*own, *sums, *bases[: len(known.parameters)], *alike, *bases)), shapes, self.blur
-            )
-        return self._terms[equation]
-
-    def _angles(self, equation: Equation) -> tuple[Node, ...]:
-        """Sums and parts of angles in sines and cosines."""
-        angles = (n.args[0] for n in walk(equation) if isinstance(n, Fn) and n.name in ("sin", "cos"))
-        plain = lambda n: isinstance(n, Sym) or (isinstance(n, Add) and len(n.terms) < 3)
-        return tuple(dict.fromkeys(n for n in angles if not plain(n)))
-
     def _far_fetched(self, term: Node, equation: Equation) -> bool:
         """Whether a term is twice an acceleration or force that the equation does not have: it stands for what has a wrong sign."""
         said = set(symbols_in(equation))
         new = [n for n in symbols_in(term) if n not in said and (n.dots == 2 or n in self.vocabulary.others)]
         first = unsigned(term.top if isinstance(term, Quotient) else term)
-        its = self._of(equation)
+        its = self.terms.dimension_of(equation)
         return (its is None or its.mass != 0) and bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
 
     def _longer_side(self, equation: Equation) -> RequiredTerm | None:
@@ -386,13 +345,13 @@ class FittedEdits:
             required = self._longer_side(equation) or next(required_terms(equation, self.values), None)
             if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
                 return
-            nodes, rows = self.dictionary(equation, NUMBER_ONLY)
+            nodes, rows = self.terms.dictionary(equation, NUMBER_ONLY)
             arms, of_arms = [], rows[:0]
-            if (its := self._of(equation)) == FORCE:
+            if (its := self.terms.dimension_of(equation)) == FORCE:
                 turning, of_turning = wheels(equation, self.vocabulary, self.values)
                 nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
             if its in (FORCE, ENERGY):
-                turning = [n for n in self.vocabulary.accelerations if not self._has_number(n)]
+                turning = [n for n in self.vocabulary.accelerations if not self.terms.has_number(n)]
                 arms, of_arms = mass_centres(self.vocabulary, self.values, turning, its == ENERGY)
             said = np.array(
                 [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
@@ -411,73 +370,6 @@ class FittedEdits:
                     cost = _TWO_TERMS + 0.02 * sum(map(depth, lost)) + _UNDONE * again
                     yield Edit("missing term", None, Add(tuple(lost)), after, cost)
 
-    def _matching(self, equation: Equation, wanted: Array, less: Dimension = NUMBER_ONLY) -> Iterator[Node]:
-        """Terms that are ``wanted`` but for a number, of the dimension of the equation over ``less``; vectors are a number times a
-        known one."""
-        if wanted.ndim == 2:
-            for vector, its in self.vocabulary.vectors.items():
-                value = self.values[vector.key]
-                along = np.sum(value * wanted, axis=1) / np.sum(value**2, axis=1)
-                off = np.abs(wanted - along[:, None] * value).max(axis=1)
-                if np.all(off <= 1e-9 * (np.abs(wanted).max(axis=1) + 1e-300)) and np.abs(along).max() > 0:
-                    yield from (Mul((term, vector)) for term in self._matching(equation, along, its or NUMBER_ONLY))
-        elif np.isfinite(wanted).all() and wanted.any():
-            nodes, rows = self.dictionary(equation, less)
-            for i in proportional(rows, wanted):
-                if (term := multiplied(nodes[i], float(np.sum(wanted * rows[i]) / np.sum(rows[i] ** 2)))) is not None:
-                    yield term
-
-    def dictionary(self, equation: Equation, less: Dimension = NUMBER_ONLY, highest: int = 2) -> tuple[list[Node], Array]:
-        """Terms that an equation may hold, of its dimension over ``less`` and with derivatives up to the ``highest``, and their values."""
-        its = self._of(equation)
-        wanted = None if its is None else its.times(less, -1)
-        moving = tuple(n for n in symbols_in(equation) if Sym(n.name) in self.vocabulary.others)
-        long = self._angles(equation)
-        key = (wanted, moving, long, highest)
-        if key not in self._made:
-            nodes = list(
-                self.within(chain(self.vocabulary.moments(wanted), self.vocabulary.terms(wanted, moving, long, highest)))
-            )
-            rows = self._rows(nodes)
-            good = np.isfinite(rows).all(axis=1) & (np.abs(rows).max(axis=1) > 0)
-            factors = {id(f): f for n in nodes if isinstance(n, Mul) for f in n.factors}  # by identity: many terms share them
-            still = {key for key, factor in factors.items() if self._is_number(factor)}
-            good &= np.array([not (isinstance(n, Mul) and any(id(f) in still for f in n.factors)) for n in nodes], dtype=bool)
-            self._made[key] = [n for n, ok in zip(nodes, good, strict=True) if ok], rows[good]
-        return self._made[key]
-
-    def _has_number(self, part: Node) -> bool:
-        """The same of one in a sum."""
-        return any(map(self._is_number, walk(part) if isinstance(part, Add) else (part,)))
-
-    def _is_number(self, factor: Node) -> bool:
-        """Whether a sine or cosine has one value on all states: it says nothing there."""
-        base = factor.base if isinstance(factor, Pow) else factor
-        if isinstance(base, Fn) and base not in self._numbers:
-            self._numbers[base] = bool(np.ptp(sampled(base, self.values)) <= _SAME)
-        return self._numbers.get(base, False)
-
-    def _of(self, equation: Equation) -> Known:
-        """The dimension of most terms of an equation: one of them may be wrong."""
-        found = (dimension(term, self.vocabulary.dimensions) for term in terms(equation, expand=True))
-        known = [each for each in found if each is not None]
-        return max(known, key=known.count) if known else None
-
-    def _rows(self, nodes: Sequence[Node]) -> Array:
-        """The value of each term; factors, of which there are few, are worked out once."""
-        parts = [n.factors if isinstance(n, Mul) else (n,) for n in nodes]
-        places: dict[Node, int] = {}
-        seen: dict[int, int] = {}  # by identity: many terms share their factors
-        for factor in (f for factors in parts for f in factors):
-            if id(factor) not in seen:
-                seen[id(factor)] = places.setdefault(factor, len(places) + 1)
-        count = len(next(iter(self.values.values())))
-        known = np.array([np.ones(count), *(sampled(factor, self.values) for factor in places)])
-        rows = np.ones((len(nodes), count))
-        for i in range(max(map(len, parts), default=0)):
-            rows *= known[[seen[id(factors[i])] if i < len(factors) else 0 for factors in parts]]
-        return rows
-
 
 def _is_linear_for_angular(old: Node, new: Sym) -> bool:
     """Whether one rate or acceleration stands for another of quite another kind: I x'' for I θ''."""
@@ -489,8 +381,3 @@ def _linear(term: Node) -> Node:
     for call in [n for n in walk(term) if isinstance(n, Fn) and n.name in ("sin", "tan", "cos") and isinstance(n.args[0], Sym)]:
         term = exchange(term, call, Num(1.0, "1") if call.name == "cos" else call.args[0])
     return without_ones(term)
-
-
-def _calls(equation: Equation) -> list[Fn]:
-    """The functions of one number that stand in an equation."""
-    return [n for n in dict.fromkeys(walk(equation)) if isinstance(n, Fn) and len(n.args) == 1]

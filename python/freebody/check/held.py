@@ -12,7 +12,7 @@ import numpy as np
 from freebody.model.names import spell
 from freebody.run.records import quote
 
-from .assumptions import free_parameter
+from .hypotheses import free_parameter
 
 if TYPE_CHECKING:
     from freebody.model.builder import Builder

@@ -19,7 +19,7 @@ from freebody.symbolic.tree import Column, Node, Sym
 
 from .assumptions import FROM_START, OWN_NUMBERS, assumption, is_of_higher_order, leaves_out, linearised, nearer, of_family, tiny
 from .case import Case
-from .correction import MOST, SECOND, corrections
+from .correction import SECOND, corrections
 from .families import ALL, Family, NoMotion, Samples
 from .figures import corrected_figures, is_computed, rounding, says_a_figure, says_a_measure
 from .language.spelling import spell
@@ -27,6 +27,7 @@ from .language.statements import Equation, symbols_in, terms
 from .motion_sampler import SAMPLES
 from .nearest import nearest
 from .residual import FAILS, HOLDS, OFTEN, Residual, equation_sides, jacobian, residual, sizes, unreached
+from .search import MOST
 from .senses import holds_with_either_root, of_root, one_sense
 from .stated import Correction
 from .verdict import EVERY_TERM_IS_0, Kind, Verdict, evidence

@@ -15,25 +15,13 @@ import numpy as np
 from freebody.core import OutcomeKind
 from freebody.model.errors import ModelProblem
 
-from .assumptions import (
-    FAR,
-    SMALL,
-    SMALL_MOTIONS,
-    WORDS,
-    family,
-    first_order,
-    first_order_from_start,
-    nearer,
-    says_zero,
-    small_from_start,
-    vanishes,
-    wider,
-)
+from .assumptions import first_order, first_order_from_start, nearer, says_zero, small_from_start, vanishes, wider
 from .case import Case
 from .correction import SECOND, corrections
 from .described import described
 from .families import ALL, Family, NoMotion
 from .held import with_held
+from .hypotheses import FAR, SMALL, SMALL_MOTIONS, WORDS, family
 from .language.statements import Equation, symbols_in
 from .phases import phase
 from .residual import HOLDS, residual

@@ -17,11 +17,11 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.tree import Sym
 
 from . import timed_claims
-from .assumptions import WORDS
 from .beginnings import events_named, is_start
 from .corners import on_corner
 from .described import described, place_of, way_of
 from .families import BEFORE, SINCE_START
+from .hypotheses import WORDS
 from .language.statements import symbols_in
 from .later import AT_FIRST, only_at_first
 from .phases import NOT_FIRST, Phase, is_moment, kind_of, phase
