@@ -30,7 +30,7 @@ from .language.parser import parse_expression
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in, terms
 from .limit_claims import limit
-from .phases import phase, stretch_of
+from .phases import NOT_FIRST, phase, stretch_of
 from .residual import jacobian, magnitude, residual
 from .search import MOST
 from .two_moments import BETWEEN, PLACES, across_impact, between, between_places, changes
@@ -58,12 +58,14 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
         or _after_blow(checker, {**declared, **given}, found[1].strip(), claim[found.end() :])
     ):
         return verdict
+    label, colon, said = claim.partition(":")
+    if colon and _SIGNED.search(said) and (verdict := across_impact(checker, {**declared, **given}, label.strip(), said)):
+        return verdict
     forms = [form for form in _FORMS if form[1] is not changes or not _named_changes({**checker.declared, **declared}, claim)]
     for pattern, judge in forms:
         if found := pattern.fullmatch(claim):
             said = ((part or "").strip() for part in found.groups())
             return judge(checker, {**declared, **given}, *said)
-    label, colon, said = claim.partition(":")
     if colon and (stretch := stretch_of(checker, declared, [part.strip(_BESIDE_WORDS) for part in re.split("[,()]", label)])):
         return in_phase(checker, {**declared, **given}, *stretch, said)
     for word, form in _WHOLE.items():
@@ -74,7 +76,7 @@ def claimed(checker: Checker, text: str, declared: Declared) -> Verdict | None:
 
 def _after_blow(checker: Checker, declared: Declared, words: str, statement: str) -> Verdict | None:
     """Behind ``impact:`` with letters of no moment, what is so just after it, or nearly so; else None."""
-    if checker.happens.only_impact is None or _BESIDE_BLOW.match(words):
+    if checker.happens.only_impact is None or _BESIDE_BLOW.match(words) or NOT_FIRST.search(words):
         return None
     with suppress(ModelProblem, StatementError):
         after = checker.check(f"just after {checker.happens.only_impact}: {statement}", declared, correcting=checker.correcting)
@@ -327,6 +329,7 @@ _AT_BLOW = re.compile(
     re.IGNORECASE,
 )
 """``impact:``, ``at the stroke:``."""
+_SIGNED = re.compile("[⁻⁺]")
 _BESIDE_BLOW = re.compile(r"(?:\w+\s+)?(?:after|before|between|while|until|once|when|with|without|no|during)\b")
 _IS_HELD = re.compile(r"\b(?:(?:is|are)\s+)?held\b(?:\s+still)?")
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")

@@ -53,7 +53,7 @@ _LOOKS = 33  # times of a run, at which it is looked for what moves most
 _STILL = 1e-6  # of the rate with which something moves at first: below it it rests
 _TURNS = 1e-6  # of what is typical, what a second derivative is at least where something turns: what stays so does not
 _PLACE = re.compile(
-    r"\b(?:point|place|position|height|swing|swung|angle|tilt|lean|turn|deflection|displacement|excursion|deviation|amplitude|distance|way)\b"
+    r"\b(?:farthest out|point|place|position|height|swing|swung|angle|tilt|lean|turn|deflection|displacement|excursion|deviation|amplitude|distance|way)\b"
 )
 
 
@@ -151,7 +151,18 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):
         return _of(f"y({quote(body)}.G)" if body else _level(checker), least) if body or checker.sampler.moves_one_way else ()
-    return _of(spell(names[0]), least) if _PLACE.search(words) and len(names) == 1 else ()
+    name = names[0] if len(names) == 1 else _turning(body, checker)
+    return _of(spell(name), least) if _PLACE.search(words) and name else ()
+
+
+def _turning(body: str | None, checker: Checker) -> str | None:
+    """The only coordinate of the joint that holds a body to another."""
+    own = [
+        joint["coordinates"]
+        for joint in checker.sampler.spec["joints"]
+        if joint["with"].get("of", [""])[-1].startswith(f"{body}.")
+    ]
+    return own[0][0]["name"] if len(own) == 1 and len(own[0]) == 1 else None
 
 
 def _level(checker: Checker) -> str:

@@ -99,7 +99,7 @@ class FittedEdits:
             yield from (Edit.at(equation, "resultant", node, new, _ANOTHER + 0.02 * depth(new)) for new in at_angle)
             if isinstance(node, Add) and required.missing.ndim == 1:
                 yield from self._squares.of_components(equation, [(term, _ONE) for term in node.terms], required.missing)
-                for term in self._squares.crossed(node, required.missing):
+                for term in chain(*(lost(node, required.missing) for lost in (self._squares.crossed, self._squares.at_an_angle))):
                     yield Edit("missing term", None, term, exchange(equation, node, more(node, term)), 0.01 * depth(term))
             yield from (Edit.at(equation, "symbol", node, new) for new in pressing(required, self.values, self.vocabulary))
             if isinstance(node, Add):
@@ -107,7 +107,7 @@ class FittedEdits:
             if isinstance(node, Add) or id(node) in whole:
                 yield from self._missing(equation, required)
             elif isinstance(node, Sym) and required.missing.ndim == 1 and not node.dots:
-                yield from self._part_of_length(equation, required)
+                yield from self._part_of_letter(equation, required)
             if node in (equation.left, equation.right) and not any(symbols_in(n.bottom) for n in quotients):
                 yield from self._denominator(equation, required)
 
@@ -285,12 +285,15 @@ class FittedEdits:
             size = 0.02 * depth(term) + _FAR_FETCHED * self._far_fetched(term, equation)
             yield Edit("missing term", None, term, exchange(equation, required.node, more(required.node, term)), size)
 
-    def _part_of_length(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A letter that is only a part of what stands there, as of a stretch or an amplitude: A for A + F/k."""
-        if dimension(required.node, self.vocabulary.dimensions) not in (LENGTH, NUMBER_ONLY):
+    def _part_of_letter(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
+        """A letter that is only a part of what stands there, as of a stretch or an amplitude, A for A + F/k, or of what presses, P for P + m a."""
+        its = dimension(required.node, self.vocabulary.dimensions)
+        if its not in (LENGTH, NUMBER_ONLY, FORCE):
             return
+        moving = (Sym(n.name, 2) for n in self.vocabulary.coordinates) if its == FORCE else ()
+        known = {*self.vocabulary.parameters, *moving}
         for term in self.terms.monomials(equation).equal_to(required.missing):
-            if symbols_in(term) and term.symbols <= {*self.vocabulary.parameters}:
+            if symbols_in(term) and term.symbols <= known:
                 new = Add((required.node, term), span=required.node.span)
                 yield Edit.at(equation, "symbol", required.node, new, _PART + 0.02 * depth(term))
 

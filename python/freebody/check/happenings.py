@@ -120,6 +120,19 @@ class Happenings:
         found = (change for change in self.run.impacts if change.kind == "impact" or first[change.of[0]] is change)
         return {change.of[0].partition(".")[0] for change in found if change.kind in ("impact", "taut")}
 
+    def jump(self, words: str) -> str | None:
+        """What the only impacts on the model's own run are at; where there are none, the only event to whose name words are alike and that
+        holds something fast."""
+        if len(self.impacts) > 1:
+            return None
+        for part in self.impacts:
+            t = next(change.t for change in self.run.impacts if change.of[0].partition(".")[0] == part)
+            at_once = [event.name for event in self.run.events if event.t == t]
+            return at_once[0] if part.startswith("lock ") and at_once else part  # what an event locks is no part with a name
+        joining = [event["name"] for event in self._events if does(event, "lock") or does(event, "engage")]
+        found = called(joining, re.findall(r"\w+", words))
+        return found[0] if len(found) == 1 else None
+
     @cached_property
     def only_impact(self) -> str | None:
         """What the impacts on the model's own run are at, where it is one part, and nothing happens at its start."""

@@ -41,6 +41,11 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"(\b(?:about|around)\s+\$?\\?[^\W\d]\w*\$?)\s*=\s*\\?[^\W\d]\w*\s*(?==\s*\$?0)", r"\1 "),
     # … (for x ≠ 0)
     (r"\A(?=[^:]*\Z)(.*=.*?)\s*\(\s*(?:for|if|when)\s+(\$?[^()=<>:]{1,20}(?:\\neq?\b|≠|!=)[^()=<>:]{1,20})\)\s*\Z", r"if \2: \1"),
+    # released at rest; at θ = 0: …
+    (
+        r"\A(\s*(?:[a-z ]+ )?(?:released|let go|starts?|started|dropped)(?:\s+from|\s+at)\s+rest)\s*;\s*(?=(?:at|when|where)\b[^:]*:)",
+        r"\1, ",
+    ),
     # For M = 0 and small φ: …
     (r"\A\s*[Ff]or\s+([^:,=]{1,12}=[^:,=]+?)\s+and\s+(?:for\s+)?small\s+(?=[^:=]*:)", r"if \1, for small "),
     (r"\b(?:[Ii]n\s+the\s+)?[Ll]imit\s+(?=\$?\\?[^\W\d]\w*\$?\s*(?:→|->|\\to\b))", ""),

@@ -32,7 +32,7 @@ _KINDS = {
     "taut": "taut|tight|stretched|straight|jerks?",
     "slack": "slack|loose",
     "touch": r"touch(?:e[sd])?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|reach(?:es|ed)\s+the\s+(?:spring|buffer|bumper|stop|wall|floor|ground)|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
-    r"|blow|impact|collision|shock"
+    r"|blow|impact|collision|shock|bounce"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?(?:whole )?\w+ )?on (?:(?:the|its|his|her) )?(?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leav(?:es?|ing)|(?:is|are|has\s+been)\s+left(?!\s+(?:alone|to|with))|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|separation|(?:los(?:es?|ing|t))\s+(?:contact|touch)"
@@ -44,7 +44,10 @@ _KINDS = {
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
-_CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("impact",))}  # what rebounds has left, too
+_CHANGES = {
+    "touch": (("impact", "contact"),),
+    "lift-off": (("lift-off",), ("released",), ("impact",)),
+}  # what rebounds has left, too
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
 _OF_STRINGS = ("taut", "slack", "off")
@@ -80,6 +83,7 @@ _Change = tuple[float, str, str]
 _HOLDS = re.compile(
     r"\b(?:held|stopped|caught|kept|blocked|locked)\s+by\s+(?:the\s+)?(\w+)|\b(\w+)\s+(?:holds|catches|engages|bites|bears|acts|has\s+caught)\b"
 )
+_DOING = re.compile(r"\b([a-z]{3,}?)(?:ing|e?s)\b")
 _FACT = re.compile(
     r"\b(?:impact|blow|collision|shock|contact)s?\s+(?:is|are)\s+(?:[a-z]+\s+)?(?:(?:in)?elastic|plastic|smooth|rough|short|central|oblique)\b"
 )
@@ -148,12 +152,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     on_body = place and place[1] in checker.symbols().bodies - touched
     if kind is None or words.startswith("until") or on_body or (lasts and kind == "released"):
         return None
-    if not limits and kind in _STATES:  # an event may join them
-        named = [
-            event["name"] for event in checker.sampler.spec["events"] if kind_of(event["name"]) == kind and does(event, "lock")
-        ]
-        if len(named) == 1:
-            return Phase(False, (named[0],), False)
+    if not limits and kind in _BEFORE and (locking := _locking(checker, kind, lasts, words)):
+        return locking
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
     run, begins = checker.happens.run, checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
@@ -186,7 +186,8 @@ def phase(checker: Checker, words: str) -> Phase | None:
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
     at_once = {part for change in run.changes if change.t <= begins and change.kind in _TOUCHES for part in change.of}
-    states = {name: limits[name].state for name in meant - at_once if name in limits}
+    there = meant - at_once if kind in _BEFORE else meant
+    states = {name: limits[name].state for name in there if name in limits}
     again = _AGAIN.search(words) is not None and bool(changes)
     at_first = not (comes or again) and _goes_on_at_first(
         kind, lasts and not (begun and times), every, states, run, meant, not limits and not _sets_free(checker)
@@ -237,8 +238,10 @@ def _moving(checker: Checker, words: str) -> Phase | None:
 
 
 def _held_by(checker: Checker, words: str, limits: Mapping[str, Any]) -> Phase | None:
-    """The stretch on which a stop or a contact holds something, which words call by its name: ``once the pawl holds``; None where they call none."""
-    name = next((found[1] or found[2] for found in _HOLDS.finditer(words) if (found[1] or found[2]) in limits), None)
+    """The stretch on which a stop or a contact holds something, which words call by its name, ``once the pawl holds``, ``foot pushing``; None
+    where they call none."""
+    said = [*(found[1] or found[2] for found in _HOLDS.finditer(words)), *_DOING.findall(words)]
+    name = next((name for name in said if name in limits), None)
     if name is None:
         return None
     begins = checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
@@ -246,6 +249,16 @@ def _held_by(checker: Checker, words: str, limits: Mapping[str, Any]) -> Phase |
     changes = tuple(change for change, (_, part) in firsts.items() if part == name)[-1:]
     at_first = limits[name].state != "open"
     return Phase(at_first, changes, False) if at_first or changes else None
+
+
+def _locking(checker: Checker, kind: str, lasts: bool, words: str) -> Phase | None:
+    """What sticks where an event locks it, and slides before that and where one unlocks it; None where not one event alone locks something."""
+    events = checker.sampler.spec["events"]
+    locks, unlocks = ([event["name"] for event in events if does(event, what)] for what in ("lock", "unlock"))
+    if len(locks) != 1:
+        return None
+    changes = locks if kind == "stick" else unlocks
+    return Phase(lasts and kind == "slip", (*changes,), not lasts and is_moment(words, kind))
 
 
 def _sets_free(checker: Checker) -> bool:
@@ -296,7 +309,7 @@ def _begun(run: Any, state: str) -> list[_Change]:
     found: list[_Change] = []
     for change in reversed(run.changes):
         for part in change.of:
-            if change.kind in _TOUCHES and last.get(part) == state:
+            if change.kind in (*_TOUCHES, "rest") and last.get(part) == state:  # bounces end, too
                 found.append((change.t, part, f"{change.kind} {part}"))
             last[part] = _BEFORE.get(change.kind, "")
     return found

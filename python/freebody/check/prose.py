@@ -106,6 +106,8 @@ _CALLED = re.compile(
 _DOTS = re.compile("(?<=[^\\W\\d])[¨˙]")
 """``x¨``, with dots that stand behind a letter."""
 _SPACES = re.compile(r"(?<!\\)\\(?:[,;:!>]| (?![^{}]*\}))")
+_BESIDE_A_MOMENT = str.maketrans("₋₊", "⁻⁺")
+"""``v₋``, just before."""
 _SIDE_OF_ZERO = re.compile(r"(=\s*0)\s*(?:\^?\s*\{?\s*\+\s*\}?|⁺)(?=\s*(?:[:,)]|\\q?quad|\Z))")
 """``t = 0⁺``, just after."""
 _UPRIGHT = r"\s*(?:\\(?:mathrm|text|rm|mathsf)\s*)?"
@@ -201,6 +203,7 @@ def plainly(
         return told(found, "a remark, and not judged") if is_comment else found[0]
 
     said = _IN_LATEX.sub(_of_latex, _SPACES.sub("  ", _DOTS.sub(lambda found: "'" * (1 + (found[0] == "¨")), read))).lstrip()
+    said = said.translate(_BESIDE_A_MOMENT)
     said = _CAPITAL.sub(lambda found: found[0].lower(), _SIDE_OF_ZERO.sub(r"\1", said))
     said = _EXTREME.sub(lambda found: f"_{{{found[1] or found[2] or found[3]}}}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)

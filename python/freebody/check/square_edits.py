@@ -23,6 +23,7 @@ from .roots import calls_of
 from .solve_for_term import RequiredTerm
 from .vocabulary import Vocabulary
 
+_MOST_ANGLES = 8
 _NEARLY = 1e-5  # relative spread below which a factor is meant to be one number, or a sum what is needed
 _ACCELERATION = LENGTH.times(TIME, -2)
 _SPEEDS = (LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1))
@@ -34,6 +35,12 @@ def _root(square: Node) -> Node | None:
     if number <= 0 or any(power % 2 for power in powers.values()):
         return None
     return written(float(np.sqrt(number)), {n: power // 2 for n, power in powers.items()})
+
+
+def _times(both: Mul, call: Fn, sign: float) -> Node:
+    """A product with a sine or cosine, and a sign."""
+    whole = Mul((*both.factors, call))
+    return whole if sign > 0 else Negative(whole)
 
 
 @dataclass
@@ -98,6 +105,27 @@ class SquareEdits:
                     if np.abs(signs[0] * along + signs[1] * across - missing).max() <= _NEARLY * np.abs(missing).max():
                         both = Add(tuple(part if sign > 0 else Negative(part) for sign, part in zip(signs, parts, strict=True)))
                         yield Mul((Num(2.0, "2"), whole, both))
+
+    def at_an_angle(self, node: Add, missing: Array) -> Iterator[Node]:
+        """What the law of cosines has beside the squares of two speeds, of which the directions have an angle between them."""
+        speed, known = _SPEEDS[0].times(_SPEEDS[0]), self.vocabulary
+        roots = [_root(term) for term in node.terms if dimension(term, known.dimensions) == speed]
+        angles = [n for n in known.angles if n.key in self.values and not (n in known.others and n not in known.letters)][
+            :_MOST_ANGLES
+        ]
+        for pair in (pair for pair in combinations(roots, 2) if None not in pair):
+            both = Mul((Num(2.0, "2"), *pair))  # type: ignore[arg-type]
+            cosine = missing / sampled(both, self.values)
+            if not np.isfinite(cosine).all() or np.abs(cosine).max() > 1 + _NEARLY:
+                continue
+            for some in (some for count in (1, 2, 3) for some in combinations(angles, count)):
+                for signs in product_of((1, -1), repeat=len(some) - 1):
+                    parts = (some[0], *(n if sign > 0 else Negative(n) for n, sign in zip(some[1:], signs, strict=True)))
+                    angle = parts[0] if len(parts) == 1 else Add(parts)
+                    for name, sign in product_of(("cos", "sin"), (1.0, -1.0)):
+                        call = Fn(name, (angle,))
+                        if np.abs(sign * sampled(call, self.values) - cosine).max() <= _NEARLY:
+                            yield _times(both, call, sign)
 
     def of_components(
         self,

@@ -120,20 +120,26 @@ def _in_sentences(
                 first = found, reading
     if first is None or (before and fails and not (first[1].condition and first[0].kind is Kind.WRONG)):
         return None
-    return _wrong(checker, said, letters, *first) if fails else _corrected(checker, text, said, letters, *first)
+    return _wrong(checker, said, letters, *first) if fails else _corrected(checker, text, said, letters, before, *first)
 
 
 def _corrected(
-    checker: Checker, text: str, said: Sentence, letters: Declared | None, found: Verdict, reading: _Reading
+    checker: Checker, text: str, said: Sentence, letters: Declared | None, before: Verdict, found: Verdict, reading: _Reading
 ) -> Verdict | None:
-    """The verdict in a reading of all words, with its corrections, where they are likely, and none of the text as it stands is."""
+    """The verdict in a reading of all words, with its corrections, where they are likely, and none of the text as it stands is; that first
+    where something that is said is 0 as it stands."""
     if not (checker.correcting and reading.is_whole and found.kind is Kind.WRONG):
         return None
-    as_it_stands = checker.check(text, letters)
-    if as_it_stands.kind is not Kind.WRONG or _is_likely(as_it_stands.mends):
-        return as_it_stands
-    mends = _judged(checker, reading, said.claims, letters).mends
-    return replace(found, mends=mends) if _is_likely(mends) else as_it_stands
+    ways = [
+        lambda: checker.check(text, letters),
+        lambda: replace(found, mends=_judged(checker, reading, said.claims, letters).mends),
+    ]
+    first, second = reversed(ways) if before.is_idle and not found.is_idle else ways
+    one = first()
+    if one.kind is not Kind.WRONG or _is_likely(one.mends):
+        return one
+    other = second()
+    return other if _is_likely(other.mends) else one
 
 
 def _is_likely(mends: Sequence[Correction]) -> bool:

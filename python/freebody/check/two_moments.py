@@ -63,9 +63,9 @@ def _since_start(checker: Checker, declared: Declared, statement: str) -> str:
 def across_impact(checker: Checker, declared: Declared, label: str, statement: str) -> Verdict | None:
     """``stroke: Δ[J θ' + I φ'] = 0``, ``impact: v_2 = -e v_1``: just before and just after the only thing that there are impacts at; None
     where no letter is of these moments."""
-    if re.search(r"Δ|\\Delta|[12₁₂⁺⁻]|\^\{?[-−+]", statement) is None or len(parts := checker.happens.impacts) != 1:
+    happening = checker.happens.jump(label)
+    if re.search(r"Δ|\\Delta|[12₁₂⁺⁻]|\^\{?[-−+]", statement) is None or happening is None:
         return None
-    (happening,) = parts
     known, letters = checker.symbols(declared), dict[str, str]()
 
     def beside(said: str, name: str, index: str) -> str:

@@ -175,7 +175,10 @@ def _described(checker: Checker, declared: Declared, given: Family, words: str, 
     begins_so = not given.since and sampler.are_above(given.above, soon)
     if not verdict.ok and begins_so and checker.at_first().check(statement, declared, correcting=False).ok:
         return None
-    return verdict
+    goes_later = given.above != checker.hypothesis.above and not (
+        given.since or begins_so
+    )  # that way, after something that happens
+    return (not verdict.ok and goes_later and on_later_stretch(checker, declared, words, statement)) or verdict
 
 
 def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, statement: str, problem: ModelProblem) -> Verdict:
@@ -364,7 +367,8 @@ def beside_event(checker: Checker, declared: Declared, just: str, side: str, eve
     given = replace(checker.hypothesis, at_start=True) if just else checker.hypothesis
     verdict = there.check(statement, declared, given)
     verdict = replace(verdict, moment=verdict.moment or f"{just}{side} {event}")
-    if not verdict.ok and (any(INITIAL in note for note in verdict.notes) or _speaks_of_time(there, declared, statement)):
+    of_start = any(INITIAL in note for note in verdict.notes) or _speaks_of_time(there, declared, statement)
+    if not verdict.ok and (of_start or _is_integral(there, declared, statement)):
         # v₀ is that of the start before
         verdict = there.check(statement, declared, replace(given, since=BEFORE))
     if verdict.ok or just or side == "after":
@@ -386,6 +390,17 @@ def _speaks_of_start(checker: Checker, declared: Declared, statement: str) -> bo
     with suppress(ModelProblem, StatementError):
         case = checker.case(statement, declared)
         return any(map(case.meaning.speaks_of_start, case.equations))
+    return False
+
+
+def _is_integral(checker: Checker, declared: Declared, statement: str) -> bool:
+    """Whether it says of rates, and of no force or acceleration, what they are in parameters alone: so it is of what came before."""
+    with suppress(ModelProblem, StatementError):
+        case = checker.case(statement, declared)
+        known = case.meaning.vocabulary
+        sides = [{*symbols_in(side)} - {*known.parameters} for each in case.equations for side in (each.left, each.right)]
+        moving = set().union(*sides)
+        return not all(sides) and any(map(known.is_rate, moving)) and not any(map(known.is_load, moving))
     return False
 
 
