@@ -329,7 +329,7 @@ _AT_BLOW = re.compile(
     re.IGNORECASE,
 )
 """``impact:``, ``at the stroke:``."""
-_SIGNED = re.compile("[⁻⁺]")
+_SIGNED = re.compile(r"[⁻⁺]|\^\{[-−+]\}")
 _BESIDE_BLOW = re.compile(r"(?:\w+\s+)?(?:after|before|between|while|until|once|when|with|without|no|during)\b")
 _IS_HELD = re.compile(r"\b(?:(?:is|are)\s+)?held\b(?:\s+still)?")
 _OF_RATES = re.compile(r"\b(?:rate|omega|v[xy]|speed)\(")

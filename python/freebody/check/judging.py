@@ -304,10 +304,15 @@ def _from_start(case: Case, equation: Equation) -> Verdict | None:
     ways = [since, replace(since, through=True)]
     if forward := one_sense(case, equation):
         ways.append(replace(since, above=forward[0].above))
+    later = any(case.sampler.spec[kind] for kind in ("contacts", "stops", "strings"))  # a term may take part behind what switches
     for family in ways:
-        if _at_a_glance(case, equation, family) and of_family(case, equation, family, SAMPLES):
+        if not _at_a_glance(case, equation, family):
+            continue
+        whole = of_family(case, equation, family, SAMPLES)
+        if whole or later or _never_changes(case, equation):  # what is 0 by symmetry from this start takes part elsewhere
             verdict = judged_one(replace(case, hypothesis=family, known={}), equation)
-            return replace(verdict, assumption=FROM_START) if verdict.ok else None
+            untested = verdict.untested if whole or later else ()
+            return replace(verdict, assumption=FROM_START, untested=untested) if verdict.ok else None
     if case.sampler.moment and case.meaning.speaks_of_start(equation) and not any(map(case.sampler.has, ways)):
         what = f"no motions from the start were found that come to where it is said of, {case.sampler.own.moment}, as the model's own does"
         return Verdict(Kind.UNDECIDABLE, case.program.text, what)

@@ -13,11 +13,12 @@ import numpy as np
 from freebody.model.errors import ModelProblem
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import sampled
+from freebody.symbolic.tree import Sym
 
 from .assumptions import FROM_START
 from .families import SINCE_START
 from .language.spelling import spell
-from .language.statements import terms
+from .language.statements import symbols_in, terms
 from .phases import called, kind_of, phase
 from .prose import plainly
 from .residual import magnitude
@@ -42,9 +43,15 @@ def also_later(checker: Checker, verdict: Verdict, text: str, letters: Declared 
     said = ", ".join(f"`{term}`" for term in verdict.untested)
     for name in checker.happens.switches if verdict.untested else checker.happens.switches[:_SWITCHES]:
         with suppress(ModelProblem, StatementError):
-            later = checker.beside("after", name, {}).check(text, letters, correcting=bool(verdict.untested))
+            there = checker.beside("after", name, {})
+            later = there.check(text, letters, correcting=bool(verdict.untested))
             if later.kind is not Kind.WRONG:
                 continue
+            if not verdict.untested and (still := _standing(checker, verdict, text, letters)):
+                later = replace(later, mends=there.check(text, letters).mends if checker.correcting else ())
+                return replace(
+                    later, notes=(*later.notes, f"At first, where {still} stands still, it holds; not so after {name}.")
+                )
             if not verdict.untested:
                 told = replace(verdict, notes=(*verdict.notes, f"{AT_FIRST}, not after {name}."))
                 return only_at_first(told) if _says_what_happens(checker, text) else told
@@ -103,6 +110,17 @@ def corrected_later(checker: Checker, verdict: Verdict, text: str, letters: Decl
             if later.kind is Kind.WRONG and (mends := tuple(each for each in later.mends if holds(checker, each))):
                 return replace(later, mends=mends, notes=(*later.notes, f"It is corrected by what is so after {name}."))
     return verdict
+
+
+def _standing(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> str:
+    """The first coordinate of a statement about rates that stands still as the model is at first; nothing where all move."""
+    since = SINCE_START if verdict.assumption == FROM_START else None
+    case = checker.case(with_condition_first(plainly(text)[0]), letters, since)
+    known, values, said = case.meaning.vocabulary, case.values(), symbols_in(case.program)
+    if not any(map(known.is_rate, said)):
+        return ""
+    rates = {n.name: values[Sym(n.name, 1).key] for n in said if n in known.coordinates and not n.dots}
+    return next((name for name, rate in rates.items() if not np.any(rate)), "")
 
 
 def _stays_zero(checker: Checker, verdict: Verdict, text: str, letters: Declared | None) -> bool:

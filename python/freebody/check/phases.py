@@ -36,11 +36,11 @@ _KINDS = {
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?(?:whole )?\w+ )?on (?:(?:the|its|his|her) )?(?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leav(?:es?|ing)|(?:is|are|has\s+been)\s+left(?!\s+(?:alone|to|with))|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|separation|(?:los(?:es?|ing|t))\s+(?:contact|touch)"
-    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+still)|open(?:s|ed|ing)?|blows\s+off",
+    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+(?:still|at\s+rest))|open(?:s|ed|ing)?|blows\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
-    "rest": r"(?:comes?|came)\s+to\s+(?:rest|a\s+(?:stop|halt|standstill))|(?:has|have)\s+stopped|stands?\s+still",
+    "rest": r"(?:hangs?|stands?|lies|stays?)\s+at\s+rest|(?:comes?|came)\s+to\s+(?:rest|a\s+(?:stop|halt|standstill))|(?:has|have)\s+stopped|stands?\s+still",
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
