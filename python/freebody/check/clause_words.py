@@ -45,9 +45,8 @@ _WORDS: tuple[tuple[str, str], ...] = (
         r"at the highest point of the \1, after lift-off",
     ),
     (r"(?:at )?(?:the )?(?:top|highest point) of (?:its |his |her |the )?flight", "at the highest point, after lift-off"),
-    (r"(?!with\b).*[a-z] with (?:the )?([a-z]+) (on|against) (?:the )?([a-z]+)", r"while the \1 is \2 the \3"),
-    (r"off the ([a-z]+)", r"while it is off the \1"),
-    (r"(?:the )?([a-z]+) (?:is )?free again", r"once the \1 has come free"),
+    (r"(?!with\b).*[a-z] with (?:the )?([a-z]+) (on|against) the ([a-z]+)", r"while the \1 is \2 the \3"),
+    (r"(?:the )?([a-z]+) (?:is )?free again", r"after the \1 is released"),
     (
         r"(?:once|when) (?:the )?(?:speed|velocity) (?:no longer changes|does not change any ?more|stays the same)",
         "in the steady state",

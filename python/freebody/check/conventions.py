@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import combinations, groupby
 
-from freebody.symbolic.dimensions import LENGTH, MASS, NUMBER_ONLY, Dimension
+from freebody.symbolic.dimensions import FORCE, LENGTH, MASS, NUMBER_ONLY, Dimension
 from freebody.symbolic.tree import Add, Cross, Dot, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, substitute, walk
 
 from .edits import OTHER, Edit, exchanged
@@ -42,7 +42,8 @@ def conventions(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
         plain = Sym(name)
         if plain not in vocabulary.vectors and vocabulary.parameters.get(plain) not in _UNSIGNED:
             yield _convention(equation, {n: Negative(n) for n in _with_rates(name)}, f"`{name}` taken in the other sense")
-    loads = [n for n in dict.fromkeys(found) if vocabulary.is_load(n) and n not in vocabulary.parameters]
+    is_load = lambda n: vocabulary.dimension(n) == FORCE if n in vocabulary.parameters else vocabulary.is_load(n)
+    loads = [n for n in dict.fromkeys(found) if is_load(n)]
     for _, alike in groupby(sorted(loads, key=stem), stem):
         if len(together := [*alike]) > 1:
             names = " and ".join(f"`{n.name}`" for n in together)

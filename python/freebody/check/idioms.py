@@ -46,6 +46,9 @@ _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
         r"\A(\s*(?:[a-z ]+ )?(?:released|let go|starts?|started|dropped)(?:\s+from|\s+at)\s+rest)\s*;\s*(?=(?:at|when|where)\b[^:]*:)",
         r"\1, ",
     ),
+    # off the bottom: …
+    (r"\A\s*off the ([a-z]+)(?=\s*:(?!=))", r"while it is off the \1"),
+    (r"\A\s*\\text\s*\{\s*off the ([a-z]+)\s*:\s*\}", r"while it is off the \1: "),
     # For M = 0 and small φ: …
     (r"\A\s*[Ff]or\s+([^:,=]{1,12}=[^:,=]+?)\s+and\s+(?:for\s+)?small\s+(?=[^:=]*:)", r"if \1, for small "),
     (r"\b(?:[Ii]n\s+the\s+)?[Ll]imit\s+(?=\$?\\?[^\W\d]\w*\$?\s*(?:→|->|\\to\b))", ""),

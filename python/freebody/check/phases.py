@@ -44,10 +44,7 @@ _KINDS = {
     "released": r"breaks?|broken?|cut(?:ting)?|snap(?:s|ped)?|release[sd]?|lets?\s+go|fail(?:s|ed)?|gives?\s+way",
 }
 """What goes on in words; ``touch`` and ``lift-off`` are of a moment, unless they last, and ``released`` is of one."""
-_CHANGES = {
-    "touch": (("impact", "contact"),),
-    "lift-off": (("lift-off",), ("released",), ("impact",)),
-}  # what rebounds has left, too
+_CHANGES = {"touch": (("impact", "contact"),), "lift-off": (("lift-off",), ("impact",))}  # what rebounds has left, too
 _STATES = {"stick": "stuck", "slip": "sliding", "taut": "taut", "slack": "slack"}
 """What a contact or a string is in then."""
 _OF_STRINGS = ("taut", "slack", "off")
@@ -186,8 +183,9 @@ def phase(checker: Checker, words: str) -> Phase | None:
     times = {name: t for name, t in times.items() if t == max(times.values())} if every else times
     changes = {t: name for name, t in reversed(times.items())}
     at_once = {part for change in run.changes if change.t <= begins and change.kind in _TOUCHES for part in change.of}
-    there = meant - at_once if kind in _BEFORE else meant
-    states = {name: limits[name].state for name in there if name in limits}
+    states = {name: limits[name].state for name in meant if name in limits}
+    if kind in _BEFORE:  # what touches at once rubs or sticks from then on
+        states = {name: state for name, state in states.items() if state != "open" or name not in at_once}
     again = _AGAIN.search(words) is not None and bool(changes)
     at_first = not (comes or again) and _goes_on_at_first(
         kind, lasts and not (begun and times), every, states, run, meant, not limits and not _sets_free(checker)

@@ -17,6 +17,8 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
     if edit.kind in ("missing term", "extra term") and part is not None:
         verb = "is left out" if edit.kind == "missing term" else "has no place here, or is counted twice"
         return f"{_what(part, equation, vocabulary)} {verb}"
+    if edit.kind == "convention" and edit.words.endswith("sense"):
+        return "it acts, or counts, in the other sense, wherever it stands"
     if edit.kind == "symbol" and isinstance(edit.new, Sym) and edit.new.dots == 1:
         return "one rate stands for another: that of the body for the relative one, or the other way round"
     if edit.kind == "factor" and edit.old is not None and sum(n.dots == 1 for n in symbols_in(edit.old)) > 1:

@@ -33,8 +33,11 @@ class Subject:
         return is_constraint(self.equation, self._known)
 
     def is_changed(self, edits: Sequence[Edit], after: Equation) -> bool:
-        """Whether nothing that moves is left, or a derivative by what moves is no longer that; two edits leave none of the accelerations and forces of which was spoken; or whether what is left is but kinematics,
-        after two edits, or with all gone from it that was said of forces, masses, weights or, after two, of a given speed."""
+        """Whether nothing is left of what was asked; whether two edits leave none of the accelerations and forces of which was spoken; or whether
+        what is left is but kinematics, after two edits, or with all gone from it that was said of forces, masses, weights or, after two, of a
+        given speed."""
+        if self._is_lost(after):
+            return True
         own = {n.key for n in symbols_in(after)}
         solved = {n.key for n in symbols_in(self.equation) if self._meaning.solved(n)}
         lost = [self._known.dimension(n) for n in symbols_in(self.equation) if n.key not in own and not n.dots]
@@ -45,12 +48,14 @@ class Subject:
         gone = (n for n in symbols_in(self.equation) if n in self._known.parameters and n.key not in own)
         given = two and any((its := self._known.dimension(n)) is not None and its.time for n in gone)
         kept_answers = not self.answers or not self.answers.isdisjoint(after.symbols)
-        moves = lambda equation: not equation.symbols <= {*self._known.parameters}
-        if not self._slopes <= {*walk(after)} or (moves(self.equation) and not moves(after)):
-            return True
         return (two and ((bool(solved) and not solved & own) or not kept_answers)) or (
             (given or (((two and lost) or mechanics) and not self.is_constraint)) and self._case.is_kinematic(after)
         )
+
+    def _is_lost(self, after: Equation) -> bool:
+        """Whether nothing that moves is left, or a derivative by what moves is no longer that."""
+        still = lambda equation: equation.symbols <= {*self._known.parameters}
+        return not self._slopes <= {*walk(after)} or (still(after) and not still(self.equation))
 
     @cached_property
     def answers(self) -> set[Node]:

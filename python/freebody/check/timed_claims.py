@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from freebody.core.compiled import BEFORE
+from freebody.core.errors import NotFinite
 from freebody.model.errors import ModelProblem
 from freebody.model.start import quantity
 from freebody.run.digits import SAFETY
@@ -68,7 +69,10 @@ def holds_on_run(checker: Checker, declared: Declared, statement: str) -> bool:
     case, run = checker.case(statement, declared), checker.happens.run
     begins = max(float(run.t[0]), checker.sampler.own.t)
     ends = min((change.t for change in run.changes if change.t > begins), default=float(run.outcome.t))
-    values = case.meaning.values(_OnRun(run, np.linspace(begins, ends, _TIMES)[1:-1], checker, run.evaluate))
+    try:
+        values = case.meaning.values(_OnRun(run, np.linspace(begins, ends, _TIMES)[1:-1], checker, run.evaluate))
+    except NotFinite:  # a direction of what stands
+        return True
     return all(np.nanmax(np.abs(residual(equation, values).ratio)) < _KNOWN**0.5 for equation in case.equations)
 
 

@@ -136,7 +136,7 @@ def _corrected(
     ]
     first, second = reversed(ways) if before.is_idle and not found.is_idle else ways
     one = first()
-    if one.kind is not Kind.WRONG or _is_likely(one.mends):
+    if one.kind is not Kind.WRONG or _is_likely(one.mends) or not (checker.whole or checker.budget).lasts():
         return one
     other = second()
     return other if _is_likely(other.mends) else one
