@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from copy import copy
 from dataclasses import replace
@@ -14,6 +14,7 @@ import numpy as np
 
 from freebody.core import OutcomeKind
 from freebody.model.errors import ModelProblem
+from freebody.symbolic.evaluate import Array, sampled
 
 from .assumptions import first_order, first_order_from_start, nearer, says_zero, small_from_start, vanishes, wider
 from .case import Case
@@ -22,12 +23,12 @@ from .described import described
 from .families import ALL, Family, NoMotion
 from .held import with_held
 from .hypotheses import FAR, SMALL, SMALL_MOTIONS, WORDS, family
-from .language.statements import Equation, symbols_in
+from .language.statements import Equation, symbols_in, terms
 from .phases import phase
 from .residual import HOLDS, residual
 from .stated import Correction
 from .user_symbols import LARGEST
-from .verdict import EVERY_TERM_IS_0, Kind, Verdict, evidence
+from .verdict import EVERY_TERM_IS_0, NOTHING_LEFT, Kind, Verdict, evidence
 from .worded_claims import in_phase
 from .wording import IN_WORDS
 
@@ -45,6 +46,7 @@ _TO_ZERO, _ARROW = re.compile(r"\s*\w+\s*->\s*0(?:\s*,\s*\w+\s*->\s*0)*\s*"), re
 """What stays the same, and where parameters go to 0."""
 _SOON = (0.05, 0.005)  # of the time typical of the model
 _REACHED = 1e-8  # share of its terms that may be left at a moment, which is found to that
+_BESIDE_TERM = 1e-2  # of a term that is small, that may be left beside it
 _SETTLING = 1e-3  # share of its terms that may be left at the end of a motion, if it dies away
 
 
@@ -70,11 +72,12 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
     # What can be 0 is so: nothing is left that would have to shrink.
     if given.held and not (given.scaled or given.small or given.late or any(map(says_zero, case.equations))):
         verdict = checker.check(statement, declared, given)
-        if not (verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)):
-            return verdict
-        # Both sides vanish there, and it says how.
         scaled = tuple((name, 1 / FAR[-1]) for name, value in given.held if value == 0)
-        given = replace(given, held=tuple(one for one in given.held if one[1] != 0), scaled=scaled)
+        small = replace(given, held=tuple(one for one in given.held if one[1] != 0), scaled=scaled)
+        if not (verdict.ok and verdict.untested and verdict.reason.startswith(EVERY_TERM_IS_0)):
+            lost = next((term for term in verdict.untested for name, _ in scaled if re.search(rf"(?<!\w){name}(?!\w)", term)), "")
+            return _of_what_goes(checker.case(statement, declared, small), verdict, lost) if verdict.ok and lost else verdict
+        given = small  # both sides vanish there, and it says how
         case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
         if given.steady:
@@ -105,7 +108,34 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         if np.isnan(rest) or (rest > (_REACHED if case.sampler.moment else HOLDS) and not shrinks):
             mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
             return Verdict(Kind.WRONG, statement, f"not so in the limit {limits}", mends=mends, evidence=evidence(found, values))
+        if not says_zero(equation) and _leaves_out(equation, given, values, before):
+            mends = tuple(corrections(case, equation, SECOND)) if case.correcting else ()
+            what = f"a term that is small as {limits} is another"
+            return Verdict(Kind.WRONG, statement, what, mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _of_what_goes(case: Case, verdict: Verdict, term: str) -> Verdict:
+    """The verdict about what is true without a term that goes in a limit, where that is so before it has gone; else not decidable."""
+    far = replace(case.hypothesis, scaled=tuple((name, x**0.5) for name, x in case.hypothesis.scaled))
+    with suppress(NoMotion):
+        near, before = case.values(), case.values(far)
+        if not any(_leaves_out(equation, case.hypothesis, near, before) for equation in case.equations):
+            return verdict
+    return replace(verdict, kind=Kind.UNDECIDABLE, reason=f"{NOTHING_LEFT} `{term}` there, by which it could be told from others")
+
+
+def _leaves_out(equation: Equation, given: Family, near: Mapping[str, Array], far: Mapping[str, Array]) -> bool:
+    """Whether what is left is no smaller than a term with a parameter that goes to 0, as it does: that term is another."""
+    names = {name for name, factor in given.scaled if factor < 1}
+    for term in (term for term in terms(equation, expand=True) if names & {n.name for n in symbols_in(term)}):
+        ratios = [
+            float(np.median(np.abs(residual(equation, values).sides.residual) / np.abs(sampled(term, values))))
+            for values in (near, far)
+        ]
+        if np.isfinite(ratios).all() and ratios[0] > _BESIDE_TERM and ratios[0] > ratios[1] / 2:
+            return True
+    return False
 
 
 def _swinging(checker: Checker, given: Family, limits: str) -> Checker:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 _UNITS = ("i", "j", "k")
 EVERY_TERM_IS_0 = "every term is 0"
+NOTHING_LEFT = "nothing is left of"
 
 
 class Kind(str, Enum):

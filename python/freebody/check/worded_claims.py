@@ -20,7 +20,7 @@ from . import timed_claims
 from .beginnings import events_named, is_start
 from .corners import on_corner
 from .described import described, place_of, way_of
-from .families import BEFORE, SINCE_START
+from .families import ALL, BEFORE, SINCE_START
 from .hypotheses import WORDS
 from .language.statements import symbols_in
 from .later import AT_FIRST, only_at_first
@@ -127,7 +127,9 @@ def _label_or_stretch(checker: Checker, declared: Declared, words: str, statemen
     placed = _PLACED.match(words) is not None
     stretch = (lasts or placed) and said and not names and _ONE_PART.search(words) is None
     asked = checker.at_first() if lasts or placed else checker
-    verdict = asked.check(statement, declared, correcting=checker.correcting and (names or stretch)) if said else None
+    asked = copy(asked)
+    asked.correcting = checker.correcting and (names or stretch)
+    verdict = (_at_first(asked, declared, statement) if lasts else asked.check(statement, declared)) if said else None
     if verdict is None or not (names or stretch or verdict.ok):
         if lasts and verdict is not None and not (found := _later(checker, declared, words, statement, verdict, problem)).ok:
             return found  # whichever stretch is meant
@@ -194,7 +196,7 @@ def _of_phase(checker: Checker, declared: Declared, found: Phase, words: str, st
         return replace(verdict, kind=Kind.TRUE_IF, assumption=only, reason=f"true only {only}, not from then on")
     if found.is_moment and not verdict.ok and (there := _before_another(checker, declared, found, words, statement)):
         return there
-    unclear = found == Phase(True, (), False) and not verdict.ok
+    unclear = found == Phase(True, (), False) and not verdict.ok and kind_of(words) not in ("stick", "slip")
     return _later(checker, declared, words, statement, verdict, problem) if unclear else verdict
 
 
@@ -283,7 +285,18 @@ def _judged_at(checker: Checker, declared: Declared, place: Place, statement: st
     """On one stretch, or at one moment; the model as it is at first, where none is named."""
     asked = copy(checker)
     asked.correcting = correcting
-    return beside_event(asked, declared, *place, statement) if place[1] else asked.at_first().check(statement, declared)
+    if place[1]:
+        return beside_event(asked, declared, *place, statement)
+    return _at_first(asked.at_first(), declared, statement)
+
+
+def _at_first(checker: Checker, declared: Declared, statement: str) -> Verdict:
+    """On the model's first stretch, of any motions, else of those from the start: what sticks does so where it starts."""
+    one = checker.check(statement, declared, correcting=checker.correcting)
+    if one.kind is not Kind.WRONG or checker.hypothesis != ALL:
+        return one
+    since = checker.check(statement, declared, SINCE_START, correcting=False)
+    return since if since.ok and not since.untested else one
 
 
 def _corrected(
