@@ -100,7 +100,8 @@ impl Runner<'_> {
         let arrived = self.step_onto(&segment, first, later.first().map(|mark| mark.t))?;
         self.note_touches(&segment, marks, self.now.t);
         if !arrived {
-            return self.look_around(&[], None);
+            let values = self.switch_values(0.0)?;
+            return self.look_around(&[], None, values);
         }
         self.note_end(&hits);
         self.note_unresolved(&segment, self.now.t);
@@ -116,23 +117,24 @@ impl Runner<'_> {
         let jumped_from = has_jumped.then_some(&landed[..]);
         if let Some(index) = stop {
             // A run that stops here is complete, whatever would come next.
-            let _ = self.look_around(hits, jumped_from);
+            let _ = self.switch_values(0.0).and_then(|values| self.look_around(hits, jumped_from, values));
             return Err(Outcome::StoppedByEvent { index });
         }
         if has_jumped {
             self.stepper.reset();
             self.system.rate_of(&mut self.now).map_err(ending)?;
-            if self.now.t != self.t_end {
-                self.restart_steps();
-                self.look_ahead();
-            }
         }
-        self.look_around(hits, jumped_from)
+        // Where the rate was found nothing needs to be solved again.
+        let values = self.switch_values(0.0)?;
+        if has_jumped && self.now.t != self.t_end {
+            self.restart_steps();
+            self.look_ahead();
+        }
+        self.look_around(hits, jumped_from, values)
     }
 
-    /// Tells the watcher on which side of zero all functions go on, of which `landed` are the values before a jump.
-    fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>) -> Result<(), Outcome> {
-        let values = self.switch_values(0.0)?;
+    /// Tells the watcher on which side of zero all functions go on, with their `values`; `landed` are those before a jump.
+    fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>, values: Vec<f64>) -> Result<(), Outcome> {
         let (now, ahead, has_jumped) = (self.now.t, self.ahead, landed.is_some());
         let sides = hits.iter().map(|hit| {
             Ok(match (self.system.system.switch(hit.index).role, landed) {
