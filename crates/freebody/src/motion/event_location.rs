@@ -52,7 +52,7 @@ impl Runner<'_> {
         let glance = self.switch_values(GLANCE * self.steps.h)?;
         let later: Vec<f64> = values.iter().zip(glance).map(|(value, to)| value + (to - value) / GLANCE).collect();
         let (mut hits, system) = (Vec::new(), &mut *self.system.system);
-        for (index, side, rtol) in self.detector.coming(&values, &later) {
+        for (index, side, rtol) in self.detector.arriving(&values, &later) {
             let hit =
                 Mark { t: self.now.t, index, kind: Kind::Crossing, direction: side * ahead, blur: 0.0, level: 0.0 };
             if system.switch(index).role != Role::Event || !counts(system, &hit, &self.now.y)? {
@@ -62,7 +62,7 @@ impl Runner<'_> {
                 hits.push(hit);
             }
             let Some(on) = self.run.trajectory.segments.last() else { continue };
-            if Probe::new(system, on, None).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
+            if Probe::new(system, on, &[index]).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
                 self.run.unresolved.push(Unresolved { t: self.now.t, index, doubt: Doubt::ComesBeforeEnd, rtol });
             }
         }
@@ -172,7 +172,7 @@ impl Runner<'_> {
         if t != self.now.t && self.jumps(segment, hit)? {
             return Ok(self.step_beyond(hit, last)? || next.is_none());
         }
-        let mut on = self.system.system.lands_on_dense_output().then_some(segment);
+        let mut on = self.system.system.is_crowded().then_some(segment);
         for _ in 0..3 {
             if t == self.now.t {
                 return Ok(true);
@@ -183,7 +183,7 @@ impl Runner<'_> {
                 values = self.step_to(t, on)?;
             }
             let system = &mut *self.system.system;
-            let slope = Probe::new(system, segment, None).slope(hit.index, t, self.detector.noise(hit.index));
+            let slope = Probe::new(system, segment, &[hit.index]).slope(hit.index, t, self.detector.noise(hit.index));
             let found = t - (values[hit.index] - hit.level) / slope.map_err(Outcome::DynamicsError)?;
             let better = found.clamp(t0, t1);
             arrives = next.is_none() || better != last || is_tie(found, last, self.norm.time);
@@ -200,7 +200,8 @@ impl Runner<'_> {
     fn jumps(&mut self, segment: &Segment, hit: Mark) -> Result<bool, Outcome> {
         let (least, latest) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
         let beside = BEYOND[0] * (self.norm.time + hit.t.abs());
-        let mut probe = Probe::new(&mut *self.system.system, segment, None);
+        let together = [hit.index];
+        let mut probe = Probe::new(&mut *self.system.system, segment, &together);
         let mut value = |t: f64| probe.one(hit.index, t.clamp(least, latest)).map_err(Outcome::DynamicsError);
         let sides = [value(hit.t - beside)?, value(hit.t + beside)?];
         Ok(sides.iter().all(|&value| self.detector.jumps(hit.index, value)))

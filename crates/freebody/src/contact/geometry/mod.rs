@@ -60,6 +60,15 @@ impl ContactPair {
         matches!(self.against, Profile::Line(_) | Profile::Circle { .. })
     }
 
+    /// Whether the gap, while it is open, is a distance of the two outlines: it changes no faster than their points move.
+    pub fn is_a_distance(&self) -> bool {
+        match &self.against {
+            Profile::Line(_) | Profile::Circle { .. } => true,
+            Profile::Chain(chain) => chain.closed,
+            Profile::Arc(_) | Profile::Track(_) => false,
+        }
+    }
+
     /// Where the feature ends.
     pub fn borders(&self, m: &Mechanism, poses: &impl Poses<f64>, feature: usize) -> Vec<Border> {
         match &self.against {
