@@ -73,6 +73,8 @@ pub struct HybridSystem<'m> {
     pub(super) spent: Vec<Spent>,
     /// After the last bounce: what collided and what comes back first, and how long its flight lasts, s.
     pub(super) bounce_interval: Option<(Vec<usize>, f64)>,
+    /// Of every contact, stop and string when it collided last, s.
+    pub(super) collided: Vec<f64>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
@@ -126,6 +128,7 @@ impl<'m> HybridSystem<'m> {
             initial_events: vec![],
             spent: vec![],
             bounce_interval: None,
+            collided: vec![f64::NEG_INFINITY; m.groups.len()],
             strength: 1.0,
             speed: 1.0,
             time: 1.0,
