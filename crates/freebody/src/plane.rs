@@ -116,6 +116,10 @@ impl<S: Scalar> Turn<S> {
     pub fn none() -> Self {
         Turn { angle: S::zero(), cos: S::one(), sin: S::zero() }
     }
+    /// The plain values.
+    pub fn value(self) -> Turn {
+        Turn { angle: self.angle.value(), cos: self.cos.value(), sin: self.sin.value() }
+    }
     /// A vector given in the turned axes, in the fixed axes.
     #[inline(always)]
     pub fn apply(&self, v: Vec2<S>) -> Vec2<S> {

@@ -36,6 +36,23 @@ impl Gap {
         }
     }
 
+    /// Both: what they have in common is found once.
+    pub fn gap_and_slide<T: Scalar>(
+        &self,
+        m: &Mechanism,
+        mode: &Mode,
+        poses: &impl Poses<T>,
+        feature: Feature,
+    ) -> (T, Option<T>) {
+        match self {
+            Gap::ContactPair(touch) => {
+                let (gap, slide) = touch.gap_and_slide(m, poses, feature.index);
+                (gap, Some(slide))
+            }
+            Gap::Gauge(_) | Gap::Cable(_) => (self.gap(m, mode, poses, feature), None),
+        }
+    }
+
     /// The feature that tells the gap at a configuration.
     pub fn feature(&self, m: &Mechanism, poses: &impl Poses<f64>, last: Feature) -> Feature {
         match self {

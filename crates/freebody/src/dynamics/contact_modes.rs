@@ -6,7 +6,7 @@
 
 use super::contact_decision::{decision, ContactDecision};
 use super::minimal::{Force, Wanted};
-use super::rows::{closing_rows, gap_row, slide_row};
+use super::rows::{closing_rows, contact_rows, gap_row, slide_row};
 use super::{generalized_force, DynamicsError, Row, Workspace};
 use crate::contact::complementarity::{self, Answer, FrictionLaw, Problem, Status, Verdict};
 use crate::mechanism::Friction;
@@ -119,9 +119,11 @@ impl Workspace<'_> {
         let opened = self.mode().with_contacts(&constraints, ContactMode::Open);
         self.enter(&opened);
         let at = self.at();
-        let gaps: Vec<Row> = constraints.iter().map(|&l| gap_row(at, l, None).scaled(self.lever(l))).collect();
-        let slides: Vec<Option<Row>> =
-            constraints.iter().map(|&l| self.m.unilateral[l].friction.and_then(|_| slide_row(at, l, None))).collect();
+        let rows = |&l: &usize| {
+            let (gap, slide) = contact_rows(at, l, None);
+            (gap.scaled(self.lever(l)), slide.filter(|_| self.m.unilateral[l].friction.is_some()))
+        };
+        let (gaps, slides): (Vec<Row>, Vec<Option<Row>>) = constraints.iter().map(rows).unzip();
         let k = constraints.len();
         if k > 0 {
             self.factor_closing_rows()?;

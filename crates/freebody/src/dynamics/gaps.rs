@@ -19,6 +19,8 @@ const GRAZE: f64 = 1e-9;
 const ONE_GAP: f64 = 1e-10;
 /// Distance, over the characteristic length, up to which two corners meet, whichever of them tells it.
 const MEET: f64 = 1e-9;
+/// Gap, over the characteristic length, in which what a formula of it sinks a side, or lets it lack, may count.
+const AS_GOOD_AS_CLOSED: f64 = 1e-6;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
 const CLEARLY_APART: f64 = 0.1;
 
@@ -230,6 +232,17 @@ impl Workspace<'_> {
             Gap::Gauge(law) => Some(law.eval(&Config { poses: &view, m: self.m, mode: self.mode() })),
             Gap::ContactPair(_) | Gap::Cable(_) => None,
         }
+    }
+
+    /// Whether an open unilateral constraint with a gap, m, at one end of a motion stays open in all of it, which goes from its middle
+    /// to both ends.
+    pub fn stays_open(&self, l: usize, gap: f64, travel: &Travel) -> bool {
+        let constraint = &self.m.unilateral[l];
+        let (ends, reaches) = (self.m.groups[constraint.group].ends, self.reaches[constraint.group]);
+        let way: f64 = ends.iter().zip(reaches).map(|(&body, reach)| travel.way_within(body, reach)).sum();
+        matches!(&constraint.gap, Gap::ContactPair(touch) if touch.is_a_distance())
+            && constraint.soft.is_none()
+            && gap > 2.0 * way + AS_GOOD_AS_CLOSED * self.length
     }
 
     /// The present mode with the present features of all open unilateral constraints, those apart left as they were;

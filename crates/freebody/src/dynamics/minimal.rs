@@ -223,6 +223,7 @@ impl Workspace<'_> {
 
     /// The same, where the rank of the rows need not be wanted.
     pub(super) fn factor_for(&mut self, wanted: Wanted, force: Force) -> Result<(), DynamicsError> {
+        self.placed.is_solved = false;
         let at = self.placed.view(self.m, &self.n, &self.k);
         let d = &mut self.dense;
         mass_matrix(at, &self.arms, &mut d.carried, &mut d.mass);
@@ -266,6 +267,7 @@ impl Workspace<'_> {
 
     /// Forgets what was factored: something else than the state has changed.
     pub(super) fn forget_factors(&mut self) {
+        self.placed.is_solved = false;
         self.dense.factored.is_known = false;
     }
 

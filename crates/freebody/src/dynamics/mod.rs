@@ -142,6 +142,8 @@ struct Placed {
     u: Vec<f64>,
     /// Whether the kinematics are of these numbers and this state.
     is_known: bool,
+    /// Whether its motion is what was solved last.
+    is_solved: bool,
 }
 
 impl Placed {
@@ -209,6 +211,7 @@ impl<'m> Workspace<'m> {
                 q: vec![0.0; freedom],
                 u: vec![0.0; freedom],
                 is_known: false,
+                is_solved: false,
             },
             arms: vec![Vec2::zero(); bodies],
             loads: vec![Wrench::zero(); bodies],
@@ -277,7 +280,7 @@ impl<'m> Workspace<'m> {
         self.placed.t = t;
         self.placed.q.copy_from_slice(q);
         self.placed.u.copy_from_slice(u);
-        self.placed.is_known = true;
+        (self.placed.is_known, self.placed.is_solved) = (true, false);
         self.k.forward_kinematics(self.m, &self.n, q, u);
         if self.length == 0.0 {
             // Where all is in one place no lever has a length: any unit will do.
@@ -335,13 +338,17 @@ impl<'m> Workspace<'m> {
         if !self.m.joint_friction.is_empty() {
             return self.solve();
         }
+        if self.placed.is_solved {
+            return Ok(());
+        }
         self.placed.bearing = None;
         let route = self.cheapest();
         self.solve_once(route, Wanted::Motion)?;
-        if !self.m.is_hybrid() {
-            return Ok(());
+        if self.m.is_hybrid() {
+            self.turn_gear_flanks(route, Wanted::Motion)?;
         }
-        self.turn_gear_flanks(route, Wanted::Motion)
+        self.placed.is_solved = self.placed.bearing.is_none();
+        Ok(())
     }
 
     /// Solves the present state for its accelerations and all reactions: whether these are determinate is known then, and where all are
@@ -389,6 +396,7 @@ impl<'m> Workspace<'m> {
 
     /// Solves the present state for what is wanted, gears bearing on the flanks that the mode says.
     fn solve_once(&mut self, route: Route, wanted: Wanted) -> Result<(), DynamicsError> {
+        self.placed.is_solved = false;
         let at = self.placed.view(self.m, &self.n, &self.k);
         loads::centre_arms(at, &mut self.arms);
         loads::loads(at, &self.arms, &mut self.loads);

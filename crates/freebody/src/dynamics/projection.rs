@@ -52,6 +52,7 @@ impl Workspace<'_> {
 
     /// The closing rows of the present state.
     pub(crate) fn update_rows(&mut self) {
+        self.placed.is_solved = false;
         let mut rows = std::mem::take(&mut self.rows);
         closing_rows_into(self.at(), None, &mut rows);
         self.rows = rows;

@@ -112,8 +112,9 @@ pub(super) fn closing_rows_into<S: Scalar>(at: StateView<'_, S>, base: Base<S>, 
                 rows.push(gap_row(at, constraint, base))
             }
             ContactMode::Stick => {
-                rows.push(gap_row(at, constraint, base));
-                rows.extend(slide_row(at, constraint, base));
+                let (gap, slide) = contact_rows(at, constraint, base);
+                rows.push(gap);
+                rows.extend(slide);
             }
             ContactMode::Off | ContactMode::Open | ContactMode::Compliant | ContactMode::ClosedUnloaded => {}
         }
@@ -174,41 +175,57 @@ fn joint_slide_row<S: Scalar>(at: StateView<'_, S>, index: usize, turns: bool, b
 /// The row that keeps the gap of a unilateral constraint closed; one that slides has friction in proportion to its
 /// normal force.
 pub fn gap_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> Row<S> {
+    if sliding_friction(at, index).is_some() {
+        return contact_rows(at, index, base).0;
+    }
     let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
     let jet = constraint.gap.gap(at.m, at.mode, &MotionView { at, bodies: base, accelerations: None }, contact.feature);
     let load = |body| constraint.gap.gap(at.m, at.mode, &SeededView { at, body }, contact.feature).du;
-    let motion: BodyWrenches<S> =
-        constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect();
-    let friction = match (contact.mode, constraint.friction) {
+    let motion = constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect();
+    let (value, rate) = (Some(jet.d0), Some(jet.d1));
+    Row { source: Source::Gap(index), value, rate, bias: jet.d2, motion, force: None }
+}
+
+/// The rows of the gap and of the slide of a unilateral constraint, as [`gap_row`] and [`slide_row`].
+pub(super) fn contact_rows<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> (Row<S>, Option<Row<S>>) {
+    let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
+    let going = MotionView { at, bodies: base, accelerations: None };
+    let (gap, slide) = constraint.gap.gap_and_slide(at.m, at.mode, &going, contact.feature);
+    let (mut across, mut along): (BodyWrenches<S>, BodyWrenches<S>) = (smallvec![], smallvec![]);
+    for &body in &constraint.bodies {
+        let seeded = SeededView { at, body };
+        let (gap, slide) = constraint.gap.gap_and_slide(at.m, at.mode, &seeded, contact.feature);
+        across.push((body, Wrench::from_parts(gap.du)));
+        along.push((body, Wrench::from_parts(slide.map_or([S::zero(); 3], |slide| slide.du))));
+    }
+    let force = sliding_friction(at, index)
+        .map(|friction| across.iter().zip(&along).map(|(n, t)| (n.0, n.1 + t.1 * friction)).collect());
+    let (value, rate) = (Some(gap.d0), Some(gap.d1));
+    let row = Row { source: Source::Gap(index), value, rate, bias: gap.d2, motion: across, force };
+    (row, slide.map(|slide| row_of_slide(index, slide, along)))
+}
+
+/// Friction over the normal force of a unilateral constraint, along its slide, where that is given.
+fn sliding_friction<S: Scalar>(at: StateView<'_, S>, index: usize) -> Option<S> {
+    match (at.mode.contacts[index].mode, at.m.unilateral[index].friction) {
         (ContactMode::Slip(sense), Some(Friction::Coulomb { kinetic, .. })) => Some(-at.n.values[kinetic].scale(sense)),
         (ContactMode::PartialFriction(part), _) => Some(S::of(part)),
         _ => None,
-    };
-    let force = match friction {
-        Some(friction) => {
-            let along = slide_loads(at, index);
-            Some(motion.iter().zip(along).map(|(n, t)| (n.0, n.1 + t.1 * friction)).collect())
-        }
-        None => None,
-    };
-    let (value, rate) = (Some(jet.d0), Some(jet.d1));
-    Row { source: Source::Gap(index), value, rate, bias: jet.d2, motion, force }
+    }
+}
+
+fn row_of_slide<S: Scalar>(index: usize, slide: Jet<S>, motion: BodyWrenches<S>) -> Row<S> {
+    Row { source: Source::Friction(index), value: None, rate: Some(slide.d1), bias: slide.d2, motion, force: None }
 }
 
 /// The row that keeps a unilateral constraint from sliding; None where it cannot have friction.
 pub fn slide_row<S: Scalar>(at: StateView<'_, S>, index: usize, base: Base<S>) -> Option<Row<S>> {
     let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
     let jet = constraint.gap.slide(at.m, &MotionView { at, bodies: base, accelerations: None }, contact.feature)?;
-    let motion = slide_loads(at, index);
-    Some(Row { source: Source::Friction(index), value: None, rate: Some(jet.d1), bias: jet.d2, motion, force: None })
-}
-
-/// The loads of a unit force along the slide of a unilateral constraint.
-fn slide_loads<S: Scalar>(at: StateView<'_, S>, index: usize) -> BodyWrenches<S> {
-    let (constraint, contact) = (&at.m.unilateral[index], at.mode.contacts[index]);
     let load =
         |body| constraint.gap.slide(at.m, &SeededView { at, body }, contact.feature).map_or([S::zero(); 3], |s| s.du);
-    constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect()
+    let motion = constraint.bodies.iter().map(|&body| (body, Wrench::from_parts(load(body)))).collect();
+    Some(row_of_slide(index, jet, motion))
 }
 
 /// A row of a joint; its load for a unit multiplier is one on the second body and its opposite on the first.

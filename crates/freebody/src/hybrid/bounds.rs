@@ -81,18 +81,34 @@ impl HybridSystem<'_> {
             out.copy_from_slice(&near.bounds);
             return true;
         }
+        self.follow(on);
+        let is_bounded = self.write_bounds(out).is_some();
+        self.neighbourhood = if is_bounded { self.neighbourhood(out) } else { None };
+        is_bounded
+    }
+
+    /// The switching functions that may come to zero in a step at whose start they have the values `here`: all but those of contacts
+    /// that are open, and not as near as their bodies go.
+    pub(super) fn near_zero(&mut self, on: &Segment, here: &[f64]) -> Vec<usize> {
+        self.follow(on);
+        let stays = |(i, function): &(usize, &SwitchingFunction)| match function {
+            SwitchingFunction::Contact(l, guard) if self.mode.contacts[*l].mode == ContactMode::Open => {
+                let gap = here[i - *guard as usize] * self.workspace.length;
+                self.workspace.stays_open(*l, gap, &self.travel)
+            }
+            _ => false,
+        };
+        let functions = self.switching_functions.iter().enumerate();
+        functions.filter(|function| !stays(function)).map(|(i, _)| i).collect()
+    }
+
+    /// Goes to the middle of a step, and finds how far the bodies go from there in it.
+    fn follow(&mut self, on: &Segment) {
         let (middle, mut y) = (0.5 * (on.t0 + on.t1), std::mem::take(&mut self.middle));
         y.resize(self.scales.len(), 0.0);
         on.at(middle, &mut y);
         self.place(middle, &y);
         self.middle = y;
-        let is_bounded = self.follow(on, out).is_some();
-        self.neighbourhood = if is_bounded { self.neighbourhood(out) } else { None };
-        is_bounded
-    }
-
-    /// The bounds in a step, from where the mechanism is.
-    fn follow(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> Option<()> {
         let at = self.workspace.at();
         let changes = |i: usize| {
             let (middle, [first, second, rest]) = on.about_middle(i);
@@ -100,7 +116,6 @@ impl HybridSystem<'_> {
         };
         let time = (0.5 * (on.t0 + on.t1) - at.t).abs() + 0.5 * (on.t1 - on.t0).abs();
         self.travel.follow(at, changes, time);
-        self.write_bounds(out)
     }
 
     /// All states within as many times as far as was followed last as keep all functions, with these bounds there, far from zero.

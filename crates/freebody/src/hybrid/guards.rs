@@ -88,20 +88,38 @@ pub(super) fn leeway(guard: ContactGuard, of_forces: bool) -> f64 {
 }
 
 impl HybridSystem<'_> {
-    /// The values of the guards of all unilateral constraints: positive as long as the mode holds.
-    pub(super) fn guard_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
+    /// The values of the guards of all unilateral constraints that are watched: positive as long as the mode holds.
+    pub(super) fn guard_values(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        watched: &[usize],
+        out: &mut [f64],
+    ) -> Result<(), DynamicsError> {
         self.place(t, y);
         let m = self.workspace.m;
-        let carries = !m.joint_friction.is_empty() || self.mode.contacts.iter().any(|contact| contact.mode.carries());
-        if carries {
+        let of_forces = |&i: &usize| match self.switching_functions[i] {
+            SwitchingFunction::Contact(l, guard) => self.is_force(l, guard),
+            _ => false,
+        };
+        let is_pressed = watched.iter().any(of_forces);
+        if is_pressed || !m.joint_friction.is_empty() {
             self.workspace.solve_motion()?;
         }
-        let shared = if carries { self.workspace.safest_margin(self.strength) } else { None };
-        let forces = if carries && shared.is_none() { self.workspace.solved_view().contact_forces() } else { vec![] };
+        let shared = if is_pressed { self.workspace.safest_margin(self.strength) } else { None };
+        let forces =
+            if is_pressed && shared.is_none() { self.workspace.solved_view().contact_forces() } else { vec![] };
         let (out, friction) = out.split_at_mut(CONTACT_GUARDS.len() * m.unilateral.len());
         self.joint_friction_guards(friction);
         let apart = self.workspace.apart();
-        for (l, values) in out.chunks_exact_mut(CONTACT_GUARDS.len()).enumerate() {
+        let constraint = |&i: &usize| match self.switching_functions[i] {
+            SwitchingFunction::Contact(l, _) => Some(l),
+            _ => None,
+        };
+        let mut constraints: Vec<usize> = watched.iter().filter_map(constraint).collect();
+        constraints.dedup();
+        for l in constraints {
+            let values = &mut out[CONTACT_GUARDS.len() * l..][..CONTACT_GUARDS.len()];
             match apart[m.unilateral[l].group] {
                 // Apart, as their bodies are.
                 Some(least) if self.mode.contacts[l].mode == ContactMode::Open => {

@@ -61,12 +61,14 @@ impl HybridSystem<'_> {
         self.refuse_driven_together(contacts)?;
         self.check_direction(&contacts.constraints)?;
         let before = y.to_vec();
-        let (impact, lost, left) = self.collide(t, y, contacts, &self.restitutions(contacts))?;
+        let restitution = self.restitutions(t, contacts);
+        let (impact, lost, left) = self.collide(t, y, contacts, &restitution)?;
         let raised = rest_speed.max(left);
         let (part, hit) = (contacts.takes_part(rest_speed), hit(&impact));
         let impacting = (0..part.len()).filter(|&i| part[i] && hit[i]);
         let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
         let m = self.workspace.m;
+        impacting.iter().for_each(|&l| self.collided[m.unilateral[l].group] = t);
         let string = |&l: &usize| m.groups[m.unilateral[l].group].word == "string";
         self.record_jump(ModeChange {
             t,
@@ -74,7 +76,7 @@ impl HybridSystem<'_> {
             of: self.names(&impacting),
             lost,
             states: Some([before, y.to_vec()]),
-            impulses: Some(self.impulses(contacts, &impact, raised)),
+            impulses: Some(self.impulses(contacts, &impact, &restitution, raised)),
             note: impact.note,
         });
         Ok((impacting, raised))
@@ -149,7 +151,13 @@ impl HybridSystem<'_> {
         }
     }
 
-    fn impulses(&self, contacts: &ClosedContacts, impact: &ImpactSolution, rest_speed: f64) -> Impulses {
+    fn impulses(
+        &self,
+        contacts: &ClosedContacts,
+        impact: &ImpactSolution,
+        restitution: &[f64],
+        rest_speed: f64,
+    ) -> Impulses {
         let m = self.workspace.m;
         let mut groups: Vec<(String, Vec2)> = vec![];
         for (&l, &p) in contacts.constraints.iter().zip(&impact.on_first) {
@@ -171,7 +179,6 @@ impl HybridSystem<'_> {
             mode.contacts_mut()[contacts.constraints[i]].mode = held(impact.normal[i], impact.tangent[i], friction);
         }
         let unloaded: Vec<usize> = unloaded.iter().map(|&i| contacts.constraints[i]).collect();
-        let restitution = self.restitutions(contacts);
         let impacting = impacting.iter().map(|&i| ContactImpulse {
             name: m.groups[m.unilateral[contacts.constraints[i]].group].name.clone(),
             normal: impact.normal[i] * self.workspace.lever(contacts.constraints[i]),
@@ -203,7 +210,7 @@ impl HybridSystem<'_> {
         let before = y.to_vec();
         let Some(impact) = self.workspace.impact_without_collision(&contacts, tolerances)? else { return Ok(false) };
         let (impact, lost) = self.apply_impact(t, y, &contacts, impact)?;
-        let hit = hit(&impact);
+        let (hit, restitution) = (hit(&impact), self.restitutions(t, &contacts));
         let impacting = (0..contacts.constraints.len()).filter(|&i| hit[i]);
         let impacting: Vec<usize> = impacting.map(|i| contacts.constraints[i]).collect();
         self.record_jump(ModeChange {
@@ -212,7 +219,7 @@ impl HybridSystem<'_> {
             of: self.names(&impacting),
             lost,
             states: Some([before, y.to_vec()]),
-            impulses: Some(self.impulses(&contacts, &impact, tolerances.rest_speed)),
+            impulses: Some(self.impulses(&contacts, &impact, &restitution, tolerances.rest_speed)),
             note: impact.note,
         });
         Ok(true)

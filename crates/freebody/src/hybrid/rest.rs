@@ -174,18 +174,20 @@ impl HybridSystem<'_> {
     }
 
     /// Whether those that touch, with all that held before, are a pile.
-    fn is_pile(&self, contacts: &ClosedContacts) -> bool {
+    pub(super) fn is_pile(&self, contacts: &ClosedContacts) -> bool {
         let held =
             |&(l, contact): &(usize, &ContactState)| contact.mode.is_closed() && !contacts.constraints.contains(&l);
         is_pile(contacts.constraints.len() + self.mode.contacts.iter().enumerate().filter(held).count())
     }
 
-    /// The restitution of each contact that is closed: none in a pile where it would not fly for longer than a moment.
-    pub(super) fn restitutions(&self, contacts: &ClosedContacts) -> Vec<f64> {
-        let slowest = 0.5 * SHORTEST_IN_PILE * self.speed;
+    /// The restitution of each contact that is closed: none in a pile where it would not fly for longer than a moment, nor
+    /// where it has not since it collided last, as what rattles between others.
+    pub(super) fn restitutions(&self, t: f64, contacts: &ClosedContacts) -> Vec<f64> {
+        let (slowest, moment) = (0.5 * SHORTEST_IN_PILE * self.speed, SHORTEST_IN_PILE * self.time);
+        let returns = |l: usize| t - self.collided[self.workspace.m.unilateral[l].group] <= moment;
         let is_pile = self.is_pile(contacts);
         let of = |(&l, &rate): (&usize, &f64)| match self.workspace.restitution(l) {
-            e if is_pile && rate < 0.0 && -e * rate <= slowest => 0.0,
+            e if is_pile && rate < 0.0 && (-e * rate <= slowest || returns(l)) => 0.0,
             e => e,
         };
         contacts.constraints.iter().zip(&contacts.rates).map(of).collect()

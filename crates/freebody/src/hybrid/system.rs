@@ -73,6 +73,8 @@ pub struct HybridSystem<'m> {
     pub(super) spent: Vec<Spent>,
     /// After the last bounce: what collided and what comes back first, and how long its flight lasts, s.
     pub(super) bounce_interval: Option<(Vec<usize>, f64)>,
+    /// Of every contact, stop and string when it collided last, s.
+    pub(super) collided: Vec<f64>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
     pub(super) speed: f64,
@@ -126,6 +128,7 @@ impl<'m> HybridSystem<'m> {
             initial_events: vec![],
             spent: vec![],
             bounce_interval: None,
+            collided: vec![f64::NEG_INFINITY; m.groups.len()],
             strength: 1.0,
             speed: 1.0,
             time: 1.0,
@@ -224,12 +227,18 @@ impl<'m> HybridSystem<'m> {
         let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
         let dt = if fastest > 0.0 { GLANCE * NEAR_SINGULAR / fastest } else { 0.0 };
         let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
+        self.learn_independence(t, y);
+        (dt, [self.independence, self.independence_of(t + dt, &later)])
+    }
+
+    /// Finds the independence of the closing rows at a state, where it is not known yet.
+    fn learn_independence(&mut self, t: f64, y: &[f64]) {
+        let n = self.workspace.m.freedom();
         if self.independence == 0.0 || self.independence_at != y[..n] {
             self.independence = self.independence_of(t, y);
             self.independence_at.clear();
             self.independence_at.extend_from_slice(&y[..n]);
         }
-        (dt, [self.independence, self.independence_of(t + dt, &later)])
     }
 
     fn independence_of(&mut self, t: f64, y: &[f64]) -> f64 {
@@ -351,7 +360,11 @@ impl System for HybridSystem<'_> {
     /// stages are brought onto the loops too: off them by its own error it would be accelerated beyond measure.
     fn singular_stage_gap(&mut self, t: f64, y: &[f64], reach: f64) -> Option<f64> {
         self.near_singular = false;
-        if !self.workspace.is_closed() || self.mode.resting || self.independence >= WATCHED {
+        if !self.workspace.is_closed() || self.mode.resting {
+            return None;
+        }
+        self.learn_independence(t, y);
+        if self.independence >= WATCHED {
             return None;
         }
         let (dt, [now, next]) = self.independence_ahead(t, y);
@@ -379,6 +392,11 @@ impl System for HybridSystem<'_> {
     }
 
     fn switch_values(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), DynamicsError> {
+        let all: Vec<usize> = (0..out.len()).collect();
+        self.watched_values(t, y, &all, out)
+    }
+
+    fn watched_values(&mut self, t: f64, y: &[f64], watched: &[usize], out: &mut [f64]) -> Result<(), DynamicsError> {
         let m = self.workspace.m;
         self.note_roundoff(y);
         let laws: Vec<&ModelExpr> = m.events.iter().map(|e| &e.when).collect();
@@ -391,13 +409,17 @@ impl System for HybridSystem<'_> {
             }
         }
         if !(m.unilateral.is_empty() && m.joint_friction.is_empty()) {
-            self.guard_values(t, y, &mut out[m.events.len() + m.discontinuities.len()..])?;
+            self.guard_values(t, y, watched, &mut out[m.events.len() + m.discontinuities.len()..])?;
         }
         Ok(())
     }
 
     fn switch_bounds(&mut self, on: &Segment, out: &mut [[f64; 2]]) -> bool {
         self.bounds(on, out)
+    }
+
+    fn watched(&mut self, on: &Segment, here: &[f64]) -> Vec<usize> {
+        self.near_zero(on, here)
     }
 
     fn switch_value(&mut self, i: usize, t: f64, y: &[f64]) -> Result<Option<f64>, DynamicsError> {
@@ -415,8 +437,8 @@ impl System for HybridSystem<'_> {
         Ok(self.guard_value(l, guard, t, &y))
     }
 
-    fn lands_on_dense_output(&self) -> bool {
-        is_pile(self.mode.contacts.iter().filter(|contact| contact.mode.is_closed()).count())
+    fn is_crowded(&self) -> bool {
+        !self.mode.resting && is_pile(self.mode.contacts.iter().filter(|contact| contact.mode.is_closed()).count())
     }
 
     fn check(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {

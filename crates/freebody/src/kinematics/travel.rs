@@ -77,6 +77,13 @@ impl Travel {
         self.time
     }
 
+    /// How far the points of a body within a reach of its joint origin go at most, m.
+    pub fn way_within(&self, body: usize, reach: f64) -> f64 {
+        // What does not turn may be as large as it likes.
+        let swing = if self.turn[body] > 0.0 { self.turn[body] * reach } else { 0.0 };
+        self.way[body] + swing
+    }
+
     /// How far the joint origin of a body goes at most, m.
     pub fn way(&self, body: usize) -> f64 {
         self.way[body]

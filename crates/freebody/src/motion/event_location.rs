@@ -52,7 +52,7 @@ impl Runner<'_> {
         let glance = self.switch_values(GLANCE * self.steps.h)?;
         let later: Vec<f64> = values.iter().zip(glance).map(|(value, to)| value + (to - value) / GLANCE).collect();
         let (mut hits, system) = (Vec::new(), &mut *self.system.system);
-        for (index, side, rtol) in self.detector.coming(&values, &later) {
+        for (index, side, rtol) in self.detector.arriving(&values, &later) {
             let hit =
                 Mark { t: self.now.t, index, kind: Kind::Crossing, direction: side * ahead, blur: 0.0, level: 0.0 };
             if system.switch(index).role != Role::Event || !counts(system, &hit, &self.now.y)? {
@@ -62,7 +62,7 @@ impl Runner<'_> {
                 hits.push(hit);
             }
             let Some(on) = self.run.trajectory.segments.last() else { continue };
-            if Probe::new(system, on, None).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
+            if Probe::new(system, on, &[index]).depends_on_state(index, self.now.t).map_err(Outcome::DynamicsError)? {
                 self.run.unresolved.push(Unresolved { t: self.now.t, index, doubt: Doubt::ComesBeforeEnd, rtol });
             }
         }
@@ -100,7 +100,8 @@ impl Runner<'_> {
         let arrived = self.step_onto(&segment, first, later.first().map(|mark| mark.t))?;
         self.note_touches(&segment, marks, self.now.t);
         if !arrived {
-            return self.look_around(&[], None);
+            let values = self.switch_values(0.0)?;
+            return self.look_around(&[], None, values);
         }
         self.note_end(&hits);
         self.note_unresolved(&segment, self.now.t);
@@ -116,23 +117,24 @@ impl Runner<'_> {
         let jumped_from = has_jumped.then_some(&landed[..]);
         if let Some(index) = stop {
             // A run that stops here is complete, whatever would come next.
-            let _ = self.look_around(hits, jumped_from);
+            let _ = self.switch_values(0.0).and_then(|values| self.look_around(hits, jumped_from, values));
             return Err(Outcome::StoppedByEvent { index });
         }
         if has_jumped {
             self.stepper.reset();
             self.system.rate_of(&mut self.now).map_err(ending)?;
-            if self.now.t != self.t_end {
-                self.restart_steps();
-                self.look_ahead();
-            }
         }
-        self.look_around(hits, jumped_from)
+        // Where the rate was found nothing needs to be solved again.
+        let values = self.switch_values(0.0)?;
+        if has_jumped && self.now.t != self.t_end {
+            self.restart_steps();
+            self.look_ahead();
+        }
+        self.look_around(hits, jumped_from, values)
     }
 
-    /// Tells the watcher on which side of zero all functions go on, of which `landed` are the values before a jump.
-    fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>) -> Result<(), Outcome> {
-        let values = self.switch_values(0.0)?;
+    /// Tells the watcher on which side of zero all functions go on, with their `values`; `landed` are those before a jump.
+    fn look_around(&mut self, hits: &[Mark], landed: Option<&[f64]>, values: Vec<f64>) -> Result<(), Outcome> {
         let (now, ahead, has_jumped) = (self.now.t, self.ahead, landed.is_some());
         let sides = hits.iter().map(|hit| {
             Ok(match (self.system.system.switch(hit.index).role, landed) {
@@ -170,7 +172,7 @@ impl Runner<'_> {
         if t != self.now.t && self.jumps(segment, hit)? {
             return Ok(self.step_beyond(hit, last)? || next.is_none());
         }
-        let mut on = self.system.system.lands_on_dense_output().then_some(segment);
+        let mut on = self.system.system.is_crowded().then_some(segment);
         for _ in 0..3 {
             if t == self.now.t {
                 return Ok(true);
@@ -181,7 +183,7 @@ impl Runner<'_> {
                 values = self.step_to(t, on)?;
             }
             let system = &mut *self.system.system;
-            let slope = Probe::new(system, segment, None).slope(hit.index, t, self.detector.noise(hit.index));
+            let slope = Probe::new(system, segment, &[hit.index]).slope(hit.index, t, self.detector.noise(hit.index));
             let found = t - (values[hit.index] - hit.level) / slope.map_err(Outcome::DynamicsError)?;
             let better = found.clamp(t0, t1);
             arrives = next.is_none() || better != last || is_tie(found, last, self.norm.time);
@@ -198,7 +200,8 @@ impl Runner<'_> {
     fn jumps(&mut self, segment: &Segment, hit: Mark) -> Result<bool, Outcome> {
         let (least, latest) = (segment.t0.min(segment.t1), segment.t0.max(segment.t1));
         let beside = BEYOND[0] * (self.norm.time + hit.t.abs());
-        let mut probe = Probe::new(&mut *self.system.system, segment, None);
+        let together = [hit.index];
+        let mut probe = Probe::new(&mut *self.system.system, segment, &together);
         let mut value = |t: f64| probe.one(hit.index, t.clamp(least, latest)).map_err(Outcome::DynamicsError);
         let sides = [value(hit.t - beside)?, value(hit.t + beside)?];
         Ok(sides.iter().all(|&value| self.detector.jumps(hit.index, value)))

@@ -23,6 +23,8 @@ const GRAZE_OF_ACTION: f64 = 1.0;
 const DOUBT: f64 = 10.0;
 /// Mean over swing from which a polynomial cannot reach zero: |Tₖ| ≤ 1, and a little for the rounding of its sums.
 const CLEAR_OF_ZERO: f64 = 1.001;
+/// Part of a step within which zeros may be one instant.
+const TOGETHER: f64 = 1e-9;
 /// Size of a value, over that of its function, at a change of sign that is no zero: there the function jumps.
 const JUMP: f64 = 1e-6;
 /// How a switching function met zero.
@@ -72,6 +74,11 @@ pub struct Unresolved {
     pub doubt: Doubt,
     /// The relative tolerance that may tell.
     pub rtol: f64,
+}
+
+/// Which functions the samples are of.
+fn functions<const N: usize>(samples: &[(usize, [f64; N])]) -> Vec<usize> {
+    samples.iter().map(|(i, _)| *i).collect()
 }
 
 /// Watches the switching functions along a run.
@@ -128,35 +135,83 @@ impl EventDetector {
         if self.is_clear {
             return Ok(vec![]);
         }
-        let mut probe = Probe::new(system, on, here);
-        let mut samples = vec![[0.0; SAMPLES]; self.memory.len()];
-        for (j, &x) in self.points.iter().enumerate() {
-            let values = probe.all(probe.time(x))?;
-            samples.iter_mut().zip(values).for_each(|(samples, value)| samples[j] = *value);
+        let watched = match &here {
+            Some(here) => system.watched(on, here),
+            None => (0..self.memory.len()).collect(),
+        };
+        let mut end = vec![0.0; self.memory.len()];
+        system.switch_values(on.t1, on.end(), &mut end)?;
+        let (of_forces, others): (Vec<usize>, Vec<usize>) = watched.iter().partition(|&&i| system.switch(i).of_forces);
+        let mut probe = Probe::new(system, on, &of_forces);
+        probe.know(on.t1, &end);
+        self.ahead = Some(end);
+        if let Some(here) = here {
+            self.memory.iter_mut().zip(&here).for_each(|(memory, value)| memory.stay(value.abs()));
+            probe.know(on.t0, &here);
         }
-        self.ahead = Some(probe.all(on.t1)?.to_vec());
-        let mut marks = Vec::new();
         self.unresolved.clear();
-        for (i, values) in samples.iter().enumerate() {
-            if self.memory[i].is_muted {
-                continue;
-            }
-            let largest = values.iter().fold(0.0, |top: f64, value| top.max(value.abs()));
-            let (spec, memory) = (probe.system.switch(i), &mut self.memory[i]);
-            memory.size = memory.size.max(largest).max(spec.scale);
-            if memory.is_guard {
-                memory.leeway = spec.leeway;
-                memory.now.begins &= spec.leeway > 0.0;
-                memory.graze = if spec.of_forces { GRAZE_OF_ACTION * self.rtol } else { 0.0 };
-            }
-            if self.memory[i].stays_away(values) {
-                continue;
-            }
-            let nodes = self.nodes(i, values, &mut probe)?;
+        let mut marks = Vec::new();
+        for (i, values) in self.coming(&mut probe, &of_forces, &others)? {
+            let until = self.decided(i, &marks, on);
+            let nodes = self.nodes(i, &values, until, &mut probe)?;
             self.walk(i, &nodes, &mut probe, &mut marks)?;
         }
         marks.sort_by(|a, b| (a.t - on.t0).abs().total_cmp(&(b.t - on.t0).abs()));
         Ok(marks)
+    }
+
+    /// Samples of the functions that do not clearly stay away from zero: those first that are beyond it first. Forces, which cost a
+    /// solution each time and are smooth, are sampled at few points first where events crowd: steps are short there.
+    fn coming(
+        &mut self,
+        probe: &mut Probe,
+        of_forces: &[usize],
+        others: &[usize],
+    ) -> Result<Vec<(usize, [f64; SAMPLES])>, DynamicsError> {
+        let mut unclear = of_forces.to_vec();
+        if probe.system.is_crowded() {
+            unclear = functions(&self.samples::<3>(probe, &unclear)?);
+            unclear = functions(&self.samples::<5>(probe, &unclear)?);
+        }
+        let mut coming = self.samples::<SAMPLES>(probe, &unclear)?;
+        coming.extend(self.samples::<SAMPLES>(probe, others)?);
+        coming.sort_by_key(|(i, values)| {
+            let is_beyond = |value: &f64| value * f64::from(self.memory[*i].now.side) < 0.0;
+            (values.iter().position(is_beyond).unwrap_or(SAMPLES), *i)
+        });
+        Ok(coming)
+    }
+
+    /// Samples, at N of the points, of those of some functions that do not clearly stay away from zero.
+    fn samples<const N: usize>(
+        &mut self,
+        probe: &mut Probe,
+        of: &[usize],
+    ) -> Result<Vec<(usize, [f64; N])>, DynamicsError> {
+        let mut samples: Vec<(usize, [f64; N])> = of.iter().map(|&i| (i, [0.0; N])).collect();
+        for j in 0..if of.is_empty() { 0 } else { N } {
+            let t = probe.time(self.points[j * (SAMPLES - 1) / (N - 1)]);
+            let values = probe.values(of, t)?;
+            samples.iter_mut().for_each(|(i, samples)| samples[j] = values[*i]);
+        }
+        samples.retain(|(i, values)| {
+            let (spec, memory) = (probe.system.switch(*i), &mut self.memory[*i]);
+            memory.learn(spec, self.rtol, values);
+            !memory.is_muted && !memory.stays_away(values)
+        });
+        Ok(samples)
+    }
+
+    /// Until when function `i` needs to be looked at, a guard until the second of those known so far falls through zero: what acts, and what
+    /// comes next, is found by then.
+    fn decided(&self, i: usize, marks: &[Mark], on: &Segment) -> f64 {
+        let (length, never) = (on.t1 - on.t0, f64::INFINITY * (on.t1 - on.t0));
+        let falls =
+            |mark: &&Mark| mark.kind == Kind::Crossing && mark.direction < 0 && self.memory[mark.index].is_guard;
+        let earlier = |a: f64, b: f64| if (b - a) * length < 0.0 { b } else { a };
+        let times = || marks.iter().filter(|mark| self.memory[i].is_guard && falls(mark)).map(|mark| mark.t);
+        let first = times().fold(never, earlier);
+        times().filter(|&t| (t - first).abs() > TOGETHER * length.abs()).fold(never, earlier)
     }
 
     /// Whether the bounds keep every function where it is; if so, they are what is known of it.
@@ -269,7 +324,7 @@ impl EventDetector {
 
     /// Functions that come to zero where the run ends, no farther than they are known, with the side that they go to and the
     /// tolerance that may tell on which they are there; `values` there, and those a step `later` as they go.
-    pub fn coming<'a>(&'a self, values: &'a [f64], later: &'a [f64]) -> impl Iterator<Item = (usize, i8, f64)> + 'a {
+    pub fn arriving<'a>(&'a self, values: &'a [f64], later: &'a [f64]) -> impl Iterator<Item = (usize, i8, f64)> + 'a {
         self.memory.iter().enumerate().filter_map(|(i, memory)| {
             let (left, side, reach) = (values[i].abs(), memory.now.side, memory.now.reach);
             let is_near = !memory.is_spent && !memory.is_muted && left <= self.noise(i).max(memory.blur * reach);

@@ -21,17 +21,24 @@ pub(super) struct Node {
 pub(super) struct Probe<'a> {
     pub system: &'a mut dyn System,
     pub segment: &'a Segment,
+    /// Functions that are found together.
+    together: &'a [usize],
     y: Vec<f64>,
-    /// All values at the times, by their bits, at which they were asked for: many functions are halved at the same.
-    known: HashMap<u64, Vec<f64>>,
+    /// The values of others, and of these, at the times, by their bits, at which they were asked for: many functions are halved at
+    /// the same.
+    known: HashMap<(u64, bool), Vec<f64>>,
 }
 
 impl<'a> Probe<'a> {
-    /// Along a segment, of which the values at the start may be known.
-    pub fn new(system: &'a mut dyn System, segment: &'a Segment, start: Option<Vec<f64>>) -> Self {
+    /// Along a segment, for functions that are found `together`, those aside that are found by themselves.
+    pub fn new(system: &'a mut dyn System, segment: &'a Segment, together: &'a [usize]) -> Self {
         let y = vec![0.0; system.dim()];
-        let known = start.into_iter().map(|values| (segment.t0.to_bits(), values)).collect();
-        Self { system, segment, y, known }
+        Self { system, segment, together, y, known: HashMap::new() }
+    }
+
+    /// Takes the values of all functions at a time as known.
+    pub fn know(&mut self, t: f64, values: &[f64]) {
+        self.known.extend([false, true].map(|is_together| ((t.to_bits(), is_together), values.to_vec())));
     }
 
     /// Time at `x` in [−1, 1].
@@ -50,13 +57,16 @@ impl<'a> Probe<'a> {
         (self.segment.t1 - self.segment.t0).signum()
     }
 
-    pub fn all(&mut self, t: f64) -> Result<&[f64], DynamicsError> {
-        match self.known.entry(t.to_bits()) {
+    /// Values at a time, right for some functions, of which all are found together or none is.
+    pub fn values(&mut self, of: &[usize], t: f64) -> Result<&[f64], DynamicsError> {
+        let is_together = of.first().is_some_and(|i| self.together.contains(i));
+        match self.known.entry((t.to_bits(), is_together)) {
             Entry::Occupied(values) => Ok(values.into_mut()),
             Entry::Vacant(place) => {
                 let mut values = vec![0.0; self.system.switches()];
                 self.segment.at(t, &mut self.y);
-                self.system.switch_values(t, &self.y, &mut values)?;
+                let of = if is_together { self.together } else { of };
+                self.system.watched_values(t, &self.y, of, &mut values)?;
                 Ok(place.insert(values))
             }
         }
@@ -66,7 +76,7 @@ impl<'a> Probe<'a> {
         self.segment.at(t, &mut self.y);
         match self.system.switch_value(i, t, &self.y)? {
             Some(value) => Ok(value),
-            None => Ok(self.all(t)?[i]),
+            None => Ok(self.values(&[i], t)?[i]),
         }
     }
 

@@ -4,7 +4,7 @@ use crate::scalar::real;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Samples per step of each switching function.
+/// Samples per step of a switching function, at most.
 pub(super) const SAMPLES: usize = 9;
 
 /// Roots this far outside [−1, 1] are taken as lying at its ends.
@@ -23,12 +23,13 @@ static COSINES: LazyLock<[f64; 2 * (SAMPLES - 1)]> =
     LazyLock::new(|| std::array::from_fn(|j| real::sin_cos(PI * j as f64 / (SAMPLES - 1) as f64).1));
 
 /// Coefficients in the Chebyshev basis of the interpolant through `values` at the points
-/// (Trefethen, *Approximation Theory and Approximation Practice*, ch. 3).
-pub(super) fn chebyshev(values: &[f64; SAMPLES]) -> [f64; SAMPLES] {
-    let (last, cosines) = (SAMPLES - 1, &*COSINES);
+/// (Trefethen, *Approximation Theory and Approximation Practice*, ch. 3), or at every second or fourth of them.
+pub(super) fn chebyshev<const N: usize>(values: &[f64; N]) -> [f64; N] {
+    let (last, cosines) = (N - 1, &*COSINES);
     let end = |index: usize| if index == 0 || index == last { 0.5 } else { 1.0 };
+    let cosine = |times: usize| cosines[times * (SAMPLES - 1) / last % cosines.len()];
     std::array::from_fn(|k| {
-        let sum: f64 = (0..SAMPLES).map(|j| end(j) * values[j] * cosines[k * (last - j) % (2 * last)]).sum();
+        let sum: f64 = (0..N).map(|j| end(j) * values[j] * cosine(k * (last - j))).sum();
         2.0 / last as f64 * end(k) * sum
     })
 }

@@ -158,6 +158,19 @@ pub trait System {
         false
     }
 
+    /// The switching functions that may come to zero in a step at whose start they have the values `here`.
+    fn watched(&mut self, _on: &Segment, _here: &[f64]) -> Vec<usize> {
+        (0..self.switches()).collect()
+    }
+
+    /// As [`System::switch_values`], but of those alone that are `watched`.
+    ///
+    /// # Errors
+    /// As there.
+    fn watched_values(&mut self, t: f64, y: &[f64], _watched: &[usize], out: &mut [f64]) -> Result<(), DynamicsError> {
+        self.switch_values(t, y, out)
+    }
+
     /// The value of one switching function at (t, y), where that costs less than all; else none.
     ///
     /// # Errors
@@ -166,8 +179,9 @@ pub trait System {
         Ok(None)
     }
 
-    /// Whether an event may happen to the state of the dense output, which is less accurate than a step that ends there.
-    fn lands_on_dense_output(&self) -> bool {
+    /// Whether events crowd, each of little consequence: they may happen to the state of the dense output, which is less accurate than
+    /// a step that ends there, and forces change little from one to the next.
+    fn is_crowded(&self) -> bool {
         false
     }
 

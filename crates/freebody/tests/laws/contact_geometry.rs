@@ -226,6 +226,26 @@ fn gaps_are_distances() {
     });
 }
 
+/// A gap that is a distance changes by no more than the way that one of its bodies goes, while it is open.
+#[test]
+fn distances_change_no_faster_than_bodies_move() {
+    let mut looked = 0;
+    every_scene(|scene, there, rng| {
+        let (m, touch) = (&scene.m, &scene.touch);
+        for _ in 0..if touch.is_a_distance() { 50 } else { 0 } {
+            let (near, by) = (vec2(rng.about(2.5), rng.about(2.5)), vec2(rng.about(1.0), rng.about(1.0)));
+            let from = scene.with_disk_at(there, near);
+            let to = scene.with_disk_at(there, near + by);
+            let gaps = [from, to].map(|there| touch.signed_gap(m, &there.at(m)));
+            if gaps.iter().all(|&gap| gap > 0.0) {
+                assert!((gaps[1] - gaps[0]).abs() < by.norm() + 1e-13, "{}: {gaps:?} {by:?}", scene.label);
+                looked += 1;
+            }
+        }
+    });
+    assert!(looked > 1000, "{looked}");
+}
+
 /// A disk that is not behind an arc is as far from it as from the nearest of very many of its points; and round it, on
 /// every side, the borders are those of the pieces and the gap does not jump. A point meets the arc where its disk
 /// would, and only there.

@@ -58,7 +58,7 @@ impl Chain {
 
     fn seen<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, side: usize) -> Seen<T> {
         let [from, to] = [side, side + 1].map(|i| self.corner(i));
-        let length = (poses.arm(to) - poses.arm(from)).norm().value();
+        let length = (poses.arm(to) - poses.arm(from)).value().norm();
         Seen {
             to: poses.span(from, disk.centre, m),
             along: turn(m, poses, m.body_of(from)).apply(way(poses, from, to)),
@@ -271,15 +271,18 @@ impl Chain {
 /// side, where that does not lie flat.
 fn behind<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, along: Vec2<T>) -> f64 {
     let Some(beside) = disk.beside else { return 0.0 };
-    let axes = turn(m, poses, m.body_of(disk.centre));
-    let rise = |next: usize| along.cross(axes.apply(way(poses, disk.centre, next))).value();
+    let (axes, along) = (turn(m, poses, m.body_of(disk.centre)).value(), along.value());
+    let rise = |next: usize| along.cross(axes.apply(unit((poses.arm(next) - poses.arm(disk.centre)).value())));
     beside.into_iter().map(|next| -rise(next)).filter(|&sine| sine > FLAT).fold(0.0, f64::max)
 }
 
 /// Direction, in their body's axes, from one site to another of the same body.
 fn way<T: Scalar>(poses: &impl Poses<T>, from: usize, to: usize) -> Vec2<T> {
-    let way = poses.arm(to) - poses.arm(from);
-    way * (T::one() / way.norm())
+    unit(poses.arm(to) - poses.arm(from))
+}
+
+fn unit<T: Scalar>(v: Vec2<T>) -> Vec2<T> {
+    v * (T::one() / v.norm())
 }
 
 /// The feature of least distance, the first of equals.

@@ -35,8 +35,13 @@ impl ContactPair {
     /// A gauge whose rate, where the gap is 0, is the speed of the disk's material along the tangent as seen from the
     /// surface, m. Only its changes count.
     pub fn slide<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, feature: usize) -> T {
-        let turns = self.bodies(m).map(|body| turn(m, poses, body).angle);
-        self.local_surface(m, poses, feature).slide(self.radius(poses), turns)
+        self.gap_and_slide(m, poses, feature).1
+    }
+
+    /// Both.
+    pub fn gap_and_slide<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, feature: usize) -> (T, T) {
+        let (surface, radius) = (self.local_surface(m, poses, feature), self.radius(poses));
+        (surface.gap(radius), surface.slide(radius, self.bodies(m).map(|body| turn(m, poses, body).angle)))
     }
 
     /// The feature that tells the gap. A line and a circle have only feature 0; others are expressed at [`Arc`],
@@ -53,6 +58,15 @@ impl ContactPair {
     /// Whether the same formula tells the gap everywhere: the surface has no ends and no corners.
     pub fn has_one_feature(&self) -> bool {
         matches!(self.against, Profile::Line(_) | Profile::Circle { .. })
+    }
+
+    /// Whether the gap, while it is open, is a distance of the two outlines: it changes no faster than their points move.
+    pub fn is_a_distance(&self) -> bool {
+        match &self.against {
+            Profile::Line(_) | Profile::Circle { .. } => true,
+            Profile::Chain(chain) => chain.closed,
+            Profile::Arc(_) | Profile::Track(_) => false,
+        }
     }
 
     /// Where the feature ends.

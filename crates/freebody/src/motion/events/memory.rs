@@ -1,8 +1,8 @@
 //! What is known of a switching function.
 
 use super::nodes::is_clear_of_zero;
-use super::{CLEAR_OF_ZERO, NOISE, TOUCH};
-use crate::motion::roots::SAMPLES;
+use super::{CLEAR_OF_ZERO, GRAZE_OF_ACTION, NOISE, TOUCH};
+use crate::motion::system::EventSpec;
 
 /// Where a switching function is.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +42,16 @@ pub(super) struct Memory {
 }
 
 impl Memory {
+    /// Learns how large the function is on a step, and how it is watched there.
+    pub fn learn(&mut self, spec: EventSpec, rtol: f64, values: &[f64]) {
+        self.size = values.iter().fold(self.size.max(spec.scale), |most, value| most.max(value.abs()));
+        if self.is_guard {
+            self.leeway = spec.leeway;
+            self.now.begins &= spec.leeway > 0.0;
+            self.graze = if spec.of_forces { GRAZE_OF_ACTION * rtol } else { 0.0 };
+        }
+    }
+
     /// Sign of a value that is clearly not zero, else 0.
     pub fn sign(&self, value: f64) -> i8 {
         beyond(value, NOISE * self.size)
@@ -54,7 +64,7 @@ impl Memory {
     }
 
     /// Whether samples show that it stays clearly on the side where it is; if so, they are what is known of it.
-    pub fn stays_away(&mut self, values: &[f64; SAMPLES]) -> bool {
+    pub fn stays_away<const N: usize>(&mut self, values: &[f64; N]) -> bool {
         let (is_calm, side) = (!self.is_spent && self.now.grazes.is_none(), f64::from(self.now.side));
         let noise = if self.now.begins { self.leeway.max(NOISE * self.size) } else { NOISE * self.size };
         let stays = is_calm && values.iter().all(|value| side * value > noise) && is_clear_of_zero(values);

@@ -19,12 +19,13 @@ const PARABOLAS: usize = 3;
 const PATIENCE: usize = 300;
 
 impl EventDetector {
-    /// The samples and, when zero is near, the extrema of the function, in order: between two
+    /// The samples and, when zero is near, the extrema of the function, in order, until a time is passed: between two
     /// neighbours the function is monotone.
     pub(super) fn nodes(
         &self,
         i: usize,
         values: &[f64; SAMPLES],
+        until: f64,
         probe: &mut Probe,
     ) -> Result<Vec<Node>, DynamicsError> {
         let sample = |(&x, &value)| Node { t: probe.time(x), value, is_extremum: false };
@@ -35,8 +36,12 @@ impl EventDetector {
         let coefficients = chebyshev(values);
         let (polynomial, memory) = (monomial(&coefficients), &self.memory[i]);
         let (mut past, mut dip) = (None, 0.0_f64);
+        let (t0, later) = (probe.segment.t0, probe.ahead());
         for x in extrema(&polynomial, 1.0 + PAST) {
             let t = probe.time(x);
+            if later * (t - until) > 0.0 {
+                break;
+            }
             if x <= 1.0 {
                 let value = probe.one(i, t)?;
                 nodes.push(Node { t, value, is_extremum: true });
@@ -54,8 +59,8 @@ impl EventDetector {
         }
         // What touches zero on the loops may dip below it on the dense output, which is off them.
         nodes.iter_mut().filter(|node| (dip..0.0).contains(&node.value)).for_each(|node| node.value = 0.0);
-        let (t0, later) = (probe.segment.t0, probe.ahead());
         nodes.sort_by(|a, b| (later * (a.t - t0)).total_cmp(&(later * (b.t - t0))));
+        nodes.truncate(1 + nodes.iter().filter(|node| later * (node.t - until) <= 0.0).count());
         if !is_trusted(&coefficients, nodes.iter().map(|node| node.value)) {
             nodes = self.between(i, &nodes, values, probe)?;
             if !memory.is_guard {
@@ -104,22 +109,21 @@ impl EventDetector {
 }
 
 /// Whether the polynomial through samples cannot reach zero, and is trusted.
-pub(super) fn is_clear_of_zero(values: &[f64; SAMPLES]) -> bool {
+pub(super) fn is_clear_of_zero<const N: usize>(values: &[f64; N]) -> bool {
     let is_constant = || values.iter().all(|value| *value == values[0]);
-    let is_far =
-        |of: [f64; SAMPLES]| of[0].abs() > CLEAR_OF_ZERO * swing(&of) && is_trusted(&of, values.iter().copied());
+    let is_far = |of: [f64; N]| of[0].abs() > CLEAR_OF_ZERO * swing(&of) && is_trusted(&of, values.iter().copied());
     is_constant() || is_far(chebyshev(values))
 }
 
 /// Whether a function of which these are values follows its polynomial.
-fn is_trusted(coefficients: &[f64; SAMPLES], values: impl Iterator<Item = f64>) -> bool {
-    let tail = coefficients[SAMPLES - 2].abs() + coefficients[SAMPLES - 1].abs();
+fn is_trusted<const N: usize>(coefficients: &[f64; N], values: impl Iterator<Item = f64>) -> bool {
+    let tail = coefficients[N - 2].abs() + coefficients[N - 1].abs();
     let nearest = values.fold(f64::INFINITY, |least, value| least.min(value.abs()));
     tail <= CONVERGED * swing(coefficients) || tail <= FAR_FROM_ZERO * nearest
 }
 
 /// How far a polynomial is from its mean at most.
-fn swing(coefficients: &[f64; SAMPLES]) -> f64 {
+fn swing(coefficients: &[f64]) -> f64 {
     coefficients[1..].iter().map(|c| c.abs()).sum()
 }
 

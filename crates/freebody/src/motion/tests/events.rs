@@ -337,6 +337,21 @@ proptest! {
     }
 }
 
+/// Of a polynomial of degree 2 the coefficients are the same from 3, 5 and 9 of the points.
+#[test]
+fn few_points_tell_a_parabola() {
+    let points = chebyshev_points();
+    let parabola = |x: f64| 3.0 - 2.0 * x + 0.5 * (2.0 * x * x - 1.0);
+    let few = chebyshev::<3>(&std::array::from_fn(|j| parabola(points[4 * j])));
+    let some = chebyshev::<5>(&std::array::from_fn(|j| parabola(points[2 * j])));
+    for coefficients in [&few[..], &some[..], &chebyshev(&points.map(parabola))[..]] {
+        for (k, c) in coefficients.iter().enumerate() {
+            let known = [3.0, -2.0, 0.5].get(k).copied().unwrap_or(0.0);
+            assert!((c - known).abs() < 1e-14, "{coefficients:?}");
+        }
+    }
+}
+
 /// Dry friction on a block at rest: the sliding law flips at v = 0 without end.
 #[test]
 fn sliding_on_a_kink_is_named() {
