@@ -21,6 +21,7 @@ _SAID = re.compile(
 )
 """``steady-state amplitude of x: X = …``."""
 _IS = re.compile(rf"({_SYMBOL})\s*=(?!=)\s*(.+)", re.S)
+_LIMIT = re.compile(r"limit: ?(.+) as ([^:]+)", re.S)
 _REPEATS = "in the steady state"
 _STEADY = re.compile(rf"if ([^:]*\b{_REPEATS}\b[^:]*): ?([^:]+)", re.S)
 _NAME = "amp"
@@ -31,7 +32,8 @@ _WORDS = re.compile(r"\s*(?:(?:in|for|the|its|resulting|steady|state|motion|vibr
 def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict | None:
     """The verdict about a claim that speaks of amplitudes, in words or by capitals in a steady state, ``X`` of ``x``; None where it
     does not."""
-    if said := _SAID.fullmatch(claim):
+    limited = _LIMIT.fullmatch(claim)
+    if said := _SAID.fullmatch(limited[1] if limited else claim):
         before = re.sub(r"\A\s*if\s+|[\s:,]+\Z", "", said["before"])
         if not _WORDS.fullmatch(said["after"]) or not (_WORDS.fullmatch(before) or claim.startswith("if ")):
             return None
@@ -42,7 +44,11 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
             return None
         conditions = "" if _WORDS.fullmatch(before) else before
         given = {**declared, (letter or _NAME): f"{AMPLITUDE}{what}"}
-        return _judged(checker, given, conditions, f"{letter or _NAME} = {value}{''.join(f' where {each}' for each in names)}")
+        statement = f"{letter or _NAME} = {value}{''.join(f' where {each}' for each in names)}"
+        if limited:
+            steady = f"{_REPEATS}, " if checker.sampler.is_driven and _REPEATS not in limited[2] else ""
+            return checker.check(f"limit: {statement} as {steady}{limited[2]}", given)
+        return _judged(checker, given, conditions, statement)
     if steady := _STEADY.fullmatch(claim):
         given = {name: f"{AMPLITUDE}{of}" for name, of in _capitals(checker, declared, steady[2]).items()}
         return _judged(checker, {**declared, **given}, steady[1], steady[2]) if given else None
