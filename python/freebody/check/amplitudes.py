@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from .user_symbols import AMPLITUDE
 from .usual_names import ENERGIES
+from .verdict import NO_AMPLITUDE, Kind
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -47,7 +48,8 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
         statement = f"{letter or _NAME} = {value}{''.join(f' where {each}' for each in names)}"
         if limited:
             steady = f"{_REPEATS}, " if checker.sampler.is_driven and _REPEATS not in limited[2] else ""
-            return checker.check(f"limit: {statement} as {steady}{limited[2]}", given)
+            verdict = checker.check(f"limit: {statement} as {steady}{limited[2]}", given)
+            return replace(verdict, reason=NO_AMPLITUDE) if verdict.kind is Kind.UNDECIDABLE else verdict
         return _judged(checker, given, conditions, statement)
     if steady := _STEADY.fullmatch(claim):
         given = {name: f"{AMPLITUDE}{of}" for name, of in _capitals(checker, declared, steady[2]).items()}

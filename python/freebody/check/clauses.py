@@ -95,6 +95,7 @@ _ARE_SMALL = re.compile(
 )
 """``θ_1, θ_2 small``."""
 _AND = re.compile(r"\s*\band\b\s*")
+_AMPLITUDE = re.compile(r"(?:\bthe )?(?:\bsteady |\bforced )?\bamplitude of\s*\Z")
 
 
 def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies: Collection[str] = ()) -> str:
@@ -116,6 +117,8 @@ def arranged(text: str, known: Collection[str], of_what: re.Pattern[str], bodies
         return text
     if begins and sum(piece.kind == "words" for piece in body[:begins]) < _FEWEST and not _HEAD.match(plain[body[0].start :]):
         return text  # a word among symbols is one of them
+    if begins and (found := _AMPLITUDE.search(plain, body[0].start, body[begins].start)):  # that is what it says something of
+        begins = next(i for i, piece in enumerate(body) if piece.stop > found.start())
     core = body[begins:]
     ends = _suffix(plain, core)
     around = [[*_clauses(plain, some)] for some in (before, body[:begins], core[ends:])]

@@ -28,7 +28,7 @@ from .phases import phase
 from .residual import HOLDS, residual
 from .stated import Correction
 from .user_symbols import LARGEST
-from .verdict import EVERY_TERM_IS_0, NOTHING_LEFT, Kind, Verdict, evidence
+from .verdict import EVERY_TERM_IS_0, NO_AMPLITUDE, NOTHING_LEFT, Kind, Verdict, evidence
 from .worded_claims import in_phase
 from .wording import IN_WORDS
 
@@ -81,7 +81,7 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
         case = checker.case(statement, declared, given)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
         if given.steady:
-            return Verdict(Kind.UNDECIDABLE, statement, "how far small motions go to and fro in a steady state is not found")
+            return Verdict(Kind.UNDECIDABLE, statement, NO_AMPLITUDE)
         return _swinging(checker, given, limits).check(statement, declared, replace(given, small=()))
     if given.small:
         return _small(case, statement, limits)

@@ -25,7 +25,7 @@ from .phases import alike, kind_of
 from .pieces import relates
 from .sentence_words import CIRCUMSTANCES, DETERMINERS, FOLLOWED, FROM_REST, FROM_START, SHORT, SMALL, says
 from .sentences import Sentence, sentence
-from .verdict import EVERY_TERM_IS_0, NOTHING_LEFT, Kind, Verdict
+from .verdict import EVERY_TERM_IS_0, NO_AMPLITUDE, NOTHING_LEFT, Kind, Verdict
 from .wording import BLOW
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def as_said(checker: Checker, text: str, letters: Declared | None, correcting: b
         if "did you mean" not in error.hint and (found := _in_sentences(asked, text, said, letters, None)):
             return found
         raise
-    if verdict.kind is Kind.UNDECIDABLE and verdict.reason.startswith(NOTHING_LEFT):
+    if verdict.kind is Kind.UNDECIDABLE and verdict.reason.startswith((NOTHING_LEFT, NO_AMPLITUDE)):
         return verdict
     if verdict.ok and not (said.follows and _is_empty(verdict)):
         return _of_something(verdict, text)

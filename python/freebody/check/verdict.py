@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _UNITS = ("i", "j", "k")
 EVERY_TERM_IS_0 = "every term is 0"
 NOTHING_LEFT = "nothing is left of"
+NO_AMPLITUDE = "how far small motions go to and fro in a steady state is not found"
 
 
 class Kind(str, Enum):
