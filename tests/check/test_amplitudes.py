@@ -81,3 +81,26 @@ def test_what_drives_does_not_shift_the_place_about_which_a_model_swings(model, 
     checker = Checker(Mechanism.loads(model))
     checker.correcting = False
     assert checker.check(says).kind is kind
+
+
+@pytest.mark.parametrize(
+    ("says", "kind"),
+    [
+        ("in the steady state, small θ: Θ = F0 l/(½ m g l − ⅓ m l² Ω²)", Kind.TRUE),
+        ("steady state, small θ: θ_max = F0/|½ m g − ⅓ m l Ω²|", Kind.TRUE),
+        ("in the steady state, for small angles: the amplitude of θ is F0/|m g/2 − m l Ω²/3|", Kind.TRUE),
+        ("steady state, small θ: Θ = F0 l/|½ m g l + ⅓ m l² Ω²|", Kind.WRONG),
+        ("steady state, small θ: Θ = F0 l/|½ m g l − ½ m l² Ω²|", Kind.WRONG),
+        ("steady state, small θ: Θ = F0/|½ m g l − ⅓ m l² Ω²|", Kind.DIMENSIONS),
+    ],
+)
+def test_amplitudes_of_small_forced_vibrations(says, kind):
+    checker = Checker(Mechanism.loads(ROD))
+    checker.correcting = False
+    assert checker.check(says).kind is kind
+
+
+@pytest.mark.parametrize(("says", "kind"), [("c_c = 2 √(k m)", Kind.TRUE), ("critical damping: c_cr = √(k m)", Kind.WRONG)])
+def test_critical_damping(says, kind):
+    checker = Checker(Mechanism.loads(f"{MASS}forces: {{{FORCES['driven']}}}\n"))
+    assert checker.check(says).kind is kind

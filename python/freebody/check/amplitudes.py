@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from .hypotheses import SMALL_MOTIONS
 from .user_symbols import AMPLITUDE
 from .usual_names import ENERGIES
 from .verdict import NO_AMPLITUDE, Kind
@@ -25,6 +26,7 @@ _IS = re.compile(rf"({_SYMBOL})\s*=(?!=)\s*(.+)", re.S)
 _LIMIT = re.compile(r"limit: ?(.+) as ([^:]+)", re.S)
 _REPEATS = "in the steady state"
 _STEADY = re.compile(rf"if ([^:]*\b{_REPEATS}\b[^:]*): ?([^:]+)", re.S)
+_MOST = re.compile(r"([^\W\d]\w*?)_\{?(?:\\(?:text|mathrm|operatorname)?\{?)?max\b")
 _NAME = "amp"
 """What it is called that has no letter of its own."""
 _WORDS = re.compile(r"\s*(?:(?:in|for|the|its|resulting|steady|state|motion|vibrations?|oscillations?)\b[\s,]*)*")
@@ -43,31 +45,44 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
         letter, value = (found[1], found[2]) if found and "=" not in found[2] else ("", rest)
         if (what := _of(checker, declared, said["what"], letter)) is None:
             return None
-        conditions = "" if _WORDS.fullmatch(before) else before
         given = {**declared, (letter or _NAME): f"{AMPLITUDE}{what}"}
         statement = f"{letter or _NAME} = {value}{''.join(f' where {each}' for each in names)}"
         if limited:
-            steady = f"{_REPEATS}, " if checker.sampler.is_driven and _REPEATS not in limited[2] else ""
-            verdict = checker.check(f"limit: {statement} as {steady}{limited[2]}", given)
-            return replace(verdict, reason=NO_AMPLITUDE) if verdict.kind is Kind.UNDECIDABLE else verdict
-        return _judged(checker, given, conditions, statement)
-    if steady := _STEADY.fullmatch(claim):
-        given = {name: f"{AMPLITUDE}{of}" for name, of in _capitals(checker, declared, steady[2]).items()}
-        return _judged(checker, {**declared, **given}, steady[1], steady[2]) if given else None
-    return None
+            return _in_limit(checker, given, limited[2], statement)
+        return _judged(checker, given, "" if _WORDS.fullmatch(before) else before, statement)
+    steady = _STEADY.fullmatch(claim)
+    if not steady and not (limited and _REPEATS in limited[2]):
+        return None
+    conditions, statement = (steady[1], steady[2]) if steady else (limited[2], limited[1])
+    named = _capitals(checker, declared, statement) | ({} if steady else _most(checker, declared, statement))
+    given = {**declared, **{name: f"{AMPLITUDE}{of}" for name, of in named.items()}}
+    return (_judged if steady else _in_limit)(checker, given, conditions, statement) if named else None
 
 
 def _judged(checker: Checker, declared: Declared, conditions: str, statement: str) -> Verdict:
-    """Of the steady state where that is said or something drives the model; of amplitudes the size is judged: a sign says how they follow
-    what drives."""
+    """Of the steady state where that is said or something drives the model."""
     steady = _REPEATS in conditions or checker.sampler.is_driven
     under = ", ".join(filter(None, (_REPEATS if steady else "from the start", conditions.replace(_REPEATS, "").strip(" ,"))))
-    verdict = checker.check(f"if {under}: {statement}", declared)
+    return _sized(checker, declared, f"if {under}: {{}}", statement)
+
+
+def _in_limit(checker: Checker, declared: Declared, limits: str, statement: str) -> Verdict:
+    """The same of small motions, or where something goes to 0; not decidable where they are not found to go to and fro."""
+    steady = f"{_REPEATS}, " if checker.sampler.is_driven and _REPEATS not in limits else ""
+    of = (said.removeprefix(AMPLITUDE) for said in declared.values() if isinstance(said, str) and said.startswith(AMPLITUDE))
+    small = limits.replace(SMALL_MOTIONS, ", ".join(f"{each} -> 0" for each in of))
+    verdict = _sized(checker, declared, f"limit: {{}} as {steady}{small}", statement)
+    return replace(verdict, reason=NO_AMPLITUDE) if verdict.kind is Kind.UNDECIDABLE else verdict
+
+
+def _sized(checker: Checker, declared: Declared, form: str, statement: str) -> Verdict:
+    """Of amplitudes the size is judged: a sign says how they follow what drives."""
+    verdict = checker.check(form.format(statement), declared)
     said, *names = re.split(r"(?=\swhere\s)", statement, maxsplit=1)
     sides = said.split("=")
     if verdict.ok or len(sides) != 2:
         return verdict
-    sized = checker.check(f"if {under}: abs({sides[0]}) = abs({sides[1]}){''.join(names)}", declared, correcting=False)
+    sized = checker.check(form.format(f"abs({sides[0]}) = abs({sides[1]}){''.join(names)}"), declared, correcting=False)
     return replace(sized, text=verdict.text) if sized.ok else verdict
 
 
@@ -92,5 +107,15 @@ def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str,
         is_new = name != small and name not in ENERGIES and known.spelt(name) is None
         meaning = known.spelt(small) if is_new else None
         if meaning and meaning.kind in ("coordinate", "gauge", "declared"):
-            found[name] = meaning.texts[0]
+            found[name.removeprefix("\\")] = meaning.texts[0]
+    return found
+
+
+def _most(checker: Checker, declared: Declared, statement: str) -> dict[str, str]:
+    """The names ``x_max`` in a statement, with the coordinates of which they are."""
+    known, found = checker.symbols(declared), {}
+    for name in set(_MOST.findall(statement)):
+        meaning = known.spelt(name)
+        if meaning and meaning.kind == "coordinate" and f"{name}_max" not in declared:
+            found[f"{name}_max"] = meaning.texts[0]
     return found

@@ -79,6 +79,11 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
             return _of_what_goes(checker.case(statement, declared, small), verdict, lost) if verdict.ok and lost else verdict
         given = small  # both sides vanish there, and it says how
         case = checker.case(statement, declared, given)
+    if given.steady and (given.small or _is_drive(checker, given)) and (asked := _amplitudes(case)):
+        there = copy(_swinging(checker, given, limits))
+        there.vibration = there.vibration.driven(asked)
+        others = {name: said for name, said in declared.items() if name not in asked}
+        return there.check(statement, others, replace(given, small=(), scaled=(), steady=False), correcting=checker.correcting)
     if given.small and all(n.name in case.meaning.symbols.constants for n in symbols_in(case.program)):  # ω_n² = k/m
         if given.steady:
             return Verdict(Kind.UNDECIDABLE, statement, NO_AMPLITUDE)
@@ -113,6 +118,22 @@ def limit(checker: Checker, declared: Declared, statement: str, limits: str) -> 
             what = f"a term that is small as {limits} is another"
             return Verdict(Kind.WRONG, statement, what, mends=mends, evidence=evidence(found, values))
     return Verdict(Kind.TRUE, statement, f"what is left vanishes as {limits}: {rest:.0e} there", limits)
+
+
+def _amplitudes(case: Case) -> dict[str, str]:
+    """The names of amplitudes in a statement that is of them and of what stays the same, with what they are of."""
+    symbols = case.meaning.symbols
+    found = {
+        n.name: meaning.texts[0]
+        for n in symbols_in(case.program)
+        if (meaning := symbols.spelt(n.name)) and meaning.kind == "amplitude"
+    }
+    return found if all(n.name in (*symbols.constants, *found) for n in symbols_in(case.program)) else {}
+
+
+def _is_drive(checker: Checker, given: Family) -> bool:
+    """Whether what goes to 0 is that alone by which the model is driven."""
+    return [name for name, factor in given.scaled if factor < 1] == [checker.vibration.drive] and len(given.scaled) == 1
 
 
 def _of_what_goes(case: Case, verdict: Verdict, term: str) -> Verdict:

@@ -55,6 +55,7 @@ class Reading:
         """The statement that it is, with ``units`` for symbols of their names where dimensions fit only so. Raises ``StatementError``."""
         self._in_words_of_the_model()
         self._vibrating(f"{'ω' if found[1] == 'omega' else found[1]}_d" for found in _DAMPED.finditer(self.text))
+        self._vibrating(self.known.vibration.forced if self.known.vibration else ())
         program = self._parsed(self.known.names)
         if {"d", "dd"} & self.known.bodies:  # x_d is a place, not ẋ as programs have it
             self._add(self.known.printed.plain, program)
@@ -198,7 +199,9 @@ class Reading:
             self._vibrates(name, meaning)
 
     def _vibrates(self, name: str, meaning: Meaning) -> None:
-        self.known.assumed[name] = f"the {meaning.texts[0]} of small vibrations about {self.known.vibration.place}"  # type: ignore[union-attr]
+        self.known.assumed[name] = (
+            f"the {meaning.texts[0].removeprefix('the ')} of small vibrations about {self.known.vibration.place}"  # type: ignore[union-attr]
+        )
 
     def _initial(self, program: Program) -> dict[str, str]:
         """Of symbols with the index 0, max or min what is asked: θ₀, v₀, θ(0), N_max, of anything that has a meaning without it."""

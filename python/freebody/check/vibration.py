@@ -16,12 +16,13 @@ from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
 from freebody.stability.equilibria import Equilibrium, equilibria, newton_step, rest_near
 from freebody.stability.state_space import SingularConfiguration, StateSpace, state_space
-from freebody.symbolic.dimensions import NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
 
 from .arrangement import arranged
 from .families import Family, NoMotion
-from .user_symbols import Masses, Meaning, Values
+from .forced import forced_amplitudes
+from .user_symbols import AMPLITUDE, Masses, Meaning, Values
 
 if TYPE_CHECKING:
     from .motion_sampler import MotionSampler
@@ -33,6 +34,7 @@ _QUANTITIES = {
     **dict.fromkeys(("ω_n", "ω_0", "natural_frequency"), "natural frequency"),
     **dict.fromkeys(("f", "f_n", "frequency"), "frequency"),
     **dict.fromkeys(("τ", "τ_n", "T_n", "period"), "period"),
+    **dict.fromkeys(("c_c", "c_cr", "c_crit"), "critical damping"),
     **{
         "ζ": "damping ratio",
         "δ": "logarithmic decrement",
@@ -48,6 +50,8 @@ _WITH_INDEX = {
     for letter, what in (("ω", "natural frequency"), ("T", "period"), ("τ", "period"), ("f", "frequency"))
 }
 """What has an index where of several coordinates one swings alone."""
+_DAMPING = "c"
+"""The parameter of which the critical value is asked."""
 _STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
 _NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
 _WELDS = 1e3  # of the largest natural frequency: rates at which dampers make motions fade, above which they are as good as rigid
@@ -82,28 +86,45 @@ class OfVibration(Meaning):
 
 class Vibration:
     """That of a sampler's model, about the place of rest next to the start that it swings about, or where ``places`` are 0; or of that
-    coordinate ``alone`` which swings for itself, whatever the others do."""
+    coordinate ``alone`` which swings for itself, whatever the others do. ``forced``: what names of amplitudes are of, in a steady state."""
 
-    def __init__(self, sampler: MotionSampler, alone: str = "", places: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, sampler: MotionSampler, alone: str = "", places: tuple[str, ...] = (), forced: Mapping[str, str] | None = None
+    ) -> None:
         self.sampler, self.parameters, self.alone, self.places = sampler, tuple(sampler.free_parameters), alone, places
+        self.forced = forced or {}
         self._known: dict[bytes, dict[str, float]] = {}
 
     def about(self, places: tuple[str, ...]) -> Vibration:
         """That where such expressions are 0."""
         return Vibration(self.sampler, self.alone, places)
 
+    def driven(self, amplitudes: Mapping[str, str]) -> Vibration:
+        """That which is forced, in the steady state: what ``amplitudes`` are of by their names."""
+        return Vibration(self.sampler, self.alone, self.places, amplitudes)
+
     def meanings(self, asked: Iterable[str]) -> dict[str, OfVibration]:
         """What those of the ``asked`` names mean that are used for it; nothing where the model has no such vibration."""
         named = {folded(name): name for name in asked}
-        known = _QUANTITIES | (_WITH_INDEX if self.alone else {})
+        known = _QUANTITIES | (_WITH_INDEX if self.alone else {}) | self.forced
         found = {named[folded(name)]: what for name, what in known.items() if folded(name) in named}
         per_second, second = NUMBER_ONLY.times(TIME, -1), NUMBER_ONLY.times(TIME, 1)
         dimensions: dict[str, Dimension] = {"period": second, "damped period": second, "damping ratio": NUMBER_ONLY}
+        if its := self.sampler.start.parameters.get(_DAMPING):
+            dimensions["critical damping"] = its
+        dimensions |= {
+            AMPLITUDE + c["name"]: NUMBER_ONLY if c["dimension"] == "rad" else LENGTH for c in self.sampler.coordinates
+        }
         return {
             name: OfVibration("vibration", (what,), dimensions.get(what, per_second), of=self)
             for name, what in (found.items() if found and self.rest else ())
             if what in self._own
         }
+
+    @property
+    def drive(self) -> str:
+        """The parameter that drives it to and fro; empty where none does."""
+        return next(iter(self._amplitude), "")
 
     @property
     def count(self) -> int:
@@ -288,7 +309,9 @@ class Vibration:
         return self._known[key]
 
     def _found(self, row: Array) -> dict[str, float]:
-        a = self._linear(row)
+        a, rest = self._linear(row) or (None, None)
+        if self.forced:
+            return self._forced(a, rest, row)
         if a is not None and self.alone:
             a = self._part(a)
         if a is not None and len(a) > 2:
@@ -298,9 +321,19 @@ class Vibration:
             damping = -np.trace(a) / (2 * natural) if a is not None else np.nan
             damped = natural * np.sqrt(1 - damping**2)
             out = {"natural frequency": natural, "damping ratio": damping, "damped frequency": damped}
+            if _DAMPING in self.parameters:
+                out["critical damping"] = row[self.parameters.index(_DAMPING)] / damping
             out |= {"logarithmic decrement": 2 * np.pi * damping / np.sqrt(1 - damping**2)}
             out |= {"frequency": natural / (2 * np.pi), "frequency, damped": damped / (2 * np.pi)}
             return {**out, "period": 2 * np.pi / natural, "damped period": 2 * np.pi / damped}
+
+    def _forced(self, a: Array | None, rest: State | None, row: Array) -> dict[str, float]:
+        """The amplitudes of what moves freely."""
+        values = dict(zip(self.parameters, row.tolist(), strict=True))
+        free = _space(self.sampler.core, self.rest).free
+        if a is None or rest is None or not self.drive or len(a) != 2 * len(free):
+            return {}
+        return {f"{AMPLITUDE}{name}": x for name, x in forced_amplitudes(self.sampler, rest, a, free, values, self.drive).items()}
 
     def _part(self, a: Array) -> Array | None:
         """The rows of linear equations that are of one coordinate alone; None where others have to do with it, or it does not swing."""
@@ -313,15 +346,15 @@ class Vibration:
         scale = np.abs(part[1]).max() * self.sampler.sizes[self.sampler.names.index(self.alone)]
         return part if np.all(np.abs(others) * sizes <= _NOTHING * scale) and _swings(part) else None
 
-    def _linear(self, row: Array) -> Array | None:
-        """The matrix of the linear equations at rest with other parameters."""
+    def _linear(self, row: Array) -> tuple[Array, State] | None:
+        """The matrix of the linear equations at rest with other parameters, and where that is."""
         core, rest, values = self.sampler.core, self.rest, dict(zip(self.parameters, row.tolist(), strict=True))
         if self._later:
             try:
                 there = self._at_rest(self._placed(self.sampler.at_moment_with(values)))
             except (MotionError, ModelError, ModelProblem, SingularConfiguration, ValueError):
                 return None
-            return a if there and self._is_there(there) and _swings(a := _space(core, there).a) else None
+            return (a, there) if there and self._is_there(there) and _swings(a := _space(core, there).a) else None
         p = core.bind(values | self._amplitude)
         for stages in (1, _STAGES):
             state = rest
@@ -337,7 +370,7 @@ class Vibration:
             if state is None or not self._is_there(state):
                 continue
             if _swings(a := _space(core, state).a) and self._is_reached(values, state):
-                return a
+                return a, state
         return None
 
     def _is_reached(self, values: Mapping[str, float], rest: State) -> bool:
