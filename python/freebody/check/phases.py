@@ -21,7 +21,7 @@ from .wording import IN_WORDS, LASTS
 if TYPE_CHECKING:
     from .api import Checker, Declared
 
-_STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no(?:t|\s+longer)?|(?:does|do) not|without)\s+(?:to\s+)?"
+_STOPS = r"(?:(?:stop|cease)(?:s|d|ped)?|no(?:t|\s+longer|\s+more)?|(?:does|do) not|without)\s+(?:to\s+)?"
 _OVER = r"\s+(?:(?:has\s+|is\s+|have\s+)?(?:stop|cease|end)\w*|(?:is|are)\s+over\b)"
 _KINDS = {
     "stick": rf"at\s+rest\s+(?:on|in)\b|(?:(?:end|stop)\s+of\s+(?:the\s+)?|{_STOPS}|neither\s+(?:\w+\s+)?)(?:slip|slid|skid)\w*|(?:slip|slid|skid)\w*{_OVER}"
