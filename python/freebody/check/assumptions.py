@@ -98,8 +98,16 @@ def nearer(case: Case) -> Case:
     angles = (n for n in symbols_in(case.program) if n in known.coordinates and n in known.angular)
     squares = any(not n.symbols.isdisjoint(known.energies) for n in case.equations)
     squares |= any(np.median(np.abs(values[n.key])) < _OF_SECOND_ORDER for n in angles)
-    small = tuple((text, size * (_TINY_SQUARED if squares else _TINY) / SMALL) for text, size in given)
-    return replace(case, hypothesis=replace(case.hypothesis, small=small), known={})
+    times = (_TINY_SQUARED if squares else _TINY) / SMALL
+    small = tuple((text, size * times) for text, size in given)
+    scaled = (*case.hypothesis.scaled, *((name, times) for name in _driving(case)))
+    return replace(case, hypothesis=replace(case.hypothesis, small=small, scaled=scaled), known={})
+
+
+def _driving(case: Case) -> tuple[str, ...]:
+    """The parameter of a statement that drives the model, beside which what is small would be nothing if it were not small, too."""
+    vibration = case.meaning.symbols.vibration
+    return (vibration.drive,) if vibration and Sym(vibration.drive) in {*symbols_in(case.program)} else ()
 
 
 def _has_bare_angles(case: Case, equation: Equation) -> bool:
@@ -136,7 +144,7 @@ def small_from_start(case: Case, size: float = _TINY) -> Case:
     """The statement of the motions from the start with which the numbers of that are small."""
     given, names = case.hypothesis, case.meaning.of_start_alone
     since = given.since or (BEFORE if case.sampler.moment else "start")
-    scaled = (*given.scaled, *((name, size) for name in names))
+    scaled = (*given.scaled, *((name, size) for name in (*names, *(_driving(case) if names else ()))))
     return replace(case, hypothesis=replace(given, small=(), since=since, scaled=scaled), known={})
 
 
