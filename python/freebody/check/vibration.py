@@ -5,23 +5,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from freebody.core import Array, CompiledModel, ModelError, MotionError, State, quote
+from freebody.core import Array, ModelError, MotionError, State, quote
 from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent
 from freebody.stability.equilibria import Equilibrium, equilibria, newton_step, rest_near
-from freebody.stability.state_space import SingularConfiguration, StateSpace, state_space
+from freebody.stability.state_space import SingularConfiguration
 from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.symbols import folded
 
 from .arrangement import arranged
 from .families import Family, NoMotion
 from .forced import forced_amplitudes
+from .linear_equations import NOTHING, linear_equations, of_several, squares_of, swings
 from .user_symbols import AMPLITUDE, Masses, Meaning, Values
 
 if TYPE_CHECKING:
@@ -53,9 +54,6 @@ _WITH_INDEX = {
 _DAMPING = "c"
 """The parameter of which the critical value is asked."""
 _STAGES = 6  # in which a place of rest goes along as parameters change, where it does not at once
-_NOTHING = 1e-8  # of the stiffest, below which a square of a natural frequency is 0; of damping beside stiffness
-_WELDS = 1e3  # of the largest natural frequency: rates at which dampers make motions fade, above which they are as good as rigid
-_LASTING = 30.0  # of the rate at which it fades, the rate of what swings for long
 _ALIKE = 1e-6  # of what moves in a vibration, below which it does not change what coordinates have to do with each other
 _APART = 0.1  # of what is typical of each coordinate, to a place where linear equations may be others
 _LATE = 0.37, 0.91  # of the typical time: later, when what goes on at one speed does so
@@ -134,19 +132,19 @@ class Vibration:
     @property
     def is_of_several(self) -> bool:
         """Whether several coordinates move freely about the place of rest."""
-        return self.rest is not None and len(_space(self.sampler.core, self.rest).free) > 1
+        return self.rest is not None and len(linear_equations(self.sampler.core, self.rest).free) > 1
 
     def modes(self, relations: Sequence[str]) -> list[int]:
         """The numbers of those natural vibrations in which expressions of several coordinates stay 0, as they are at rest. Raises
         ``NoMotion`` where there is none."""
         core, rest, every = self.sampler.core, self.rest, list(range(1, self.count + 1))
-        space, size = _space(core, rest), self.sampler.sizes
+        space, size = linear_equations(core, rest), self.sampler.sizes
         slopes = core.derivatives(list(relations), rest)[:, 1 : 1 + len(size)] * size if relations else np.zeros((0, 0))
-        slopes = slopes[np.sum(np.abs(slopes) > _NOTHING, axis=1) > 1]
+        slopes = slopes[np.sum(np.abs(slopes) > NOTHING, axis=1) > 1]
         if not len(slopes) or len(space.free) != len(size):
             return every
         squares, shapes = np.linalg.eig(-space.a[len(size) :, : len(size)])
-        swinging = [k for k in np.argsort(squares.real) if squares[k].real > _NOTHING * np.abs(squares).max()]
+        swinging = [k for k in np.argsort(squares.real) if squares[k].real > NOTHING * np.abs(squares).max()]
         order = [self.sampler.names.index(name) for name in space.free]
         moved = np.abs(slopes[:, order] @ (shapes[:, swinging].real / size[order, None]))
         most = np.abs(slopes[:, order]) @ np.abs(shapes[:, swinging].real / size[order, None])
@@ -158,7 +156,7 @@ class Vibration:
     def place(self) -> str:
         """Where that is, in words."""
         core, rest = self.sampler.core, self.rest
-        free = _space(core, rest).free
+        free = linear_equations(core, rest).free
         if len(free) > 1 and not self.alone:
             return f"the place of rest at {', '.join(free)} = {', '.join(f'{q + 0.0:g}' for q in self._places(free))} (SI)"
         name = self.alone or free[0]
@@ -177,7 +175,7 @@ class Vibration:
     def _is_turned(self) -> bool:
         """Whether what is prescribed goes on at one speed, so that it swings on that: a bead on a rail that turns."""
         rates = [self._steady(self.sampler.first, late).u for late in (0.0, *_LATE)] if self.sampler.spec["motions"] else []
-        return any(u.any() for u in rates) and all(np.abs(u - rates[0]).max() <= _NOTHING * np.abs(u).max() for u in rates)
+        return any(u.any() for u in rates) and all(np.abs(u - rates[0]).max() <= NOTHING * np.abs(u).max() for u in rates)
 
     def _steady(self, state: State, late: float = 0.0) -> State:
         """Where a state is, so many of its typical times later, with no rates but those that are prescribed."""
@@ -193,8 +191,10 @@ class Vibration:
             return self._at_rest_on_drive(state)
         if (rest := rest_near(core, state)) is not None:
             return rest
-        a, other = (_space(core, each).a for each in (state, sampler.moved(state, state.q + _APART * sampler.sizes, {})))
-        return state if a.shape == other.shape and np.abs(a - other).max() <= _NOTHING * np.abs(a).max() else None
+        a, other = (
+            linear_equations(core, each).a for each in (state, sampler.moved(state, state.q + _APART * sampler.sizes, {}))
+        )
+        return state if a.shape == other.shape and np.abs(a - other).max() <= NOTHING * np.abs(a).max() else None
 
     def _at_rest_on_drive(self, state: State) -> State | None:
         """The same, by Newton's method, on what is driven at one speed, if it stays one as that goes on."""
@@ -203,8 +203,8 @@ class Vibration:
             change, *_ = newton_step(core, state)
             state = self._steady(state.at(state.q + change))
             if np.abs(change / sampler.sizes).max() < _FOUND:
-                first, *others = (_space(core, self._steady(state, late)).a for late in (0.0, *_LATE))
-                same = all(np.abs(a - first).max() <= _NOTHING * np.abs(first).max() for a in others)
+                first, *others = (linear_equations(core, self._steady(state, late)).a for late in (0.0, *_LATE))
+                same = all(np.abs(a - first).max() <= NOTHING * np.abs(first).max() for a in others)
                 return state if same else None
         return None
 
@@ -231,12 +231,12 @@ class Vibration:
             first = self._placed(self._undriven(sampler.own if self._later else sampler.first))
             if self.places:
                 first = arranged(sampler, self.places, first, {}, _AT_REST, sampler.free_parameters, ())
-            free = _space(core, first).free
+            free = linear_equations(core, first).free
             if not free:
                 return None
             if len(free) > 1 or self._later or self._is_turned:
                 rest = self._at_rest(first)
-                return rest if rest and self._is_there(rest) and _swings(_space(core, rest).a) else None
+                return rest if rest and self._is_there(rest) and swings(linear_equations(core, rest).a) else None
             (k,) = (sampler.names.index(name) for name in free)
             reach = np.pi if sampler.coordinates[k]["dimension"] == "rad" else _LENGTHS * sampler.length
             found = self._within(first, free[0], reach)
@@ -245,7 +245,7 @@ class Vibration:
         swinging = [each.state for each in found if len(each.space.a) == 2 and np.linalg.det(each.space.a) > 0]
         if self.places:
             return next(filter(self._is_there, swinging), None)
-        if not swinging and (far := self._at_rest(first)) and _swings(_space(core, far).a):
+        if not swinging and (far := self._at_rest(first)) and swings(linear_equations(core, far).a):
             return far
         return min(swinging, key=lambda rest: np.linalg.norm((rest.q - first.q) / sampler.sizes), default=None)
 
@@ -295,12 +295,12 @@ class Vibration:
             found = np.array([sampler.core.evaluate(falls, state) for state in states])
         except (MotionError, ModelError):  # nothing has such a mass, or stiffness
             return False
-        return bool(np.ptp(found, axis=0).max(initial=0.0) <= _NOTHING * np.abs(found).max(initial=0.0))
+        return bool(np.ptp(found, axis=0).max(initial=0.0) <= NOTHING * np.abs(found).max(initial=0.0))
 
     def _linear_at_start(self, values: Mapping[str, float]) -> Array:
         """The matrix of the linear equations at the start's place, at rest, with some values of parameters."""
         first = self.sampler.first
-        return _space(self.sampler.core, self.sampler.moved(first, first.q, {}, p=self._bound(values))).a
+        return linear_equations(self.sampler.core, self.sampler.moved(first, first.q, {}, p=self._bound(values))).a
 
     def quantities(self, row: Array) -> Mapping[str, float]:
         """What it has with other parameters; NaN where it is none."""
@@ -315,7 +315,7 @@ class Vibration:
         if a is not None and self.alone:
             a = self._part(a)
         if a is not None and len(a) > 2:
-            return _of_several(_squares(a))
+            return of_several(squares_of(a))
         with np.errstate(all="ignore"):
             natural = np.sqrt(np.linalg.det(a)) if a is not None else np.nan
             damping = -np.trace(a) / (2 * natural) if a is not None else np.nan
@@ -330,21 +330,21 @@ class Vibration:
     def _forced(self, a: Array | None, rest: State | None, row: Array) -> dict[str, float]:
         """The amplitudes of what moves freely."""
         values = dict(zip(self.parameters, row.tolist(), strict=True))
-        free = _space(self.sampler.core, self.rest).free
+        free = linear_equations(self.sampler.core, self.rest).free
         if a is None or rest is None or not self.drive or len(a) != 2 * len(free):
             return {}
         return {f"{AMPLITUDE}{name}": x for name, x in forced_amplitudes(self.sampler, rest, a, free, values, self.drive).items()}
 
     def _part(self, a: Array) -> Array | None:
         """The rows of linear equations that are of one coordinate alone; None where others have to do with it, or it does not swing."""
-        free = _space(self.sampler.core, self.rest).free
+        free = linear_equations(self.sampler.core, self.rest).free
         if self.alone not in free or len(a) != 2 * len(free):
             return None
         own = [free.index(self.alone), free.index(self.alone) + len(free)]
         part, others = a[np.ix_(own, own)], np.delete(a[own[1]], own)
         sizes = np.delete(np.tile(self.sampler.sizes[[self.sampler.names.index(name) for name in free]], 2), own)
         scale = np.abs(part[1]).max() * self.sampler.sizes[self.sampler.names.index(self.alone)]
-        return part if np.all(np.abs(others) * sizes <= _NOTHING * scale) and _swings(part) else None
+        return part if np.all(np.abs(others) * sizes <= NOTHING * scale) and swings(part) else None
 
     def _linear(self, row: Array) -> tuple[Array, State] | None:
         """The matrix of the linear equations at rest with other parameters, and where that is."""
@@ -354,7 +354,7 @@ class Vibration:
                 there = self._at_rest(self._placed(self.sampler.at_moment_with(values)))
             except (MotionError, ModelError, ModelProblem, SingularConfiguration, ValueError):
                 return None
-            return (a, there) if there and self._is_there(there) and _swings(a := _space(core, there).a) else None
+            return (a, there) if there and self._is_there(there) and swings(a := linear_equations(core, there).a) else None
         p = core.bind(values | self._amplitude)
         for stages in (1, _STAGES):
             state = rest
@@ -369,7 +369,7 @@ class Vibration:
                     break
             if state is None or not self._is_there(state):
                 continue
-            if _swings(a := _space(core, state).a) and self._is_reached(values, state):
+            if swings(a := linear_equations(core, state).a) and self._is_reached(values, state):
                 return a, state
         return None
 
@@ -379,48 +379,3 @@ class Vibration:
             return not self.sampler.loops or self.sampler.joined(self.sampler.started(values), rest)
         except (MotionError, ModelProblem):
             return False
-
-
-def _space(core: CompiledModel, state: State) -> StateSpace:
-    """The linear equations of perturbations of a state in which what is locked stays where it is."""
-    space = state_space(core, state)
-    kept = [i for i, name in enumerate(space.states) if name not in space.coordinates or space.a[i].any()]
-    return replace(space, states=tuple(space.states[i] for i in kept), a=space.a[np.ix_(kept, kept)])
-
-
-def _swings(a: Array) -> bool:
-    """Whether linear equations are those of a vibration."""
-    return bool(np.linalg.det(a) > 0) if len(a) == 2 else len(_squares(a)) > 0
-
-
-def _squares(a: Array) -> Array:
-    """The squares of the natural frequencies of the linear equations of several freedoms, those without their damping, the least first and
-    without those that are 0; none where it is not stable, or rates bind it otherwise than dampers do. Dampers that are far stiffer than all
-    springs let nothing slide past each other: then those of what swings beside them."""
-    n = len(a) // 2
-    if len(a) != 2 * n:
-        return np.zeros(0)
-    found, fading = np.linalg.eigvals(-a[n:, :n]), np.linalg.eigvals(-a[n:, n:])
-    most = float(np.abs(found).max())
-    if most > 0 and np.abs(fading).max() > _WELDS * np.sqrt(most):
-        swinging = np.linalg.eigvals(a)
-        return np.sort(np.abs(swinging[swinging.imag > _LASTING * np.abs(swinging.real)]) ** 2)
-    both = np.linalg.eigvals(a)
-    if most > 0 and np.abs(both.real).max() <= np.sqrt(_NOTHING * most):  # gyroscopic forces alone make nothing fade
-        return np.sort(both.imag[both.imag > np.sqrt(_NOTHING * most)] ** 2)
-    # The rates at which dampers make it fade are real; those of gyroscopic forces are imaginary.
-    if (
-        max(np.abs(fading.imag).max(), -fading.real.min()) ** 2 > _NOTHING * most
-        or np.abs(found.imag).max() > _NOTHING * most
-        or found.real.min() < -_NOTHING * most
-    ):
-        return np.zeros(0)
-    return np.sort(found.real[found.real > _NOTHING * most])
-
-
-def _of_several(squares: Array) -> dict[str, float]:
-    """Natural frequencies by their size; that alone, where there is one."""
-    found = np.sqrt(squares).tolist()
-    if len(found) == 1:
-        return {"natural frequency": found[0], "frequency": found[0] / (2 * np.pi), "period": 2 * np.pi / found[0]}
-    return {f"natural frequency {i}": each for i, each in enumerate(found, 1)}
