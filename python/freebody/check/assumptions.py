@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,9 +22,6 @@ from .figures import figures, rounding
 from .hypotheses import SMALL
 from .language.statements import Equation, symbols_in, terms
 from .residual import HOLDS, OFTEN, REACH, SLIGHT, magnitude, residual, unreached
-
-if TYPE_CHECKING:
-    pass
 
 FROM_START = "motions from the start of this model"
 FROM_REST = f"{FROM_START} at rest"

@@ -12,17 +12,19 @@ from freebody.core import Array, State, quote
 if TYPE_CHECKING:
     from .asked_model import AskedModel
 
-_TIMES = np.array([0.13, 0.71, 1.6, 2.3, 3.7, 4.1, 5.9, 7.7])  # in typical ones of the model, at which it is felt what drives
-_PART = 1e-3  # of what drives, by which slopes of fourth order are taken
-_PURE = 1e-8  # of a harmonic, that the others may be
+_TIMES = np.array([0.13, 0.71, 1.6, 2.3, 3.7, 4.1, 5.9, 7.7])
+"""When accelerations are looked at, in times typical of the model: at no even spacing, so that no harmonic is taken for another."""
+_PART = 1e-3  # of the drive, by which its slope is taken, to fourth order
+_PURE = 1e-8  # of the harmonic, that may be left beside it
 
 
 def forced_amplitudes(
     model: AskedModel, rest: State, a: Array, free: Sequence[str], values: Mapping[str, float], drive: str
 ) -> dict[str, float]:
-    """How far the ``free`` coordinates go to and fro about a place of rest, of which ``a`` is the matrix of the linear equations
-    d(x, x')/dt = a (x, x'), by a parameter ``drive`` that is small; none where what it does is not
-    harmonic with a parameter as its frequency."""
+    """The amplitudes of the ``free`` coordinates, in m or rad, in the steady state about a place of ``rest``, to first order in the
+    parameter ``drive``, at the ``values`` of all: |(iΩ − A)⁻¹ (0, f)|, where d(x, ẋ)/dt = A (x, ẋ), shape (2n, 2n), are the linear
+    equations at rest and f e^{iΩt}, f of shape (n,), are the accelerations that the drive gives there. Ω is the parameter with which these
+    are harmonic, beside a mean; nothing is returned where none is."""
 
     def at(part: float, late: float) -> State:
         p = model.core.bind({**model.free_parameters, **values, drive: part * values[drive]})
@@ -35,12 +37,12 @@ def forced_amplitudes(
         return (more - less) / (2 * part)
 
     def harmonic(frequency: float) -> tuple[float, float, Array]:
-        """What is left of what is felt beside a mean value and a harmonic of a frequency, and that."""
+        """What is left of the accelerations beside a mean and a harmonic, its frequency, and its complex amplitudes."""
         basis = np.array([np.ones(len(late)), np.cos(frequency * late), np.sin(frequency * late)]).T
-        found = np.linalg.lstsq(basis, felt, rcond=None)[0]
-        return float(np.abs(felt - basis @ found).max()), frequency, found[1] - 1j * found[2]
+        found = np.linalg.lstsq(basis, given, rcond=None)[0]
+        return float(np.abs(given - basis @ found).max()), frequency, found[1] - 1j * found[2]
 
-    felt = (4 * slope(_PART / 2) - slope(_PART)) / 3
+    given = (4 * slope(_PART / 2) - slope(_PART)) / 3
     left, frequency, force = min(map(harmonic, {abs(x) for x in values.values() if x}), key=lambda each: each[0])
     if left > _PURE * np.abs(force).max():
         return {}

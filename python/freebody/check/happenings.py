@@ -103,6 +103,11 @@ class Happenings:
         return None
 
     @property
+    def begins(self) -> float:
+        """The moment of which is spoken, else when the run starts, s."""
+        return self._sampler.own.t if self._sampler.moment else float(self.run.t[0])
+
+    @property
     def switches(self) -> tuple[str, ...]:
         """What switches on the model's own run for the first time after its moment, by its kind and part."""
         run = self.run

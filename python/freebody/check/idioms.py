@@ -19,9 +19,6 @@ _ABROAD = {
 _LETTER = r"\\?[A-Za-zα-ωΑ-Ω]+(?:_\w+)?"
 _SHORT = r"(?:\\[A-Za-z]+|[^\W\d_]\w{0,2})(?:_\{?\w+\}?)?(?!\w)"
 _NAME = rf"({_LETTER})"
-_FROM_REST = r"(?:(?:starting|released)\s+)?from\s+rest"
-_RATE = r"(?:\\d*dot\s*\{?\\?\w+\}?|[^\W\d]\w*(?:['′″]+|[\u0307\u0308]\w*))"
-_SUM = r"\$?(?:Σ|∑|\\Sigma|\\sum)"
 _PUT: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\bsqrt(\d+)\b", r"sqrt(\1)"),
     # m_1, m_2 → 0: each of them

@@ -153,7 +153,7 @@ def phase(checker: Checker, words: str) -> Phase | None:
         return locking
     if kind == "touch" and lasts and place is None and not (checker.sampler.spec["contacts"] or checker.sampler.spec["stops"]):
         return None  # what is on another without a contact is held there
-    run, begins = checker.happens.run, checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
+    run, begins = checker.happens.run, checker.happens.begins
     settled = [f"rest {change.of[0]}" for change in run.changes if change.kind == "rest" and change.t > begins]
     if rests and settled:
         return Phase(False, tuple(dict.fromkeys(settled)), False)
@@ -242,8 +242,7 @@ def _held_by(checker: Checker, words: str, limits: Mapping[str, Any]) -> Phase |
     name = next((name for name in said if name in limits), None)
     if name is None:
         return None
-    begins = checker.sampler.own.t if checker.sampler.moment else checker.happens.run.t[0]
-    firsts = _firsts(checker.happens.run, begins, "touch", (), False)
+    firsts = _firsts(checker.happens.run, checker.happens.begins, "touch", (), False)
     changes = tuple(change for change, (_, part) in firsts.items() if part == name)[-1:]
     at_first = limits[name].state != "open"
     return Phase(at_first, changes, False) if at_first or changes else None

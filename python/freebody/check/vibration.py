@@ -98,7 +98,7 @@ class Vibration:
         return Vibration(self.sampler, self.alone, places)
 
     def driven(self, amplitudes: Mapping[str, str]) -> Vibration:
-        """That which is forced, in the steady state: what ``amplitudes`` are of by their names."""
+        """The same, forced, in a steady state; ``amplitudes``: names of such, with the coordinates of which they are."""
         return Vibration(self.sampler, self.alone, self.places, amplitudes)
 
     def meanings(self, asked: Iterable[str]) -> dict[str, OfVibration]:
