@@ -99,7 +99,7 @@ def said_terms(equation: Equation, values: Mapping[str, Array]) -> list[Term]:
     return [(signed(sign, node), sign * sampled(node, values)) for sign, node in found]
 
 
-def signed(sign: int, node: Node) -> Node:
+def signed(sign: float, node: Node) -> Node:
     """A term with its sign."""
     return node if sign > 0 else Negative(node)
 

@@ -286,7 +286,8 @@ class FittedEdits:
             yield Edit("missing term", None, term, exchange(equation, required.node, more(required.node, term)), size)
 
     def _part_of_letter(self, equation: Equation, required: RequiredTerm) -> Iterator[Edit]:
-        """A letter that is only a part of what stands there, as of a stretch or an amplitude, A for A + F/k, or of what presses, P for P + m a."""
+        """A letter that is only a part of what should stand in its place: of a stretch or an amplitude, A for A + F/k; of what presses, P for
+        P + m a."""
         its = dimension(required.node, self.vocabulary.dimensions)
         if its not in (LENGTH, NUMBER_ONLY, FORCE):
             return

@@ -18,7 +18,7 @@ from .wording import BLOW
 if TYPE_CHECKING:
     from .api import Checker
 
-_ENDS = re.compile(r"\b(?:end|start|instant|moment|begins?|ends?|stops?|ceases?) of\b|\b(?:begin|start|end|stop|cease)s?\b")
+_ENDS = re.compile(r"\b(?:instant|moment) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
 _BLOW = re.compile(BLOW)
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
@@ -26,7 +26,8 @@ _SAME_TIME = 1e-6  # of a run: by less the moments of two runs of one motion dif
 
 
 class Happenings:
-    """Those of the model of which a checker asks, on its ``run`` from the moment of which is spoken."""
+    """What happens on the ``run`` of a checker's model, by name. The run starts where the model does; what is asked of it is so from
+    ``begins`` on."""
 
     def __init__(self, checker: Checker) -> None:
         self._checker, self._sampler, self._mechanism = checker, checker.sampler, checker.mechanism
@@ -111,7 +112,7 @@ class Happenings:
     def switches(self) -> tuple[str, ...]:
         """What switches on the model's own run for the first time after its moment, by its kind and part."""
         run = self.run
-        begins = self._sampler.own.t + _SAME_TIME * float(run.outcome.t) if self._sampler.moment else run.t[0]
+        begins = self.begins + (_SAME_TIME * float(run.outcome.t) if self._sampler.moment else 0.0)
         first: dict[str, float] = {}
         for change in run.changes:
             for part in change.of:
@@ -168,8 +169,14 @@ class Happenings:
         open_ended = self._mechanism.run_numbers().until is None and not any(change.t > run.t[0] for change in run.changes)
         may_switch = bool(self._events) or bool(self._sampler.core.instant(self._sampler.own).limits)
         if open_ended and may_switch:
-            return self._runs.get(PATIENT) or self._runs.setdefault(PATIENT, self._mechanism.simulate(PATIENT))
+            return self._run_until(PATIENT)
         return run
+
+    def _run_until(self, until: float | None) -> Any:
+        """The model's own run up to a time, s; as long as the model says where that is None."""
+        if until not in self._runs:
+            self._runs[until] = self._mechanism.simulate(until)
+        return self._runs[until]
 
     def moment(self, name: str) -> tuple[Any, float]:
         """The model's own run, and the time of a moment: ``start``, ``end``, an event, or a time like ``0.3 s``."""
@@ -179,7 +186,7 @@ class Happenings:
             until = until and max(until, quantity("at", name, "s"))
         if until and name in events:
             until = PATIENT  # it may come late
-        run = self._runs.get(until) or self._runs.setdefault(until, self._mechanism.simulate(until))
+        run = self._run_until(until)
         times = {"start": float(run.t[0]), "end": float(run.outcome.t)}
         times |= {event.name: event.t for event in reversed(run.events)}
         try:

@@ -10,8 +10,9 @@ import numpy as np
 
 from freebody.symbolic.dimensions import INERTIA, LENGTH, MASS, NUMBER_ONLY, TIME
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Mul, Negative, Node, Num, Quotient, Sym
+from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym
 
+from .beside import signed
 from .coefficients import multiplied
 from .coefficients import product as product_of
 from .language.statements import Equation, symbols_in
@@ -50,8 +51,8 @@ def _squared(powers: Mapping[Node, int]) -> list[Node]:
 
 
 def shares(required: RequiredTerm, vocabulary: Vocabulary, values: Mapping[str, Array]) -> Iterator[Node]:
-    """What only a share stays of: that of what moved before an impact beside all that moves on, m/(m + M) or J/(I + J + m l²); that of one mass in a force
-    on all; that of a mass or a stiffness that works through another, M/(m + M)."""
+    """A term times the share that it lacks: of what moved before an impact among all that moves on, m/(m + M) or J/(I + J + m l²); of one
+    mass among all that a force accelerates; of one of two masses or stiffnesses in series, M/(m + M)."""
     node, factor, known = required.node, required.factor, {*vocabulary.parameters}
     if not node.symbols <= known or factor is None or factor.ndim != 1 or not np.all((factor > 0) & (factor < 1)):
         return
@@ -110,7 +111,7 @@ def of_whole(equation: Equation, missing: Array, vocabulary: Vocabulary, values:
         if np.isfinite(needed).all() and np.all(needed > 0):
             for some in _adding_up(rows, needed):
                 term = Mul((Add(tuple(found[i] for i in some)), move))
-                yield term if sign > 0 else Negative(term)
+                yield signed(sign, term)
 
 
 def _adding_up(rows: Array, needed: Array) -> Iterator[tuple[int, ...]]:

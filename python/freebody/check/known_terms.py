@@ -68,8 +68,7 @@ class KnownTerms:
             calls = [n for n in calls_in(equation) if n.name not in ("sin", "cos") and fixed(n)]
             every = known.shapes(self.dimension_of(equation), moving, self._angles(equation), calls)
             brackets = [n for part in walk(equation) if isinstance(part, Mul) for n in part.factors if isinstance(n, Add)]
-            falls = [n for n in dict.fromkeys(calls_in(equation)) if n.name == "cos"]  # from rest there
-            brackets += [Add((_ONE, Negative(n))) for n in falls if Add((_ONE, Negative(n))) not in brackets]
+            brackets += [Add((_ONE, Negative(n))) for n in calls_in(equation) if n.name == "cos"]  # from rest there
             every = chain(every, ((n,) for n in dict.fromkeys(brackets) if n not in sums))  # 1 − cos θ of what falls
             shapes = (shape for shape in every if not any(map(self.has_number, shape)))
             self._terms[equation] = Monomials(
@@ -113,7 +112,7 @@ class KnownTerms:
         return self._made[key]
 
     def has_number(self, part: Node) -> bool:
-        """The same of one in a sum."""
+        """Whether a part is a sine or cosine that has one value on all states, or a sum in which one is."""
         return any(map(self._is_number, walk(part) if isinstance(part, Add) else (part,)))
 
     def _is_number(self, factor: Node) -> bool:

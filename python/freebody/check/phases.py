@@ -249,7 +249,8 @@ def _held_by(checker: Checker, words: str, limits: Mapping[str, Any]) -> Phase |
 
 
 def _locking(checker: Checker, kind: str, lasts: bool, words: str) -> Phase | None:
-    """What sticks where an event locks it, and slides before that and where one unlocks it; None where not one event alone locks something."""
+    """What sticks from an event on that locks it, and slides before that, or from one on that unlocks it; None unless exactly one event
+    locks something."""
     events = checker.sampler.spec["events"]
     locks, unlocks = ([event["name"] for event in events if does(event, what)] for what in ("lock", "unlock"))
     if len(locks) != 1:

@@ -14,6 +14,7 @@ from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, TIME, Dimension
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, exchange, unsigned
 
+from .beside import signed
 from .coefficients import more, multiplied, product, snapped
 from .edits import Edit, depth
 from .language.dimensions import dimension
@@ -39,8 +40,7 @@ def _root(square: Node) -> Node | None:
 
 def _times(both: Mul, call: Fn, sign: float) -> Node:
     """A product with a sine or cosine, and a sign."""
-    whole = Mul((*both.factors, call))
-    return whole if sign > 0 else Negative(whole)
+    return signed(sign, Mul((*both.factors, call)))
 
 
 @dataclass
@@ -92,35 +92,39 @@ class SquareEdits:
                     squares = (power_of(unsigned(node), 2) for node in (required.node, nodes[place]))
                     yield Fn("sqrt", (Add((*squares, written(sign * number, powers))),), span=required.node.span)
 
+    def _speeds_squared(self, node: Add) -> list[Node]:
+        """The speeds of which terms of a sum are the squares."""
+        speed = _SPEEDS[0].times(_SPEEDS[0])
+        squares = (term for term in node.terms if dimension(term, self.vocabulary.dimensions) == speed)
+        return [root for root in map(_root, squares) if root is not None]
+
     def crossed(self, node: Add, missing: Array) -> Iterator[Node]:
         """What the square of a sum of two velocities has beside their squares: that of a point by its components, and that of what turns about it."""
-        speed = _SPEEDS[0].times(_SPEEDS[0])
-        roots = [_root(term) for term in node.terms if dimension(term, self.vocabulary.dimensions) == speed]
+        roots = self._speeds_squared(node)
         rates = [n for n in roots if isinstance(n, Sym) and n.dots]
-        for whole in (n for n in roots if n is not None and n not in rates):
+        for whole in (n for n in roots if n not in rates):
             for (one, other), angle in product_of(permutations(rates, 2), self.vocabulary.angles):
                 parts = [Mul((one, Fn("cos", (angle,)))), Mul((other, Fn("sin", (angle,))))]
                 along, across = (sampled(Mul((Num(2.0, "2"), whole, part)), self.values) for part in parts)
                 for signs in product_of((1, -1), repeat=2):
                     if np.abs(signs[0] * along + signs[1] * across - missing).max() <= _NEARLY * np.abs(missing).max():
-                        both = Add(tuple(part if sign > 0 else Negative(part) for sign, part in zip(signs, parts, strict=True)))
+                        both = Add(tuple(map(signed, signs, parts)))
                         yield Mul((Num(2.0, "2"), whole, both))
 
     def at_an_angle(self, node: Add, missing: Array) -> Iterator[Node]:
         """What the law of cosines has beside the squares of two speeds, of which the directions have an angle between them."""
-        speed, known = _SPEEDS[0].times(_SPEEDS[0]), self.vocabulary
-        roots = [_root(term) for term in node.terms if dimension(term, known.dimensions) == speed]
+        known = self.vocabulary
         angles = [n for n in known.angles if n.key in self.values and not (n in known.others and n not in known.letters)][
             :_MOST_ANGLES
         ]
-        for pair in (pair for pair in combinations(roots, 2) if None not in pair):
-            both = Mul((Num(2.0, "2"), *pair))  # type: ignore[arg-type]
+        for pair in combinations(self._speeds_squared(node), 2):
+            both = Mul((Num(2.0, "2"), *pair))
             cosine = missing / sampled(both, self.values)
             if not np.isfinite(cosine).all() or np.abs(cosine).max() > 1 + _NEARLY:
                 continue
             for some in (some for count in (1, 2, 3) for some in combinations(angles, count)):
                 for signs in product_of((1, -1), repeat=len(some) - 1):
-                    parts = (some[0], *(n if sign > 0 else Negative(n) for n, sign in zip(some[1:], signs, strict=True)))
+                    parts = (some[0], *map(signed, signs, some[1:]))
                     angle = parts[0] if len(parts) == 1 else Add(parts)
                     for name, sign in product_of(("cos", "sin"), (1.0, -1.0)):
                         call = Fn(name, (angle,))

@@ -58,25 +58,27 @@ class Subject:
         return not self._slopes <= {*walk(after)} or (still(after) and not still(self.equation))
 
     @cached_property
+    def _sides(self) -> set[Node]:
+        """Both sides, without their signs."""
+        return {unsigned(side) for side in (self.equation.left, self.equation.right)}
+
+    @cached_property
     def answers(self) -> set[Node]:
         """The symbols that stand alone on a side; of two those that are no parameters, if one is none."""
-        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
-        alone = {side for side in sides if isinstance(side, Sym)}
+        alone = {side for side in self._sides if isinstance(side, Sym)}
         return {side for side in alone if side not in self._known.parameters} or alone
 
     @cached_property
     def answer_sides(self) -> set[Node]:
         """The same, and powers of one: ``ω_n²``."""
-        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
-        powers = {side for side in sides if isinstance(side, Pow) and isinstance(side.base, Sym)}
+        powers = {side for side in self._sides if isinstance(side, Pow) and isinstance(side.base, Sym)}
         return self.answers | {side for side in powers if side.base not in self._known.parameters}
 
     @cached_property
     def _slopes(self) -> set[Node]:
         """Derivatives by what moves that stand alone on a side, ``dv/dφ``."""
-        sides = {unsigned(side) for side in (self.equation.left, self.equation.right)}
         is_rate = lambda n: isinstance(n, Sym) and n.dots > 0
-        return {side for side in sides if isinstance(side, Quotient) and is_rate(side.top) and is_rate(side.bottom)}
+        return {side for side in self._sides if isinstance(side, Quotient) and is_rate(side.top) and is_rate(side.bottom)}
 
     def is_no_answer(self, after: Equation) -> bool:
         """Whether what an equation is solved for, or a power of it, or what that is the derivative of, has come to its other side."""

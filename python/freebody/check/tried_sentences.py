@@ -39,7 +39,7 @@ LIKELY = 2.0
 _LONG = 4  # letters of a word that may name what happens
 _EMPTY = re.compile(r"\s*if\s*:")
 _SOMEWHERE = re.compile(
-    r"\b(?:about|around)\b(?! (?:the |its )?(?:(?:static |position of )?equilibrium|(?:place|position) of (?:rest|equilibrium)|rest|level))"
+    r"\b(?:about|around)\b(?! (?:the |its )?(?:(?:static )?equilibrium|(?:place|position) of (?:rest|equilibrium)|rest|level))"
 )
 """Small motions about some other place."""
 _NAME = re.compile(r"\\?[^\W\d]\w*")
@@ -232,30 +232,30 @@ class _Readings:
 
     @cached_property
     def _asked(self) -> list[str]:
-        """Those that are short, as a label is, or begin as a circumstance does."""
-        return [words for words in self.said.beside if len(words.split()) <= SHORT or _first(words) in CIRCUMSTANCES]
+        """Those that are short or begin as a circumstance does, and are no label by their form."""
+        likely = (words for words in self.said.beside if len(words.split()) <= SHORT or _first(words) in CIRCUMSTANCES)
+        return [words for words in likely if not _is_label(words)]
 
     @cached_property
     def _states(self) -> list[str]:
         """Those that are read as they stand: ``rolling``, ``on the ramp``."""
-        asked = [words for words in self._asked if not _is_label(words) and kind_of(words) and not self._found(words)]
+        asked = [words for words in self._asked if kind_of(words) and not self._found(words)]
         return [*asked, *filter(_is_label, self.said.beside)]
 
     @property
     def _is_clear(self) -> bool:
         """Whether all that begins as a circumstance does is understood."""
-        open_ones = (words for words in self._asked if _first(words) in CIRCUMSTANCES and not _is_label(words))
+        open_ones = (words for words in self._asked if _first(words) in CIRCUMSTANCES)
         return all(self._found(words) or words in self._states for words in open_ones)
 
     def _surely(self) -> list[list[str]]:
         """For each of these that is a condition the ways to read it."""
-        found = [self._found(words) for words in self._asked if not _is_label(words)]
+        found = [self._found(words) for words in self._asked]
         return [*filter(None, found), *([words[0].lower() + words[1:]] for words in self._states)]
 
     def _perhaps(self) -> list[str]:
         """What other words may say."""
-        asked = {words for words in self._asked if not _is_label(words)}
-        others = [condition for words in self.said.beside if words not in asked for condition in self._found(words)]
+        others = [condition for words in self.said.beside if words not in self._asked for condition in self._found(words)]
         return [*dict.fromkeys([*others, *(each for words in self.said.beside for each in self._named(words))])]
 
     # -- what words say
