@@ -50,6 +50,10 @@ impl<S: Scalar> Vec2<S> {
     pub fn norm(self) -> S {
         self.dot(self).sqrt()
     }
+    /// The unit vector along it.
+    pub fn unit(self) -> Self {
+        self * (S::one() / self.norm())
+    }
 }
 
 impl<S: Scalar> Add for Vec2<S> {

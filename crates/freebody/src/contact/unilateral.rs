@@ -36,7 +36,8 @@ impl Gap {
         }
     }
 
-    /// Both: what they have in common is found once.
+    /// [`Gap::gap`], m, or rad for a stop of an angle, and [`Gap::slide`], m, where there can be friction: the surface that they share is
+    /// evaluated once.
     pub fn gap_and_slide<T: Scalar>(
         &self,
         m: &Mechanism,

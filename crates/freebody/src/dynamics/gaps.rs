@@ -19,7 +19,7 @@ const GRAZE: f64 = 1e-9;
 const ONE_GAP: f64 = 1e-10;
 /// Distance, over the characteristic length, up to which two corners meet, whichever of them tells it.
 const MEET: f64 = 1e-9;
-/// Gap, over the characteristic length, in which what a formula of it sinks a side, or lets it lack, may count.
+/// Gap, over the characteristic length, below which the small offsets of its formula, as of sides that are set back, may count.
 const AS_GOOD_AS_CLOSED: f64 = 1e-6;
 /// Distance, over the characteristic length, from which bodies count as apart without a look at their outlines.
 const CLEARLY_APART: f64 = 0.1;
@@ -234,8 +234,8 @@ impl Workspace<'_> {
         }
     }
 
-    /// Whether an open unilateral constraint with a gap, m, at one end of a motion stays open in all of it, which goes from its middle
-    /// to both ends.
+    /// Whether an open unilateral constraint stays open throughout a step, at one end of which its gap is `gap`, m; `travel` bounds how far
+    /// bodies go from the middle of the step. May be false where it does.
     pub fn stays_open(&self, l: usize, gap: f64, travel: &Travel) -> bool {
         let constraint = &self.m.unilateral[l];
         let (ends, reaches) = (self.m.groups[constraint.group].ends, self.reaches[constraint.group]);

@@ -142,7 +142,7 @@ struct Placed {
     u: Vec<f64>,
     /// Whether the kinematics are of these numbers and this state.
     is_known: bool,
-    /// Whether its motion is what was solved last.
+    /// Whether the last solution is the motion at this state, in the present mode.
     is_solved: bool,
 }
 

@@ -87,8 +87,8 @@ impl HybridSystem<'_> {
         is_bounded
     }
 
-    /// The switching functions that may come to zero in a step at whose start they have the values `here`: all but those of contacts
-    /// that are open, and not as near as their bodies go.
+    /// The switching functions that may come to zero in a step at whose start they have the values `here`: all but those of open
+    /// contacts whose gap is wider than their bodies can cross in the step.
     pub(super) fn near_zero(&mut self, on: &Segment, here: &[f64]) -> Vec<usize> {
         self.follow(on);
         let stays = |(i, function): &(usize, &SwitchingFunction)| match function {

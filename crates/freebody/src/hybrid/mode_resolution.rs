@@ -333,7 +333,7 @@ impl HybridSystem<'_> {
         let contacts = self.workspace.closed_contacts(constraints.to_vec())?;
         let slips = contacts.slips();
         let mut decision = self.workspace.decide_contact_modes(&contacts, &slips, tolerances)?;
-        // In a pile, where many a touch is redundant, what the first does not decide is in doubt for ever.
+        // In a pile many contacts are redundant: what the first look ahead leaves in doubt, the others leave, too.
         let looks = if self.is_pile(&contacts) { 1 } else { LOOKAHEADS.len() };
         for moments in &LOOKAHEADS[..looks] {
             if !decision.is_doubtful() {

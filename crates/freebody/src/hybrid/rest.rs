@@ -180,8 +180,8 @@ impl HybridSystem<'_> {
         is_pile(contacts.constraints.len() + self.mode.contacts.iter().enumerate().filter(held).count())
     }
 
-    /// The restitution of each contact that is closed: none in a pile where it would not fly for longer than a moment, nor
-    /// where it has not since it collided last, as what rattles between others.
+    /// The restitution of each closed contact. In a pile it is 0 where the contact would not fly for longer than a moment, and where its
+    /// last collision was no more than a moment ago, as of a body that rattles between others.
     pub(super) fn restitutions(&self, t: f64, contacts: &ClosedContacts) -> Vec<f64> {
         let (slowest, moment) = (0.5 * SHORTEST_IN_PILE * self.speed, SHORTEST_IN_PILE * self.time);
         let returns = |l: usize| t - self.collided[self.workspace.m.unilateral[l].group] <= moment;

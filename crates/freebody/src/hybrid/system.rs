@@ -73,7 +73,7 @@ pub struct HybridSystem<'m> {
     pub(super) spent: Vec<Spent>,
     /// After the last bounce: what collided and what comes back first, and how long its flight lasts, s.
     pub(super) bounce_interval: Option<(Vec<usize>, f64)>,
-    /// Of every contact, stop and string when it collided last, s.
+    /// The time of the last collision of every contact, stop and string, s; −∞ before the first.
     pub(super) collided: Vec<f64>,
     /// Sizes of forces, N, and of speeds, m/s.
     pub(super) strength: f64,
@@ -235,10 +235,16 @@ impl<'m> HybridSystem<'m> {
     fn learn_independence(&mut self, t: f64, y: &[f64]) {
         let n = self.workspace.m.freedom();
         if self.independence == 0.0 || self.independence_at != y[..n] {
-            self.independence = self.independence_of(t, y);
-            self.independence_at.clear();
-            self.independence_at.extend_from_slice(&y[..n]);
+            let found = self.independence_of(t, y);
+            self.note_independence(found, &y[..n]);
         }
+    }
+
+    /// Notes the independence of the closing rows at coordinates.
+    fn note_independence(&mut self, found: f64, q: &[f64]) {
+        self.independence = found;
+        self.independence_at.clear();
+        self.independence_at.extend_from_slice(q);
     }
 
     fn independence_of(&mut self, t: f64, y: &[f64]) -> f64 {
@@ -330,9 +336,8 @@ impl System for HybridSystem<'_> {
         let (q, rest) = y.split_at_mut(n);
         let moved = self.workspace.project_positions_with(&self.mode, t, q, &rest[..n], &self.locked)?;
         self.worst_gap = self.worst_gap.max(self.workspace.widest_gap());
-        self.independence = self.workspace.independence();
-        self.independence_at.clear();
-        self.independence_at.extend_from_slice(q);
+        let found = self.workspace.independence();
+        self.note_independence(found, q);
         let turned = self.workspace.close_rates(&mut rest[..n])?;
         self.note_taut_segments();
         self.check_dead_position(t, y)?;

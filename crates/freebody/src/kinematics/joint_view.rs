@@ -86,7 +86,7 @@ impl<'a, T: Scalar> JointView<'a, T> {
         match &self.curve {
             Some(curve) => {
                 let (_, slope) = curve.at(s);
-                slope * (T::one() / slope.norm())
+                slope.unit()
             }
             None => vec2(T::one(), T::zero()),
         }

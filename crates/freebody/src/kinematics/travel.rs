@@ -79,7 +79,7 @@ impl Travel {
 
     /// How far the points of a body within a reach of its joint origin go at most, m.
     pub fn way_within(&self, body: usize, reach: f64) -> f64 {
-        // What does not turn may be as large as it likes.
+        // A body that does not turn may have an infinite reach: 0 · ∞ is no number.
         let swing = if self.turn[body] > 0.0 { self.turn[body] * reach } else { 0.0 };
         self.way[body] + swing
     }

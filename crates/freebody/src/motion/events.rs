@@ -188,8 +188,11 @@ impl EventDetector {
         probe: &mut Probe,
         of: &[usize],
     ) -> Result<Vec<(usize, [f64; N])>, DynamicsError> {
+        if of.is_empty() {
+            return Ok(vec![]);
+        }
         let mut samples: Vec<(usize, [f64; N])> = of.iter().map(|&i| (i, [0.0; N])).collect();
-        for j in 0..if of.is_empty() { 0 } else { N } {
+        for j in 0..N {
             let t = probe.time(self.points[j * (SAMPLES - 1) / (N - 1)]);
             let values = probe.values(of, t)?;
             samples.iter_mut().for_each(|(i, samples)| samples[j] = values[*i]);
@@ -202,10 +205,11 @@ impl EventDetector {
         Ok(samples)
     }
 
-    /// Until when function `i` needs to be looked at, a guard until the second of those known so far falls through zero: what acts, and what
-    /// comes next, is found by then.
+    /// The time up to which function `i` must be searched. A guard need not be searched beyond the second fall of a guard through zero
+    /// found so far: the first is what acts, and what comes next is known by then.
     fn decided(&self, i: usize, marks: &[Mark], on: &Segment) -> f64 {
-        let (length, never) = (on.t1 - on.t0, f64::INFINITY * (on.t1 - on.t0));
+        let length = on.t1 - on.t0;
+        let never = f64::INFINITY.copysign(length);
         let falls =
             |mark: &&Mark| mark.kind == Kind::Crossing && mark.direction < 0 && self.memory[mark.index].is_guard;
         let earlier = |a: f64, b: f64| if (b - a) * length < 0.0 { b } else { a };

@@ -24,8 +24,8 @@ pub(super) struct Probe<'a> {
     /// Functions that are found together.
     together: &'a [usize],
     y: Vec<f64>,
-    /// The values of others, and of these, at the times, by their bits, at which they were asked for: many functions are halved at
-    /// the same.
+    /// Values by the bits of their time, and by whether they are of the functions found together: many functions are bisected at the
+    /// same times.
     known: HashMap<(u64, bool), Vec<f64>>,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Probe<'a> {
         (self.segment.t1 - self.segment.t0).signum()
     }
 
-    /// Values at a time, right for some functions, of which all are found together or none is.
+    /// The values at a time, of which only those of the functions `of` have a meaning; these are all found together, or none of them is.
     pub fn values(&mut self, of: &[usize], t: f64) -> Result<&[f64], DynamicsError> {
         let is_together = of.first().is_some_and(|i| self.together.contains(i));
         match self.known.entry((t.to_bits(), is_together)) {

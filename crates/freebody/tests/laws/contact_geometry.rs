@@ -226,13 +226,16 @@ fn gaps_are_distances() {
     });
 }
 
-/// A gap that is a distance changes by no more than the way that one of its bodies goes, while it is open.
+/// A gap that is a distance changes, while it is open, by no more than its disk is shifted.
 #[test]
 fn distances_change_no_faster_than_bodies_move() {
     let mut looked = 0;
     every_scene(|scene, there, rng| {
         let (m, touch) = (&scene.m, &scene.touch);
-        for _ in 0..if touch.is_a_distance() { 50 } else { 0 } {
+        if !touch.is_a_distance() {
+            return;
+        }
+        for _ in 0..50 {
             let (near, by) = (vec2(rng.about(2.5), rng.about(2.5)), vec2(rng.about(1.0), rng.about(1.0)));
             let from = scene.with_disk_at(there, near);
             let to = scene.with_disk_at(there, near + by);

@@ -272,17 +272,13 @@ impl Chain {
 fn behind<T: Scalar>(m: &Mechanism, poses: &impl Poses<T>, disk: &Disk, along: Vec2<T>) -> f64 {
     let Some(beside) = disk.beside else { return 0.0 };
     let (axes, along) = (turn(m, poses, m.body_of(disk.centre)).value(), along.value());
-    let rise = |next: usize| along.cross(axes.apply(unit((poses.arm(next) - poses.arm(disk.centre)).value())));
+    let rise = |next: usize| along.cross(axes.apply((poses.arm(next) - poses.arm(disk.centre)).value().unit()));
     beside.into_iter().map(|next| -rise(next)).filter(|&sine| sine > FLAT).fold(0.0, f64::max)
 }
 
 /// Direction, in their body's axes, from one site to another of the same body.
 fn way<T: Scalar>(poses: &impl Poses<T>, from: usize, to: usize) -> Vec2<T> {
-    unit(poses.arm(to) - poses.arm(from))
-}
-
-fn unit<T: Scalar>(v: Vec2<T>) -> Vec2<T> {
-    v * (T::one() / v.norm())
+    (poses.arm(to) - poses.arm(from)).unit()
 }
 
 /// The feature of least distance, the first of equals.

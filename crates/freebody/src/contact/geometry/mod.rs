@@ -38,7 +38,7 @@ impl ContactPair {
         self.gap_and_slide(m, poses, feature).1
     }
 
-    /// Both.
+    /// [`ContactPair::gap`], m, below 0 where disk and surface overlap, and [`ContactPair::slide`], m, from one evaluation of the surface.
     pub fn gap_and_slide<T: Scalar>(&self, m: &Mechanism, poses: &impl Poses<T>, feature: usize) -> (T, T) {
         let (surface, radius) = (self.local_surface(m, poses, feature), self.radius(poses));
         (surface.gap(radius), surface.slide(radius, self.bodies(m).map(|body| turn(m, poses, body).angle)))

@@ -34,7 +34,7 @@ impl Stretch {
             None => arm(self.ends[1]) - arm(self.ends[0]),
             Some(centre) => (arm(self.ends[end]) - arm(centre)).perp() * T::of(self.sense(arm, centre)),
         };
-        way * (T::one() / way.norm())
+        way.unit()
     }
 }
 

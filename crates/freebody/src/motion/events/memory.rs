@@ -42,7 +42,7 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Learns how large the function is on a step, and how it is watched there.
+    /// Takes samples on a step into the size of the function and, of a guard, its leeway and graze there.
     pub fn learn(&mut self, spec: EventSpec, rtol: f64, values: &[f64]) {
         self.size = values.iter().fold(self.size.max(spec.scale), |most, value| most.max(value.abs()));
         if self.is_guard {

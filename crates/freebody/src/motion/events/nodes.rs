@@ -39,9 +39,6 @@ impl EventDetector {
         let (t0, later) = (probe.segment.t0, probe.ahead());
         for x in extrema(&polynomial, 1.0 + PAST) {
             let t = probe.time(x);
-            if later * (t - until) > 0.0 {
-                break;
-            }
             if x <= 1.0 {
                 let value = probe.one(i, t)?;
                 nodes.push(Node { t, value, is_extremum: true });
@@ -51,10 +48,15 @@ impl EventDetector {
                 {
                     dip = value;
                 }
-            } else if past.is_none()
+            } else if until.is_infinite()
+                && past.is_none()
                 && value(&polynomial, x).abs() <= 2.0 * memory.graze.max(memory.doubt).max(TOUCH) * memory.size
             {
                 past = Some(Node { t, value: probe.one(i, t)?, is_extremum: true });
+            }
+            // The first one beyond closes the last interval.
+            if later * (t - until) > 0.0 {
+                break;
             }
         }
         // What touches zero on the loops may dip below it on the dense output, which is off them.

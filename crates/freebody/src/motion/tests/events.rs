@@ -337,6 +337,25 @@ proptest! {
     }
 }
 
+/// Of three guards one dips below zero between two samples, and turns only after two others have fallen: it is the first.
+#[test]
+fn no_dip_before_other_guards_is_missed() {
+    let acted = std::cell::RefCell::new(vec![]);
+    let mut system = clock()
+        .watching(&[-1, -1, -1], |_, y, g| {
+            let t = y[0];
+            g.copy_from_slice(&[0.36 - t, 0.38 - t, (t - 0.34) * (t - 0.46)]);
+        })
+        .acting(|_, t, _| {
+            acted.borrow_mut().push(t);
+            After::Restart
+        });
+    system.watches = vec![EventSpec::guard(1.0); 3];
+    let options = Options { first_step: Some(1.0), ..rtol(1e-14) };
+    let _ = system.run("dop853", (0.0, &[0.0]), 1.0, &options);
+    assert!((acted.borrow()[0] - 0.34).abs() < 1e-12, "{acted:?}");
+}
+
 /// Of a polynomial of degree 2 the coefficients are the same from 3, 5 and 9 of the points.
 #[test]
 fn few_points_tell_a_parabola() {
