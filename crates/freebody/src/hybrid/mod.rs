@@ -11,6 +11,7 @@ mod dead_position;
 mod event_actions;
 mod guards;
 mod impacts;
+mod independence;
 mod instant;
 mod mode_changes;
 mod mode_resolution;

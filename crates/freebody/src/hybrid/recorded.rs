@@ -1,5 +1,6 @@
 //! What is read of a motion as a program, for one motion or for many side by side.
 
+use super::independence::NEAR_SINGULAR;
 use super::HybridSystem;
 use crate::bound_values::BoundValues;
 use crate::dynamics::{closing_rows, SmoothMotion, Workspace};
@@ -12,8 +13,6 @@ use std::sync::Arc;
 
 /// By how much the state recorded is aside: there no length vanishes without which a spring has no direction.
 const ASIDE: f64 = 0.618_033_988_749_894_9;
-/// Independence of the closing rows below which every stage of a step is brought onto the loops.
-pub(super) const NEAR_SINGULAR: f64 = 0.1;
 /// Part of what was left of an inertia or a row at the start, where it is eliminated, below which digits may be lost.
 const FIRM: f64 = 1e-2;
 /// Freedom of trees up to which a program is no more work than a sweep, also where there is no machine code: all machines go the same

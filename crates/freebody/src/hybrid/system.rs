@@ -4,7 +4,7 @@ use super::bounds::Neighbourhood;
 use super::guards::{leeway, SwitchingFunction, LEEWAY};
 use super::impacts::Rule;
 use super::mode_changes::ModeChange;
-use super::recorded::{Motion, NEAR_SINGULAR};
+use super::recorded::Motion;
 use super::rest::is_pile;
 use super::scales::ROUNDOFF;
 use super::works::Works;
@@ -15,14 +15,6 @@ use crate::mode::Mode;
 use crate::motion::{After, Analytic, Canonical, EventRecord, EventSpec, Segment, Spent, System};
 use crate::plane::Vec2;
 use crate::series::{Solution, Traced};
-
-/// Independence of the closing rows below which the steps look out for a singular configuration: far enough to come to it by a step across.
-const WATCHED: f64 = 0.5;
-
-/// Part of the way to there over which the fall of the independence is a difference.
-const GLANCE: f64 = 1e-3;
-/// Gap that a stage keeps, by round-off, and a factor 27 for the independence that falls to a third within a step.
-const STAGE_NOISE: f64 = 100.0 * f64::EPSILON;
 
 /// A phase of the motion under one set of parameters and switches.
 #[derive(Clone, Debug)]
@@ -88,11 +80,11 @@ pub struct HybridSystem<'m> {
     pub(super) locked: Vec<(ModelExpr, f64)>,
     pub(super) worst_gap: f64,
     /// Whether the step being made begins near, or goes across, a configuration where the loops lose independence.
-    near_singular: bool,
+    pub(super) near_singular: bool,
     /// Independence of the closing rows at the end of the last step; 0 where a phase begins, before it is known.
     pub(super) independence: f64,
     /// The coordinates at which it was found.
-    independence_at: Vec<f64>,
+    pub(super) independence_at: Vec<f64>,
     /// How many steps in a row have ended next to a singular configuration.
     pub(super) singular_steps: usize,
     pub(super) scales: Vec<f64>,
@@ -221,38 +213,6 @@ impl<'m> HybridSystem<'m> {
         self.works.motions.iter().map(|&drive| works[drive]).sum()
     }
 
-    /// Independence of the closing rows at a state, and a short time later as it goes now; that time.
-    pub(super) fn independence_ahead(&mut self, t: f64, y: &[f64]) -> (f64, [f64; 2]) {
-        let n = self.workspace.m.freedom();
-        let fastest = (0..n).map(|i| (y[n + i] / self.scales[i]).abs()).fold(0.0, f64::max);
-        let dt = if fastest > 0.0 { GLANCE * NEAR_SINGULAR / fastest } else { 0.0 };
-        let later: Vec<f64> = (0..y.len()).map(|i| if i < n { y[i] + dt * y[n + i] } else { y[i] }).collect();
-        self.learn_independence(t, y);
-        (dt, [self.independence, self.independence_of(t + dt, &later)])
-    }
-
-    /// Finds the independence of the closing rows at a state, where it is not known yet.
-    fn learn_independence(&mut self, t: f64, y: &[f64]) {
-        let n = self.workspace.m.freedom();
-        if self.independence == 0.0 || self.independence_at != y[..n] {
-            let found = self.independence_of(t, y);
-            self.note_independence(found, &y[..n]);
-        }
-    }
-
-    /// Notes the independence of the closing rows at coordinates.
-    fn note_independence(&mut self, found: f64, q: &[f64]) {
-        self.independence = found;
-        self.independence_at.clear();
-        self.independence_at.extend_from_slice(q);
-    }
-
-    fn independence_of(&mut self, t: f64, y: &[f64]) -> f64 {
-        self.place(t, y);
-        self.workspace.update_rows();
-        self.workspace.independence()
-    }
-
     /// A gap is known to the round-off of places and angles, which grows with them.
     pub(super) fn note_roundoff(&mut self, y: &[f64]) {
         let largest = y.iter().zip(&self.units).map(|(q, unit)| q.abs() / unit).fold(1.0, f64::max);
@@ -263,20 +223,6 @@ impl<'m> HybridSystem<'m> {
     pub fn energy(&mut self, t: f64, y: &[f64]) -> [f64; 2] {
         self.place(t, y);
         [self.workspace.kinetic_energy(), self.workspace.potential_energy()]
-    }
-
-    /// Solves a stage of a step, the state placed. Close to a singular configuration it is first brought onto the
-    /// loops: there a motion off them, however little, is accelerated without bound; a motion on them is not.
-    pub(super) fn solve_stage(&mut self, t: f64, y: &[f64]) -> Result<(), DynamicsError> {
-        if self.near_singular {
-            let (q, u) = self.split(y);
-            let (mode, mut q, mut u) = (self.workspace.mode().clone(), q.to_vec(), u.to_vec());
-            self.workspace.project_positions(&mode, t, &mut q, &u)?;
-            self.workspace.project_velocities(&mode, t, &q, &mut u)?;
-            self.workspace.move_to(t, &q, &u);
-        }
-        self.check_taut_segments()?;
-        self.workspace.solve_motion()
     }
 
     /// Values of laws at a state.
@@ -350,33 +296,12 @@ impl System for HybridSystem<'_> {
         self.wound_up_string()
     }
 
-    /// A gap of round-off size is a rate error of its size over the independence cubed: once for the positions, once
-    /// for the velocities, once for the accelerations that close it. Within a step the independence may fall to a
-    /// third.
     fn noise(&self) -> f64 {
-        if self.near_singular {
-            STAGE_NOISE / (self.independence * self.independence * self.independence)
-        } else {
-            0.0
-        }
+        self.stage_noise()
     }
 
-    /// When the loops lose independence, from how fast they do so now. Where the next step may go across that place its
-    /// stages are brought onto the loops too: off them by its own error it would be accelerated beyond measure.
     fn singular_stage_gap(&mut self, t: f64, y: &[f64], reach: f64) -> Option<f64> {
-        self.near_singular = false;
-        if !self.workspace.is_closed() || self.mode.resting {
-            return None;
-        }
-        self.learn_independence(t, y);
-        if self.independence >= WATCHED {
-            return None;
-        }
-        let (dt, [now, next]) = self.independence_ahead(t, y);
-        let left = now * dt / (now - next);
-        let ahead = left.is_finite() && left * reach > 0.0;
-        self.near_singular = now < NEAR_SINGULAR || ahead && left.abs() <= reach.abs();
-        ahead.then_some(t + left)
+        self.singular_ahead(t, y, reach)
     }
 
     /// Twice the first flight after a bounce.
