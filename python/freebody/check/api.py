@@ -52,6 +52,7 @@ _STRETCH = re.compile(r"\b(?:while|until|during|as long as)\b|\b(?:for|where|whe
 _FIRST = re.compile(r"\bfirst\b")
 _GIVEN = re.compile(r"(?:[A-Za-z][a-z\s-]*,)?\$?\s*([^\s=]+)\s*=\s*[^=]+")
 _SMALL = re.compile(r"\s*small\b")
+_ENERGY = re.compile(r"\benerg(?:y|ies)\b", re.IGNORECASE)
 _WORDS = re.compile(r"`([a-z]{2,}(?:[\s-]+[a-z]+)*)` is no hypothesis")
 _ROUND_OFF = 1e-9  # of the largest rate on a motion, below which it is 0
 _SENSES = re.compile(r"\S+ [<>] 0(?:, \S+ [<>] 0)*")
@@ -79,6 +80,7 @@ class Checker:
         self.hypothesis = ALL
         self.correcting, self.is_at_first = True, False
         self.no_place: frozenset[str] = frozenset()  # what is not of a balance of the bodies that are named
+        self.of_energy = False  # whether a label calls what is said an energy
         self.seconds = Budget.seconds_for(len(self.sampler.metadata["bodies"])) if seconds is None else seconds
         self.budget = Budget(self.seconds)
         self.whole: Budget | None = None
@@ -104,7 +106,7 @@ class Checker:
         Raises ``StatementError`` and ``ModelProblem``."""
         given = hypothesis or self.hypothesis
         known = self.symbols(letters)
-        known.vibration, known.no_place = self.vibration_of(given), self.no_place
+        known.vibration, known.no_place, known.of_energy = self.vibration_of(given), self.no_place, self.of_energy
         began = thread_time()
         program = known.read(text, units, tight)
         self.budget.leaves_out_since(began)  # for vibrations a place of rest is looked for
@@ -243,6 +245,7 @@ class Checker:
         try:
             label, colon, _ = plain.rpartition(":")
             checker.no_place |= without_place(label, checker.symbols(letters), self.sampler.spec) if colon else frozenset()
+            checker.of_energy |= _ENERGY.search(label) is not None
             found = claimed(checker, plain, letters or {})
             verdict = replace(found, text=text.strip()) if found else stated(checker, with_condition_first(plain), letters)
             verdict = replace(verdict, notes=(*verdict.notes, *passed))

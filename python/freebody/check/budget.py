@@ -42,7 +42,7 @@ class Budget:
     @property
     def words(self) -> str:
         """That it was not enough."""
-        return f"After {self.seconds:g} s no more was looked for: there may be other corrections."
+        return "For want of time no more was looked for: there may be other corrections."
 
     def leaves_out_since(self, began: float) -> None:
         """What has been computed since then does not count: it is no search, and is done once for a model."""

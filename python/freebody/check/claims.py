@@ -157,7 +157,7 @@ def _if(checker: Checker, declared: Declared, condition: str, statement: str) ->
         others += [(replace(given, since="start", through=through), condition) for through in (bool(given.since), True)]
     elif given.since and not others:
         return verdict
-    elif given.at_rest and "at rest" in condition and _is_of_places(checker.case(statement, declared)):
+    elif given.at_rest and "at rest" in condition and _is_of_places(checker, declared, statement):
         others = [(family(rest := condition.replace("at rest", "in equilibrium"), checker, declared), rest)]
     for other, words in others:
         found = checker.check(statement, declared, other, correcting=not verdict.mends)
@@ -213,11 +213,13 @@ def _at(checker: Checker, declared: Declared, moment: str, statement: str) -> Ve
     return timed_claims.at(checker, declared, moment, statement)
 
 
-def _is_of_places(case: Case) -> bool:
+def _is_of_places(checker: Checker, declared: Declared, statement: str) -> bool:
     """Whether equations are of the configuration alone."""
-    known = case.meaning.vocabulary
-    used = symbols_in(case.program)
-    return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
+    with suppress(StatementError):
+        case = checker.case(statement, declared)
+        known, used = case.meaning.vocabulary, symbols_in(case.program)
+        return not any(n.dots or n in known.others for n in used) and any(n in known.coordinates for n in used)
+    return False
 
 
 def _only_if(checker: Checker, declared: Declared, condition: str, statement: str) -> Verdict:

@@ -9,9 +9,7 @@ from .wording import INSTANT
 
 _NEAR = "(?:about|around|near|for)"
 _HELD = r"(?:is |are )?(?:held|fixed|locked|clamped|blocked)(?: (?:still|fixed|fast|in place))?"
-MOTION = (
-    r"(?:turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
-)
+MOTION = r"(?:(?:first )?hop|turn|fall|swing|rise|run|climb|jump|dive|stroke|pull|push|throw|slide|roll|drop|descent|ascent|braking|burn|recovery)"
 _WORDS: tuple[tuple[str, str], ...] = (
     (r"(?:[a-z]+ )*?(?:standing|hanging|lying|resting|sitting) still at (\S+ ?= ?\S+)", r"in equilibrium, \1"),
     (
@@ -27,6 +25,10 @@ _WORDS: tuple[tuple[str, str], ...] = (
         r"(?:the )?([a-z]+) (?:sliding|coming|going|moving|falling|sinking|climbing|rising) (?:back )?"
         r"(up|down|to the left|to the right)(?:wards?|hill)?",
         r"while \1 moves \2",
+    ),
+    (
+        r"(while|as long as) ((?:[a-z]+ )*?)slid(ing|es?) (up|down|to the left|to the right)(?:wards?|hill)?",
+        r"\1 \2mov\3 \4",
     ),
     (
         rf"(?!(?:{CONDITION})\b)((?:[a-z]+ )*(?:touch(?:ed|ing)|still touch(?:es)?|in (?:contact|touch)|(?:com)?pressed)(?: [a-z]+)*)",
@@ -96,6 +98,7 @@ _WORDS: tuple[tuple[str, str], ...] = (
     (r"(?:if|where|for|with|without) (?!.*\b(?:kept|prevented)\b)[a-z'’ -]+ \(([^()]*(?:[=<>→]|->|\\to)[^()]*)\)", r"if \1"),
     (r"(?:once|when|after) (?:the )?\S+ (?:is|has become) (?:steady|constant)", "in the steady state"),
     (r"((?:when|at|once|while|after|with|without|for|if) [^()]*\([^()]*[=<>→][^()]*\)) [a-z]+ [^=<>→]*", r"\1"),
+    (r"where ([^=<>→]+ [^=<>→]+)", r"when \1"),
     (r"(.*[a-z]{3}) (?:at|when|where)(?: the (?:instant|time|moment))?", r"when \1"),
 )
 """Clauses in words of exercise books, and what is read for them."""

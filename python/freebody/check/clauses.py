@@ -32,7 +32,7 @@ CLAIM = re.compile(r"\s*(?:constant|limit|only if|follows|shorter|report|same at
 # -- what a clause is
 
 _HEAD = re.compile(
-    rf"(?!in\s+(?!(?:the\s+)?(?:\w+\s+)?(?:equilibrium|steady|flight|air|limit|end)\b))(?:{CONDITION}|only|on(?=\s+(?:the|its)\s+(?:way|swing|stroke)\s+back)|from(?=\s+t_?[1₁]))\b",
+    rf"(?!in\s+(?!(?:the\s+)?(?:\w+\s+)?(?:equilibrium|steady|flight|hop|air|limit|end)\b))(?:{CONDITION}|only|on(?=\s+(?:the|its)\s+(?:way|swing|stroke)\s+back)|from(?=\s+t_?[1₁]))\b",
     re.I,
 )
 """With which a condition begins."""

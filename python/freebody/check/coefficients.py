@@ -85,13 +85,20 @@ def multiplied(node: Node, value: float) -> Node | None:
     number = recognised(abs(value))
     if number is None:
         return None
+    if isinstance(node, Quotient):  # m/(3 k), and no m/k/3
+        above, below = (number.top, number.bottom) if isinstance(number, Quotient) else (number, _ONE)
+        sides = ((above, *_factors(node.top)), (below, *_factors(node.bottom)))
+        found = Quotient(*(product([n for n in each if n != _ONE]) for each in sides), span=node.span)
+        return Negative(found) if value < 0 else found
     if isinstance(number, Quotient) and number.top == Num(1.0):
         found: Node = Quotient(node, number.bottom, span=node.span)
     else:
-        found = (
-            node if number == Num(1.0) else Mul((number, *(node.factors if isinstance(node, Mul) else (node,))), span=node.span)
-        )
+        found = node if number == Num(1.0) else Mul((number, *_factors(node)), span=node.span)
     return Negative(found) if value < 0 else found
+
+
+def _factors(node: Node) -> tuple[Node, ...]:
+    return node.factors if isinstance(node, Mul) else (node,)
 
 
 def powered(node: Node, number: float, powers: Mapping[Sym, int]) -> Node | None:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .user_symbols import Meaning
 
 _MOVING = re.compile(
-    r"\b(?:(?:mov|slid|go|roll|travel|swing|climb|head)(?:e?s|ing|es)?|(?:on|during) (?:the|its) (?:way|stroke|motion))\b"
+    r"\b(?:(?:mov|slid|go|roll|travel|swing|climb|head)(?:e?s|ing|e)?|(?:on|during) (?:the|its) (?:way|stroke|motion))\b"
 )
 _WAYS = {
     "right": ("vx", r"(?:to(?:wards?)? the )?right(?:wards?)?"),
@@ -31,6 +31,7 @@ _WAYS = {
     "down": ("-vy", r"down(?:wards?|hill)?|fall(?:s|ing)|sink(?:s|ing)|descend(?:s|ing)"),
 }
 """Which way a body moves: the component of its velocity that is above 0 then, and words for it."""
+_ALL = re.compile(r"\b(?:both|all|they)\b")
 _GREATEST = r"(?:greatest|largest|biggest|highest|farthest|longest|maximal|maximum|max\.?|most|fastest|fullest|full)"
 _LEAST = r"(?:least|smallest|lowest|shortest|minimal|minimum|min\.?|slowest)"
 _EXTREME = re.compile(rf"\b(?:(?P<greatest>{_GREATEST}|top(?!\s+of\b))|(?P<least>{_LEAST}|bottom(?!\s+of\b)))(?!\w)")
@@ -40,6 +41,7 @@ _OF_SPRING = {
 }
 """Of what the length of a spring is least or greatest."""
 _HEIGHT = re.compile(r"\b(?:highest|lowest|height|top|bottom)\b")
+_LEANS = re.compile(r"\b(?:lean|tilt|tip)(?:s|ing|ed)?\b.*\b(left|right)\b")
 _LETTER = 2  # characters that the name of a quantity has at most: longer ones may be words
 _STOPS = re.compile(
     r"\b(?:stops|stopped|comes? to (?:rest|a (?:stop|halt|standstill))|stands? still|(?:momentarily|instantaneously) at rest)\b"
@@ -65,10 +67,14 @@ def described(words: str, checker: Checker, declared: Declared) -> Family | None
 
 def way_of(words: str, checker: Checker) -> str:
     """Which way something moves by words, in words that say nothing else; none where they do not tell."""
+    way, body = _which_way(words), _body(words, checker)
+    return f"{body} moves {way}" if way and body else ""
+
+
+def _which_way(words: str) -> str:
     found = [way for way, (_, said) in _WAYS.items() if re.search(rf"\b(?:{said})\b", words)]
     moving = _MOVING.search(words) or re.search(r"\b(?:ris|fall|sink|climb|ascend|descend)(?:s|es|ing)\b", words)
-    body = _body(words, checker)
-    return f"{body} moves {found[0]}" if len(found) == 1 and moving and body else ""
+    return found[0] if len(found) == 1 and moving else ""
 
 
 def place_of(words: str, checker: Checker) -> str:
@@ -89,11 +95,13 @@ def place_of(words: str, checker: Checker) -> str:
 
 
 def _way(words: str, checker: Checker) -> Family | None:
-    """Motions of a body one way."""
-    if not (way := way_of(words, checker)):
+    """Motions of a body one way, or of all of them."""
+    every = [body["name"] for body in checker.sampler.spec["bodies"]] if _ALL.search(words) else []
+    bodies, way = every or list(filter(None, [_body(words, checker)])), _which_way(words)
+    if not (bodies and way):
         return None
-    body, _, way = way.rpartition(" moves ")
-    return replace(checker.hypothesis, above=(*checker.hypothesis.above, f"{_WAYS[way][0]}({quote(body)}.G)"))
+    moving = (f"{_WAYS[way][0]}({quote(body)}.G)" for body in bodies)
+    return replace(checker.hypothesis, above=(*checker.hypothesis.above, *moving))
 
 
 def _extreme(words: str, checker: Checker, declared: Declared) -> Family | None:
@@ -147,6 +155,8 @@ def _rates(words: str, least: bool, checker: Checker, declared: Declared) -> tup
         letter = known.spelt(word) if word.startswith("\\") else known.meanings.get(word) if len(word) <= _LETTER else None
         if letter and letter.kind in ("coordinate", "declared", "reading"):
             return _signed(letter.needed(1)[0], *_second(letter), least=least)
+    if body and (leans := _LEANS.search(words)):  # angles are counted counter-clockwise
+        return _of(f"angle({quote(body)})", (leans[1] == "right") is not least)
     if _SPEED.search(words):
         return (f"accel({spell(names[0])})",) if len(names) == 1 else ()
     if _HEIGHT.search(words):

@@ -110,9 +110,8 @@ class Samples:
         found = self.core.evaluate([read[text] for text in plain], state)
         if start and self.whole and any(worked := [WORK.search(text) is not None for text in plain]):  # since before the moment
             run = self.core.simulate(start, state.t, rtol=EXACT, max_steps=_STEPS)
-            found[worked] = run.evaluate(
-                [read[text] for text, sums in zip(plain, worked, strict=True) if sums], np.array([state.t])
-            )[0]
+            ends = np.array([min(state.t, run.end.t)])  # an event there may come sooner by round-off
+            found[worked] = run.evaluate([read[text] for text, sums in zip(plain, worked, strict=True) if sums], ends)[0]
         if len(plain) == len(texts):
             return found
         known = dict(zip(plain, found.tolist(), strict=True))

@@ -43,6 +43,7 @@ _PART = 0.3  # for a letter that is a part of what it stands for
 _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
+_WHOLE = 0.3  # for all that a letter is said to be
 _ANOTHER = 0.3  # for the second component of which a resultant consists
 _ONE = Num(1.0, "1")
 
@@ -112,12 +113,21 @@ class FittedEdits:
                 yield from self._denominator(equation, required)
 
     def other_terms(self, equation: Equation) -> Iterator[Edit]:
-        """Terms that should be quite other ones."""
+        """Terms that should be quite other ones; the whole of what a letter is said to be only where parameters alone say that."""
         with np.errstate(all="ignore"):
             for required in self.within(required_terms(equation, self.values)):
-                whole = any(required.node is part for side in (equation.left, equation.right) for part in (side, unsigned(side)))
-                for term in self.terms.matching(equation, required.needed) if required.addend and not whole else ():
-                    yield Edit.at(equation, "other term", required.node, term, 0.02 * depth(term))
+                side = next((s for s in (equation.left, equation.right) if required.node in (s, unsigned(s))), None)
+                other = equation.right if side is equation.left else equation.left
+                if not required.addend or (side is not None and not isinstance(unsigned(other), Sym)):
+                    continue
+                if side is None:
+                    found = self.terms.matching(equation, required.needed)
+                else:
+                    every = self.terms.monomials(equation).equal_to(required.needed)
+                    found = (term for term in every if term.symbols <= {*self.vocabulary.parameters})
+                for term in found:
+                    size = 0.02 * depth(term) + _WHOLE * (side is not None)
+                    yield Edit.at(equation, "other term", required.node, term, size)
 
     def _symbols(self, required: RequiredTerm) -> Iterator[tuple[Node, float]]:
         """Symbols of another kind for a symbol or a function, also squared, whatever their sign; for a parameter the sum or the
@@ -230,7 +240,7 @@ class FittedEdits:
         number, own = powers_of(node)
         sizes = self.vocabulary.sizes
         still = [n for n in own if not isinstance(n, Sym) or n in sizes] + calls_in(equation) + self._bare_angles(equation)
-        lacked = Monomials(self.values, dict.fromkeys((*still, *sizes)), (), self.blur).powers(factor)
+        lacked = Monomials(self.values, dict.fromkeys((*still, *sizes, *self._resolved)), (), self.blur).powers(factor)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
             return
         rest = self._constant(factor / sampled(written(1.0, lacked), self.values))
@@ -250,6 +260,12 @@ class FittedEdits:
             size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
             size += any(n > 0 and own.get(base) for base, n in lacked.items()) and min(lacked.values()) < 0  # r²/h for r/cos φ
             yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1))
+
+    @cached_property
+    def _resolved(self) -> list[Fn]:
+        """Sines and cosines of angles that are given, with which something is resolved along a direction."""
+        given = [n for n in self.vocabulary.angles if n in self.vocabulary.parameters]
+        return [Fn(name, (angle,)) for angle in given for name in ("cos", "sin")]
 
     def _bare_angles(self, equation: Equation) -> list[Sym]:
         """Angles that stand in an equation as lengths do, as that of a spiral."""

@@ -139,6 +139,8 @@ class Likelihood:
                 odd = _BOUND * self._at_instant + _ODD * undoes
                 parts = (new,) if _is_fall(new) else terms_of(new)
                 return odd + sum(self._of_term(edit.kind, part) for part in parts)
+            case "sign", Pow() as old, _ if self.its.is_beside_square(old):
+                return math.inf  # an energy is no difference of squares of rates
             case "missing factor", Node() as old, new:
                 return self._of_factor(old, new)
             case "resultant", Node() as old, new:
@@ -274,6 +276,12 @@ class Likelihood:
             yield term
         if self.its.is_reaction_in_disguise(term):
             yield from [term] * 2
+        if (
+            missing
+            and any(map(known.is_load, term.symbols - {*known.parameters}))
+            and _resolved(term) > max(map(_resolved, self.its.parts))
+        ):
+            yield from [term] * 3  # a force that is resolved twice
         rates = [n for n in term.symbols if known.is_rate(n)]
         if (
             missing
@@ -299,6 +307,12 @@ class Likelihood:
 
 def _is_root_of_number(node: Node) -> bool:
     return isinstance(node, Fn) and node.name == "sqrt" and not node.symbols
+
+
+def _resolved(term: Node) -> int:
+    """How often something is resolved along a direction; once at least."""
+    calls = (n for base, n in powers_of(term)[1].items() if isinstance(base, Fn) and base.name in ("sin", "cos"))
+    return max(1, sum(map(abs, calls)))
 
 
 def _is_fall(node: Node) -> bool:

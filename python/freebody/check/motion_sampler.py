@@ -24,7 +24,7 @@ from .admissible import UnderOtherLoads
 from .arrangement import NOTHING, arranged, stated, with_parameters
 from .budget import Budget
 from .families import ALL, BEFORE, Family, NoMotion, Samples
-from .followed_model import JUST_AFTER, Course, FollowedModel
+from .followed_model import JUST_AFTER, JUST_BEFORE, Course, FollowedModel
 from .integrals import EXACT
 from .sides import changes_side
 from .steady import period_of, steady_state
@@ -176,7 +176,8 @@ class MotionSampler(FollowedModel):
         else:
             found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
-        if found and start and "after" in self.moment and not self._came_as_usual(family, values, start):
+        comes = "after" in self.moment or (family.since == BEFORE and "before" in self.moment)
+        if found and start and comes and not self._came_as_usual(family, values, start):
             return None
         start = self.started(values) if family.since == BEFORE else start
         asked = self._asked_of_motion(start, family) if found and start else family.vanishing
@@ -433,7 +434,7 @@ class MotionSampler(FollowedModel):
 
     def _came_as_usual(self, family: Family, values: Mapping[str, float], there: State) -> bool:
         """Whether the moment comes as on the model's own motion, and what holds behind it is the same."""
-        return self._is_alike(family, self._course_through, self.course(self.started(values), there.t, JUST_AFTER))
+        return self._is_alike(family, self._course_through, self._course_to(self.started(values), there.t))
 
     def _is_alike(self, family: Family, usual: Course, course: Course) -> bool:
         """Whether two motions have one course; of impacts alone where none with the same course in all was found."""
@@ -441,7 +442,11 @@ class MotionSampler(FollowedModel):
 
     @cached_property
     def _course_through(self) -> Course:
-        return self.course(self.first, self.own.t, JUST_AFTER)
+        return self._course_to(self.first, self.own.t)
+
+    def _course_to(self, start: State, t: float) -> Course:
+        """What switches on the motion from a start up to the moment; through what happens there where it is spoken of what is after."""
+        return self.course(start, t, JUST_BEFORE if "before" in self.moment else JUST_AFTER)
 
     def _asked_of_motion(self, start: State, family: Family) -> list[str]:
         """What has to vanish on a motion itself: its start was put where it has to be."""

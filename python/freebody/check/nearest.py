@@ -17,17 +17,18 @@ from freebody.equations import Tree, equation_text, read, symbols
 from freebody.equations.balances.system import Problem, groups, problem
 from freebody.equations.balances.virtual_motions import named_motions
 from freebody.symbolic.dimensions import FORCE
-from freebody.symbolic.evaluate import sampled
+from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import ZERO, Add, Fn, Negative, Node, Num, Sym, exchange, is_zero, walk
 
 from .beside import Difference, Letters, difference, said_terms
-from .edits import Edit
+from .edits import OTHER, Edit
 from .families import NoMotion
 from .language.dimensions import dimension
 from .language.spelling import spell
-from .language.statements import Equation, symbols_in, terms
+from .language.statements import Equation, symbols_in, terms, without_ones
 from .powers import powers_of, written
 from .residual import HOLDS, residual
+from .search import vanishes
 from .slips import why
 from .stated import Correction
 
@@ -41,6 +42,7 @@ _AT_LEAST = 0.1  # of it, for the nearest whatever the time
 _MOST_DIFFERENT = 6  # terms that are told
 _EACH = 0.2  # by which a correction is larger for each term
 _MOST = 150  # balances that are looked at, those of few bodies first
+_ONE = 1e-9  # off 1, below which a cosine is 1 at a moment
 _LONG = 1500  # signs, beyond which nobody reads an equation
 _WORD = re.compile(r"'[^']+'\.\w+|[^\W\d][\w.\[\]]*")
 _LEVELS = ("value", "rate", "acceleration")
@@ -138,9 +140,12 @@ def _in_words(found: Difference | None) -> str:
 
 def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correction | None:
     """The statement with all that it lacks of a balance, if that is all."""
-    if found is None or found.strange or not found.missing or found.common < _COMMON or len(found.missing) > _MOST_MISSING:
+    if found is None or found.strange or found.common < _COMMON:
         return None
-    lost = _gathered([*map(_opposite, found.missing)])
+    missing = [*filter(None, (_as_here(term, case.values()) for term in found.missing))]
+    if not 0 < len(missing) <= _MOST_MISSING:
+        return None
+    lost = _gathered([*map(_opposite, missing)])
     lost = _with_letters(lost, case)
     after = Equation(equation.left, lost if is_zero(equation.right) else _sum([equation.right, lost]))
     if not {n.key for n in symbols_in(after)} <= case.values().keys():
@@ -148,9 +153,21 @@ def _lacking(case: Case, equation: Equation, found: Difference | None) -> Correc
     if not case.meaning.fits(after) or not residual(after, case.values()).worst < HOLDS:
         return None
     vocabulary = case.meaning.vocabulary
-    reasons = (why(Edit("missing term", None, term, after), equation, vocabulary) for term in found.missing)
-    size = 1.0 + _EACH * len(found.missing)
+    reasons = (why(Edit("missing term", None, term, after), equation, vocabulary) for term in missing)
+    size = 1.0 + _EACH * len(missing)
     return Correction((("missing term", "", spell(lost)),), spell(after), size, why="; ".join(dict.fromkeys(reasons)))
+
+
+def _as_here(term: Node, values: Mapping[str, Array]) -> Node | None:
+    """A term without sines and cosines that are 1 on all states; nothing where it is 0 there, as at the moment at which a bar hangs."""
+    if not {n.key for n in symbols_in(term)} <= values.keys():
+        return term
+    if vanishes(term, values):
+        return None
+    for call in [n for n in walk(term) if isinstance(n, Fn) and n.name in OTHER]:
+        if np.allclose(sampled(call, values), 1.0, rtol=0.0, atol=_ONE):
+            term = exchange(term, call, Num(1.0, "1"))
+    return without_ones(term)
 
 
 def _opposite(term: Node) -> Node:

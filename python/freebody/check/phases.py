@@ -16,7 +16,7 @@ from freebody.model.errors import ModelProblem
 from freebody.run.moments import ORDINALS
 
 from .asked_model import does
-from .wording import IN_WORDS, LASTS
+from .wording import IN_WORDS, LASTS, THINGS
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -31,12 +31,12 @@ _KINDS = {
     r"|(?:breaks?|tears?|torn)\s+(?:loose|away|free)",
     "taut": "taut|tight|stretched|straight|jerks?",
     "slack": "slack|loose",
-    "touch": r"touch(?:e[sd])?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|reach(?:es|ed)\s+the\s+(?:spring|buffer|bumper|stop|wall|floor|ground)|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
+    "touch": rf"touch(?:e[sd])?|touching|(?:moment|instant|time) of contact|in(?:to)? (?:contact|touch)|meets?|strikes?|hits?|reach(?:es|ed)\s+(?:the\s+)?(?:other|spring|buffer|bumper|stop|wall|floor|ground|target|toy|net|anvil|{THINGS})|collides?|knocks?|bumps?|land(?:s|ed|ing)|touch(?:es|ed|ing)? down|touchdown"
     r"|blow|impact|collision|shock|bounce"
     r"|(?:rests?|stands?|sits?|lies|leans?|stays?|is|are)\s+(?:\w+\s+)?(?:on|against)|\A(?:(?:the )?(?:whole )?\w+ )?on (?:(?:the|its|his|her) )?(?!way\b|point\b|(?:left|right)\Z)\w+(?: \w+)?\Z|(?:com)?pressed|engaged|closed|shut|seated"
     r"|(?:do|does|has|have)\s+not\s+(?:yet\s+)?(?:leave|left|lift|los[et]|separate|part)\w*",
     "lift-off": r"leav(?:es?|ing)|(?:is|are|has\s+been)\s+left(?!\s+(?:alone|to|with))|takes?[ -]?off|lifts?(?:\s+off|(?!\s+(?:an?|the)\b))|comes?\s+(?:off|free)|(?:has|have)\s+(?:left|parted|lifted(?:\s+off)?|come\s+(?:off|free))|separate[sd]?|separation|(?:los(?:es?|ing|t))\s+(?:contact|touch)"
-    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+(?:still|at\s+rest))|open(?:s|ed|ing)?|blows\s+off",
+    r"|(?:touch(?:es|ing)?|not|no longer)\s+(?:on|nothing|touch(?:ing)?)|flight|hop(?:s|ping)?|fl(?:ies|ying)|in the air|airborne|(?:is|are)\s+off|hang(?:s|ing)?(?!\s+(?:still|at\s+rest))|open(?:s|ed|ing)?|blows\s+off",
     "reversal": r"(?:turn|swing|mov|slid|com|go|roll)(?:e?s|ing|es)?\s+back|(?:on\s+the\s+)?(?:way|swing|stroke)\s+back|(?:back|second)\s+swing|revers\w+|turning\s+point|first\s+(?:comes?\s+to\s+rest|stops?)"
     r"|(?:highest|top)(?:\s+\w+)?\s+of\s+(?:the|its)\s+(?:swing|rise)"
     r"|end\s+of\s+(?:the|its)\s+(?:first\s+)?(?:half[\s-])?(?:swing|stroke)",
@@ -60,7 +60,7 @@ _RESTS_ON = re.compile(r"\bat\s+rest\s+(?:on|in)\b")
 _LASTED = re.compile(r"\b(?:has|have|had)\b")
 """``once it has left``: from then on."""
 _GOES_ON = re.compile(
-    r"\bhang(?:s|ing)?\b|\bin the air\b|\bairborne\b|\bfl(?:ies|ying)\b|\bflight\b|\b(?:is|are)\s+(?:open|off)\b"
+    r"\bhang(?:s|ing)?\b|\bin the air\b|\bairborne\b|\bfl(?:ies|ying)\b|\bflight\b|\bhop\b|\b(?:is|are)\s+(?:open|off)\b"
 )
 """``once it hangs free``."""
 _GROUND = re.compile(r"\b(?:ground|floor|land(?:s|ed|ing)?|touch\w*down|wall|table|ice|road|street|slope|incline)\b")

@@ -14,7 +14,7 @@ _LONG = 4  # letters from which on what stands behind an operator is a word, and
 _SHORT = re.compile(r"a[nst]|b[ey]|do|he|i[fnst]|no|o[fnr]|so|to|up|we", re.I)
 """Words of two letters, which are no symbols where they stand among others."""
 _COMMON = re.compile(
-    r"all|and|are|as|at|bar|by|end|for|from|has|is|it|its|let|not|of|off|on|one|out|rod|so|than|that|the|then|this|two|us|was|way|we|when|with",
+    r"all|and|are|as|at|bar|by|end|for|from|has|is|it|its|just|let|not|of|off|on|one|out|rod|so|than|that|the|then|this|two|us|was|way|we|when|with",
     re.I,
 )
 """Words that are words, though letters of them may be symbols."""
@@ -22,7 +22,7 @@ _NO_WORDS = {*CALLS, "const", "inf", "infinity", "lim", "min", "max", "deg", "ra
 _WORD = re.compile(r"(?:\A|(?<=[\s,;:(]))[A-Za-z]+(?:-[a-z]+)*(?:(?<=[a-z]{3})['’]s?)?(?=[\s,;:)]|\Z)")
 RATE = re.compile(r"d{0,2}dot\Z|['’]+\Z")
 """Of the name of a rate, as programs have it or with primes."""
-_FIGURE = re.compile(r"(?<![^\W\d])(?<!_)[\d.]+\Z")
+_FIGURE = re.compile(r"(?<![^\W\d])(?<![_^])[\d.]+\Z")
 """A number, behind which a unit may stand."""
 _OPERATORS = "=+*/^·<>≤≥≈→"
 _SKIP = re.compile(r"\\[A-Za-z]+|\\.")

@@ -141,6 +141,10 @@ _CAPITAL = re.compile(rf"\A\s*\$?(?:{CONDITION.title()}|Constant)\b")
 """A condition that begins a sentence."""
 _FOLLOWS = re.compile(r"(?m)(^|[=≈][^<>\n]*?)\s*=+>")
 """``=>`` where no sign of relation can stand."""
+_IN_WORDS = re.compile(
+    r"(?:(?<=[:,])|\A)\s*(?:[A-Za-z]{3,}\s+){2,}(?:[A-Z]\w?\s+)?=\s*(?:[a-z]{3,}\s+)*[a-z]{3,}(?:\s+(?:about|of|at|on)\s+[A-Z]\w?)?\s*[,:]\s+(?=[^=]*=)"
+)
+"""``centrifugal moment about A = spring couple, …``."""
 _SAYING = re.compile(r"\A\s*([A-Za-z]{2,}(?:[ ,-]+[A-Za-z]{2,})+)\s*(?:⇒|∴|\\(?:Rightarrow|implies|therefore)\b)")
 _REASON = re.compile(
     rf"\A\s*(?!(?:{CONDITION})\b)((?:[A-Za-z]+[ ,'-]+){{2,}})(?<=,\s)(?:and\s+)?(?:so(?:\s+that)?|hence|thus|therefore)\s+(?=\S[^:]*[=<>])"
@@ -224,6 +228,7 @@ def plainly(
     said = _NUMBER.sub(lambda found: told(found, "the number of the equation"), said)
     said = _STOP.sub("", _COMMENT.sub(comment, said))
     said = _TAIL.sub(lambda found: told(found, "a remark, and not judged"), said)
+    said = _IN_WORDS.sub(lambda found: told(found, "a law in words, and not judged"), said)
     said = _SAYING.sub(
         lambda found: f"{found[1]}: " if re.match(CONDITION, found[1]) else told(found, "a remark, and not judged"), said
     )

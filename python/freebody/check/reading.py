@@ -115,7 +115,7 @@ class Reading:
 
     def _parsed(self, names: Sequence[str], **way: bool) -> Program:
         """The lines of the text, with integrals of what has a meaning as symbols of their own, and with directions for arrows."""
-        program = parse(self.text, names, self.known.constants, **{"tight": self.tight, **way})
+        program = parse(self.text, names, self.known.constants, no_rates=self.known.no_rates, **{"tight": self.tight, **way})
         constants = self.known.of_kind("parameter", "gravity")
         for node in [n for n in walk(program) if isinstance(n, Integral)]:
             if all(n.name in self.known.meanings for n in (*symbols_in(node.of), node.by)):

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
-from freebody.symbolic.dimensions import LENGTH, TIME
-from freebody.symbolic.tree import Add, Negative, Node, Num, Quotient, Sym, exchange, substitute, walk
+from freebody.symbolic.dimensions import FORCE, LENGTH, NUMBER_ONLY, TIME
+from freebody.symbolic.tree import Add, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, substitute, walk
 
 from .edits import Edit
 from .language.spelling import spell
@@ -22,7 +22,7 @@ _WAYS = (
     ("plus", lambda n: n, "absolute where it is relative"),
     ("minus", Negative, "relative where it is absolute"),
 )
-_SPEED = LENGTH.times(TIME, -1)
+_SPEED, _SPIN, _STIFFNESS = LENGTH.times(TIME, -1), NUMBER_ONLY.times(TIME, -1), FORCE.times(LENGTH, -1)
 _MOMENTS = ("_1", "_2")
 
 
@@ -42,6 +42,8 @@ def seen_from_elsewhere(equation: Equation, vocabulary: Vocabulary) -> Iterator[
                 if turns and plain in found:  # its angle may be the relative one, though its rates are not
                     yield from _other_frames(equation, name, other.name, {n: by for n, by in pairs.items() if n.dots})
     yield from _of_one_alone(equation)
+    yield from _of_turning_frames(equation, found, vocabulary)
+    yield from _from_natural_length(equation, vocabulary)
     stems = dict.fromkeys(n.name[:-2] for n in found if n.name.endswith(_MOMENTS) and vocabulary.dimension(n) == _SPEED)
     speeds = {stem: [Sym(stem + index) for index in _MOMENTS] for stem in stems}
     for one, own in speeds.items():
@@ -62,6 +64,30 @@ def _of_one_alone(equation: Equation) -> Iterator[Edit]:
             yield Edit(
                 "convention", None, None, mended, words=f"`{spell(rate)}` for `{spell(of)}`: absolute where it is relative"
             )
+
+
+def _of_turning_frames(equation: Equation, found: Sequence[Sym], vocabulary: Vocabulary) -> Iterator[Edit]:
+    """An angular velocity that has a letter, of a motor say, which stands more than once and is measured from what turns itself."""
+    rates = [n for n in dict.fromkeys(found) if n.dots == 1 and Sym(n.name) in vocabulary.angular]
+    letters = [n for n in dict.fromkeys(found) if Sym(n.name) not in vocabulary.coordinates]
+    for one in (n for n in letters if vocabulary.dimension(n) == _SPIN and found.count(n) > 1):
+        for rate in rates:
+            yield from _other_frames(equation, one.name, f"{rate.name}'", {one: rate})
+
+
+def _from_natural_length(equation: Equation, vocabulary: Vocabulary) -> Iterator[Edit]:
+    """Whole lengths for the extensions in elastic energies, on both sides: k r² for k (r − l)²."""
+    lengths = [n for n, its in vocabulary.parameters.items() if its == LENGTH]
+    for stiffness in (n for n, its in vocabulary.parameters.items() if its == _STIFFNESS):
+        elastic = [term for side in (equation.left, equation.right) for _, term in addends(side) if stiffness in term.symbols]
+        of_lengths = (n for term in elastic for n in walk(term) if isinstance(n, Pow) and isinstance(n.base, Sym))
+        squares = [n for n in of_lengths if vocabulary.dimension(n.base) == LENGTH]
+        for natural in lengths if len(squares) > 1 else ():
+            mended = equation
+            for square in (n for n in squares if n.base != natural):
+                mended = exchange(mended, square, Pow(Add((square.base, Negative(natural))), square.exponent))
+            words = f"the extension is a length less `{spell(natural)}`, at both ends"
+            yield Edit("extension", None, None, mended, words=words)
 
 
 def _other_frames(equation: Equation, one: str, two: str, pairs: Mapping[Sym, Sym]) -> Iterator[Edit]:

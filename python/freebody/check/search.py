@@ -14,7 +14,7 @@ import numpy as np
 
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, is_zero, unsigned, walk
+from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, is_zero, substitute, unsigned, walk
 
 from .assumptions import first_order
 from .coefficients import tidied
@@ -54,6 +54,7 @@ MOST = 3  # corrections that are given
 _FOR_EQUALS = 0.2  # of what is left when a likely edit is found
 _CONFIRMING = 0.1  # of it, for what was found by then
 _OF_BALANCE = 0.5  # more, where motions alone were spoken of, for what only a balance makes true
+_CALLED_ENERGY = 0.5  # more, for momenta in the place of what is called an energy
 _FRESH, _FRESH_STATES = 1, 16
 _WORTH = 10  # characters that an edit of size 1 may save
 LIKELIEST = 1.0  # size of a single edit; none is smaller
@@ -62,6 +63,7 @@ _LITTLE = 0.01  # of the least term: what is left there of one that is no slip
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
 _BLUR = 1e3  # of what is lacking there, beside round-off
+_SAME = 1e-9  # rad: below it two angles are one
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
@@ -142,13 +144,19 @@ class Search:
             seen_from_elsewhere(self.equation, self.vocabulary),
             exchanges(self.equation, self.vocabulary),
             self.differentiated.others(),
-            momentum_edits(self.equation, self.vocabulary, self.few) if readable else (),
+            self._momenta() if readable else (),
             () if readable else forgotten_factors(self.equation, self.vocabulary),
         )
         for edit in self._promising(found):
             if edit.size <= LIKELIEST:  # only its equals are looked for
                 self._part = min(self._part, self.case.budget.with_rest(_FOR_EQUALS))
             yield Found((edit,))
+
+    def _momenta(self) -> Iterator[Edit]:
+        """Momenta that are kept in the place of energies; less likely where it was called an energy."""
+        extra = _CALLED_ENERGY * self.case.meaning.symbols.of_energy
+        found = momentum_edits(self.equation, self.vocabulary, self.few)
+        yield from (replace(edit, extra=edit.extra + extra) for edit in found)
 
     def within(self, found: Iterable[T]) -> Iterator[T]:
         """What there is, as long as there is time for this search."""
@@ -163,17 +171,18 @@ class Search:
             yield from (Found((edit,)) for edit in self._promising(self.fits.other_terms(self.equation)))
 
     def together(self) -> Iterator[Found]:
-        """All terms that it lacks of an energy, or all inertias that turn as one; the components of two forces."""
+        """All terms that it lacks of an energy, or all inertias that turn as one; the components of two forces; two terms."""
         found = list(self._promising(energy_edits(self.case, self.equation, self.family)))
         components = component_edits(self.equation, self.few, self.vocabulary)
         others = self._promising(chain(() if found else self.fits.as_one(self.equation), components))
         yield from (Found((edit,)) for edit in chain(found, others))
+        if not found:
+            yield from (Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
 
     def pairs(self) -> Iterator[Found]:
-        """Two terms that are lacking, pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
+        """Pairs of the edits that bring it nearest, and of one of them and what is then lacking."""
         every = list(self.within(chain(*(of(self.equation, self.vocabulary) for of in (edits, forgotten_factors)))))
         yield from self._both([edit for edit in every if edit.kind in _PLAIN][:_MOST_PLAIN])
-        yield from (Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
         near = self._nearest(every, _BEST)
         yield from self._both(near)
         for first in self.within((*near, *self._nearest(other_figures(self.equation), _BEST_FIGURES))):
@@ -203,7 +212,7 @@ class Search:
     def best(self, found: Iterable[Found]) -> list[Found]:
         """Those confirmed on all and on fresh states, one of each meaning, the smallest and their equals."""
         kept: dict[tuple[float, ...], list[Found]] = {}
-        alike: dict[tuple[Any, ...], tuple[float, ...]] = {}
+        alike: dict[object, tuple[float, ...]] = {}
         least, found = 0.0, list(found)
         alone = len(found) == 1  # then nothing else may say the same
         for tried, (size, each) in enumerate(self._ranked(found)):
@@ -222,7 +231,8 @@ class Search:
             if mark is None or idle or vacuous or self.subject.is_changed(each.edits, each.after) or not self.fit(each.after):
                 continue
             place = self._place(each)
-            mark = mark if alone else alike.setdefault(self._beside_balances(each.after) or place or mark, mark)
+            said = self._in_few_letters(each.after) or self._beside_balances(each.after) or place or mark
+            mark = mark if alone else alike.setdefault(said, mark)
             if place and mark in kept:
                 continue  # in other letters
             if mark in kept or self._confirmed(each.after):
@@ -253,6 +263,21 @@ class Search:
             return ()
         left = found.sides.residual.ravel()
         return tuple(np.round(left / left[np.argmax(np.abs(left))], 7).tolist())
+
+    def _in_few_letters(self, equation: Equation) -> Equation | None:
+        """An equation in one letter for all angles that are one on all states, as at a moment; None where there are no such."""
+        return substitute(equation, self._same_angles) if self._same_angles else None
+
+    @cached_property
+    def _same_angles(self) -> dict[Sym, Sym]:
+        """Angles with that of the same value which is given, or else comes first."""
+        angles = [n for n in self.vocabulary.angles if isinstance(n, Sym) and n.key in self.values]
+        angles.sort(key=lambda n: n not in self.vocabulary.parameters)
+        first = {n: next(one for one in angles if self._are_one(one, n)) for n in angles}
+        return {n: one for n, one in first.items() if one != n}
+
+    def _are_one(self, one: Sym, other: Sym) -> bool:
+        return bool(np.allclose(self.values[one.key], self.values[other.key], rtol=_SAME, atol=_SAME))
 
     def _place(self, found: Found) -> tuple[Any, ...]:
         """Which part of an equation of motions alone is another: what stands there is the same in all letters."""

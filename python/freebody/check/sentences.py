@@ -15,7 +15,6 @@ from .pieces import RELATION, pieces_of, relates
 from .sentence_words import (
     ADJACENT,
     AMBIGUOUS,
-    AWAY,
     CONDITIONAL,
     CONJUNCTION,
     DETERMINERS,
@@ -26,13 +25,10 @@ from .sentence_words import (
     PREMISES,
     PREPOSITIONS,
     PRONOUNS,
-    SHORT,
     VANISHES,
     VERBS,
     plain_words,
-    says,
 )
-from .wording import DOING
 
 _EDGE, _HENCE = "\x1f", "\x1e"  # of a formula that is set apart; before what follows
 _APART = re.compile(rf"(?<![=<>+*/-])\s*{_EDGE}\s*(?![=<>])")
@@ -77,12 +73,6 @@ class Sentence:
     beside: list[str] = field(default_factory=list)
     labelled: bool = False
     follows: bool = False
-
-    @property
-    def says_all(self) -> bool:
-        """Whether no other words may say when, in ways that are not understood: ``thrown back``."""
-        labels = (words for words in self.beside if len(words.split()) <= SHORT and not says(words))
-        return not any(DOING.search(words) or AWAY.search(words) for words in labels)
 
 
 class _Role(IntEnum):

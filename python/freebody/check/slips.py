@@ -19,6 +19,8 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
         return f"{_what(part, equation, vocabulary)} {verb}"
     if edit.kind == "convention" and edit.words.endswith("sense"):
         return "it acts, or counts, in the other sense, wherever it stands"
+    if edit.kind == "convention" and "relative" in edit.words:
+        return "a motion relative to a body that moves is not that seen from what is at rest"
     if edit.kind == "symbol" and isinstance(edit.new, Sym) and edit.new.dots == 1:
         return "one rate stands for another: that of the body for the relative one, or the other way round"
     if edit.kind == "factor" and edit.old is not None and sum(n.dots == 1 for n in symbols_in(edit.old)) > 1:
@@ -33,6 +35,7 @@ def why(edit: Edit, equation: Equation, vocabulary: Vocabulary) -> str:
 _WHY = {
     "convention": "two things stand for each other throughout",
     "exchange": "two letters stand for each other: each force has an arm, and each motion a radius, of its own",
+    "extension": "a spring stores energy by its extension, not by its length",
     "squares": "the speed is another: its square is the sum of those of two components at right angles, seen from what is at rest",
     "sign": "it acts, or counts, in the other sense",
     "function": "the component along the other direction is meant: sine and cosine are exchanged",

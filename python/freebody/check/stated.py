@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from .edits import Edit
 from .language.spelling import spell
 
-_IN_WORDS = ("convention", "exchange", "components", "momentum")
+_IN_WORDS = ("convention", "exchange", "extension", "components", "momentum")
 """Kinds of edits of more than one part, told in words of their own."""
 _LEFT_OUT = ("missing term", "missing factor", "share", "other term", "unit vector")
 

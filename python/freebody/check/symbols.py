@@ -47,6 +47,7 @@ _NO_FORCE = ("gap", "slack", "slip", "x", "y", "power", "work")
 _CENTRE = re.compile(r"\bcentre_([xy])\(\)")
 _NAME = re.compile(r"[^\W\d_][^\s=+*^;,:$%#@!?~`\\\"<>|&\x00-\x1f]*")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+_PER_SECOND = NUMBER_ONLY.times(TIME, -1)
 _OF_ANGLE = re.compile(r"\b(?:sin|cos)\(s\)")
 _FUNCTIONS = ("sqrt", "sin", "cos", "tan", "pi")
 """Of parameters, what does not change."""
@@ -99,6 +100,7 @@ class Symbols:
         self.own = frozenset(declared or ())
         self.assumed: dict[str, str] = {}  # what letters usually mean, where a statement needed that
         self.no_place: frozenset[str] = frozenset()  # joints, forces and masses that are not of a balance
+        self.of_energy = False  # whether a label calls what is read an energy
         self.unjudged: set[str] = set()  # arrows behind what is no vector
         self.hidden: dict[str, str] = {}  # what of the model an own symbol stands before, in words
         self._measure_gauges()
@@ -127,6 +129,12 @@ class Symbols:
     def dimensions(self) -> dict[str, Dimension]:
         """The dimension of each symbol where it is known, for ``check_dimensions``."""
         return {name: m.dimension for name, m in self.meanings.items() if m.dimension is not None}
+
+    @property
+    def no_rates(self) -> list[str]:
+        """Symbols that make no angle with a time."""
+        known = {name: m.dimension for name, m in self.meanings.items() if m.dimension is not None or m.kind == "parameter"}
+        return [name for name, its in known.items() if its is None or its._replace(angle=0) != _PER_SECOND]
 
     def of_kind(self, *kinds: str) -> list[str]:
         """Symbols that are ``parameter``, ``coordinate``, ``gauge``, ``reaction``, ``direction``, ``declared`` …, scalar or vector."""

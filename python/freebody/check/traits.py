@@ -128,6 +128,12 @@ class Traits:
     def parts(self) -> set[Node]:
         return {*walk(self.equation)}
 
+    def is_beside_square(self, square: Pow) -> bool:
+        """Whether the square of a rate is added to others, as in an energy."""
+        is_square = lambda n: isinstance(n, Pow) and isinstance(n.base, Sym) and self.vocabulary.is_rate(n.base)
+        sums = (n.terms for n in self.parts if isinstance(n, Add) and any(term is square for term in n.terms))
+        return any(all(map(is_square, terms)) for terms in sums)
+
     @cached_property
     def has_quotient(self) -> bool:
         return any(isinstance(n, Quotient) for n in self.parts)

@@ -23,10 +23,10 @@ from .language.statements import symbols_in
 from .later import AT_FIRST
 from .phases import alike, kind_of
 from .pieces import relates
-from .sentence_words import CIRCUMSTANCES, DETERMINERS, FOLLOWED, FROM_REST, FROM_START, SHORT, SMALL, says
+from .sentence_words import AWAY, CIRCUMSTANCES, DETERMINERS, FOLLOWED, FROM_REST, FROM_START, SHORT, SMALL, says
 from .sentences import Sentence, sentence
 from .verdict import EVERY_TERM_IS_0, NO_AMPLITUDE, NOTHING_LEFT, Kind, Verdict
-from .wording import BLOW
+from .wording import BLOW, DOING
 
 if TYPE_CHECKING:
     from .api import Checker, Declared
@@ -103,7 +103,7 @@ def _in_sentences(
     they say no more than the text did."""
     fails = before is None or before.kind is Kind.UNDECIDABLE or before.ok
     elsewhere = any(_SOMEWHERE.search(words) and SMALL in says(words) for words in (*said.when, *said.beside))
-    if elsewhere or not (fails or said.says_all):
+    if elsewhere or not (fails or says_all(said)):
         return None
     judging = copy(checker)
     judging.correcting = False
@@ -123,6 +123,12 @@ def _in_sentences(
     if first is None or (before and fails and not (first[1].condition and first[0].kind is Kind.WRONG)):
         return None
     return _wrong(checker, said, letters, *first) if fails else _corrected(checker, text, said, letters, before, *first)
+
+
+def says_all(said: Sentence) -> bool:
+    """Whether no words beside those that say when may do so, too, in ways that are not understood: ``thrown back``."""
+    labels = (words for words in said.beside if len(words.split()) <= SHORT and not (says(words) or kind_of(words)))
+    return not any(DOING.search(words) or AWAY.search(words) for words in labels)
 
 
 def _corrected(
@@ -251,7 +257,7 @@ class _Readings:
     def _surely(self) -> list[list[str]]:
         """For each of these that is a condition the ways to read it."""
         found = [self._found(words) for words in self._asked]
-        return [*filter(None, found), *([words[0].lower() + words[1:]] for words in self._states)]
+        return [*filter(None, found), *([re.sub(r"\A[A-Z]", lambda first: first[0].lower(), words)] for words in self._states)]
 
     def _perhaps(self) -> list[str]:
         """What other words may say."""

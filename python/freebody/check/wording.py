@@ -49,7 +49,7 @@ _WITHOUT = re.compile(
     r"(?:damp(?:ers?|ing)|dashpots?|(friction))|undamped|(frictionless))\b(?!\s*\(|\s+and\b),?\s*"
 )
 _LAWS = "rule|law|momentum|energy|impulse|moments?|forces?|work|power|equations?|balance|component|direction|radial(?:ly)?|tangential(?:ly)?|normal"
-_THINGS = (
+THINGS = (
     "(?:rod|bar|beam|wheel|disk|disc|cylinder|drum|pulley|roller|gear|ring|hoop|ball|sphere|block|crate|cart|car|mass|weight|bob|arm"
     "|link|crank|slider|piston|plate|pendulum|particle|frame|body|system)(?:e?s)?|bodies|pulleys"
 )
@@ -85,7 +85,7 @@ _FREQUENCY = re.compile(
 _OF_SMALL = re.compile(rf"\s*(?:(?:for|with|at)\s+)?small\b(?!.*{_ELSEWHERE})")
 _SMALL_FIRST = re.compile(rf"\A\s*(?={_SMALL_MOTIONS}\b[^:;\n]*:(?!=))")
 OF_WHAT = re.compile(
-    rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{_THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'–-]*"
+    rf"\s*(?!(?:{CONDITION})\b)(?=(?:about|along|across)\b|(?:.*\s)?(?:{_LAWS}|{THINGS})\b)(?!.*\b(?:\w+(?:ed|ing)|{_STATES})\b)[A-Za-z][\w\s'–-]*"
 )
 """``momentum along x``, ``both rods``: behind a condition a label."""
 _THROUGHOUT = re.compile(r"\A(.+?)\s*=\s*(.+?)\s+(?:throughout|always|at all times|all the time)\Z")

@@ -312,7 +312,8 @@ class Line:
             factors.append(self.primary())
         fixed = isinstance(factors[-1], Sym) and not factors[-1].dots and factors[-1].name in self.names.constants
         changing = fixed and self.now.attached and self.now.text not in self.names.constants
-        if self.now.kind == "symbol" and not self.now.dots and (_is_time(self.now) or changing):
+        of_time = _is_time(self.now) and not (isinstance(factors[-1], Sym) and factors[-1].name in self.names.no_rates)
+        if self.now.kind == "symbol" and not self.now.dots and (of_time or changing):
             factors.append(self.primary())
         if fixed and self.now.kind == "(" and self.now.attached and self._brackets_of_time():  # cos p(t − t_1)
             factors.append(self.primary())

@@ -38,24 +38,25 @@ def parse(
     units: bool = False,
     tight: bool = False,
     apart: bool = False,
+    no_rates: Iterable[str] = (),
 ) -> Program:
     """The lines of a statement. ``names`` are the symbols that are known, of which those in ``constants`` do not change with time;
     unknown ones stay as they are written. ``units``: a unit behind a number goes before a symbol of that name; ``tight``: what stands directly behind a
     factor below a stroke is below it, too, 2k/(3m) for ``2k/3m``; ``apart``: letters side by side are no name with an index, m r for ``mr``
-    though m_r is known.
+    though m_r is known; ``no_rates``: those behind whose sine ``t`` is a factor.
 
     Raises ``StatementError`` where the text cannot be read, with the place.
     """
-    return _parsed(text, tuple(names), frozenset(constants), units, tight, apart)
+    return _parsed(text, tuple(names), frozenset(constants), frozenset(no_rates), units, tight, apart)
 
 
 @lru_cache(maxsize=64)  # one statement is read several times on the way to its verdict
-def _parsed(text: str, own: tuple[str, ...], constants: frozenset[str], *way: bool) -> Program:
-    known = _names(own, constants, *way)
+def _parsed(text: str, own: tuple[str, ...], constants: frozenset[str], no_rates: frozenset[str], *way: bool) -> Program:
+    known = _names(own, constants, *way, no_rates)
     try:
         row = tokens(text, known)
         if assigned := _assigned(row, known):
-            known = _names((*own, *assigned), constants, *way)
+            known = _names((*own, *assigned), constants, *way, no_rates)
             row = tokens(text, known)
         rows = [Line(row, known, text).line() for row in _lines(row)]
         lines = _written_out(_meanings(rows, set(own)), known)

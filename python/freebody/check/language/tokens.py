@@ -73,6 +73,8 @@ class Names:
     """Whether what stands directly behind a factor below a stroke is below it, too."""
     apart: bool = False
     """Whether letters side by side are no name with an index, which they would spell."""
+    no_rates: frozenset[str] = frozenset()
+    """Those that are no angle times ``t``: v sin β t is v sin(β) t."""
 
     @cached_property
     def by_spelling(self) -> dict[str, str]:
