@@ -16,6 +16,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, is_zero, sampled
 from freebody.symbolic.tree import Fn, Mul, Pow, Sym, walk
 
+from .asked_model import WORD
 from .case import Case
 from .families import BEFORE, Family, NoMotion
 from .figures import figures, rounding
@@ -101,9 +102,14 @@ def nearer(case: Case) -> Case:
 
 
 def _driving(case: Case) -> tuple[str, ...]:
-    """The parameter of a statement that drives the model, beside which what is small would be nothing if it were not small, too."""
-    vibration = case.meaning.symbols.vibration
-    return (vibration.drive,) if vibration and Sym(vibration.drive) in {*symbols_in(case.program)} else ()
+    """The parameter of a statement that drives the model, beside which what is small would be nothing if it were not small, too; where
+    something moves that is not, it is beside that."""
+    vibration, said = case.meaning.symbols.vibration, {*symbols_in(case.program)}
+    if not vibration or Sym(vibration.drive) not in said:
+        return ()
+    moving = {n.name for n in said} & {n.name for n in case.meaning.vocabulary.coordinates}
+    small = {word for text, _ in case.hypothesis.small for word in WORD.findall(text)}
+    return (vibration.drive,) if not small or moving <= small else ()
 
 
 def _has_bare_angles(case: Case, equation: Equation) -> bool:

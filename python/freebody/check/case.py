@@ -80,7 +80,8 @@ class StatementSymbols:
             one = self._one(n)
             if one.kind not in ("parameter", "gravity") or one.texts[0] not in self.sampler.free_parameters:
                 size = self.sampler.unit(one.dimension) * self.sampler.rate**n.dots
-                found[n.key] = found[n.key] * (np.abs(found[n.key]) >= _ROUND_OFF * size)
+                left = _ROUND_OFF**2 if one.texts[0].startswith("kinetic(") else _ROUND_OFF  # of squares of rates
+                found[n.key] = found[n.key] * (np.abs(found[n.key]) >= left * size)
         return found
 
     def fits(self, equation: Equation) -> bool:

@@ -93,7 +93,7 @@ def multiplied(node: Node, value: float) -> Node | None:
     if isinstance(number, Quotient) and number.top == Num(1.0):
         found: Node = Quotient(node, number.bottom, span=node.span)
     else:
-        found = node if number == Num(1.0) else Mul((number, *_factors(node)), span=node.span)
+        found = node if number == Num(1.0) else Mul((*_factors(number), *_factors(node)), span=node.span)
     return Negative(found) if value < 0 else found
 
 

@@ -66,10 +66,13 @@ def _of_row(
         return
     tried: list[list[Found]] = [[] for _ in searches]
     some: list[tuple[list[Found], str]] = []
+    late: list[Correction] = []
     least = np.inf
     for step in steps:
+        if step is Search.other_terms and not case.sampler.moment:  # while there is time
+            late = [each for each in _from_start(case, row, families, part, (Search.singles,)) if each.size <= LIKELIEST]
         if step is Search.pairs:
-            late = _from_start(case, row, families, part)
+            late = late or _from_start(case, row, families, part, (*_SINGLE, Search.together))
             if late and late[0].size + _OF_START < least:
                 yield from late
                 return
@@ -90,7 +93,9 @@ def _of_row(
         yield from (each.correction(given, first.why(each), first.differentiated.as_written) for each in found)
 
 
-def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], part: float) -> list[Correction]:
+def _from_start(
+    case: Case, row: Equation, families: list[tuple[Family, str]], part: float, steps: Sequence[Step]
+) -> list[Correction]:
     """The single edits after which an equation holds of the motions from the start of the model, if it may be said of them: also through
     what switches on them, where it holds before that."""
     ((given, words), *_) = families
@@ -103,4 +108,4 @@ def _from_start(case: Case, row: Equation, families: list[tuple[Family, str]], p
             return []  # as things are at first nothing is said
         if residual(row, values).worst < HOLDS:
             since = replace(since, through=True)
-    return list(_of_row(case, row, [(since, words or FROM_START)], (*_SINGLE, Search.together), part))
+    return list(_of_row(case, row, [(since, words or FROM_START)], steps, part))

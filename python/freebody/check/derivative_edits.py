@@ -16,6 +16,7 @@ from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Mul, Node, Num, Quotient, Sym, addends, exchange, is_zero, walk
 
+from .beside import signed
 from .coefficients import more, multiplied, tidied
 from .conventions import conventions
 from .edits import Edit, depth, edits, forgotten_factors
@@ -76,7 +77,7 @@ class DerivativeEdits:
         for side in (self.equation.left, self.equation.right):
             if any(part is node for part in walk(side) for node in differentiated):
                 continue  # there all of it was
-            parts = side.terms if isinstance(side, Add) else (side,)
+            parts = [signed(sign, term) for sign, term in addends(side, expand=True)]
             lost = list(chain(*map(self._of_other_factors, parts)))
             together = [Add(tuple(lost))] if len(lost) > 1 else []
             for term in (*lost, *together, *(Quotient(term, _TWO) for term in lost)):

@@ -11,9 +11,24 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, NUMBER_ONLY
+from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY
 from freebody.symbolic.evaluate import Array, sampled
-from freebody.symbolic.tree import Add, Fn, Mul, Negative, Node, Num, Pow, Quotient, Sym, children, exchange, unsigned, walk
+from freebody.symbolic.tree import (
+    Add,
+    Fn,
+    Mul,
+    Negative,
+    Node,
+    Num,
+    Pow,
+    Quotient,
+    Sym,
+    children,
+    exchange,
+    is_zero,
+    unsigned,
+    walk,
+)
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
@@ -23,6 +38,7 @@ from .language.dimensions import dimension
 from .language.statements import Equation, symbols_in, terms, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
+from .residual import HOLDS, magnitude
 from .roots import on_the_way, other_sides, resultants, rooted
 from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, is_asked, required_terms
@@ -37,12 +53,14 @@ _SAME = 1e-8  # relative spread below which a factor is one number on all states
 _NEARLY = 1e-5  # relative spread below which one is meant
 _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sign
 _HIGHEST_POWER = 4  # that a factor may be wrong by
+_MOST_MASSES = 4  # of which sums are thought of
 _MOST_TERMS = 4  # of sums of which two are thought of together
 _TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
 _PART = 0.3  # for a letter that is a part of what it stands for
 _UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
 _AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
+_TAKEN = 0.1  # for powers that are taken away
 _WHOLE = 0.3  # for all that a letter is said to be
 _ANOTHER = 0.3  # for the second component of which a resultant consists
 _ONE = Num(1.0, "1")
@@ -59,6 +77,8 @@ class FittedEdits:
     blur: float = 1.0
     small: bool = False
     """Whether angles stand for their sines."""
+    followed: bool = False
+    """Whether motions were followed to the states, which leaves more than round-off."""
 
     def edits(self, equation: Equation) -> Iterator[Edit]:
         """Single edits found by solving for each part, terms that should be quite other ones aside."""
@@ -184,7 +204,7 @@ class FittedEdits:
         node, factor = required.node, required.factor
         if factor is None or not np.isfinite(factor).all():
             return
-        found = self._constant(factor)
+        found = self._constant(factor, self._round_off(equation, required.value))
         if found is None:
             yield from self._other_powers(equation, node, factor)
         elif abs(found + 1) < _SAME:
@@ -226,12 +246,20 @@ class FittedEdits:
                 row[:] = np.nan if still else value  # 1 + cos θ is no factor where θ is small, or stays
         return nodes, rows
 
-    def _constant(self, values: Array) -> float | None:
-        """The number that a factor is on all states; None where it is none."""
+    def _constant(self, values: Array, round_off: Array | float = 0.0) -> float | None:
+        """The number that a factor is on all states, which is known but for ``round_off`` on each; None where it is none."""
         if values.ndim != 1 or not np.isfinite(values).all():
             return None
-        mean, same = float(np.median(values)), _SAME * self.blur
-        return snapped(mean, same) if mean and np.max(np.abs(values - mean)) <= same * abs(mean) else None
+        same = _SAME * self.blur
+        mean = float(np.median(values) if np.ndim(round_off) != 1 else values[np.argmin(round_off)])
+        return snapped(mean, same) if mean and np.all(np.abs(values - mean) <= same * abs(mean) + round_off) else None
+
+    def _round_off(self, equation: Equation, value: Array) -> Array | float:
+        """What may be left of an equation beside a part of that value on motions that were followed; nothing on states."""
+        if not self.followed or value.ndim > 1:
+            return 0.0
+        sizes = [magnitude(side, self.values) for side in (equation.left, equation.right) if not is_zero(side)]
+        return HOLDS * sum(sizes) / np.abs(value) if all(size.ndim == 1 for size in sizes) else 0.0
 
     def _other_powers(self, equation: Equation, node: Node, factor: Array) -> Iterator[Edit]:
         """A term that lacks a product of powers: a ratio of it upside down, a ratio that counts twice, or what is forgotten."""
@@ -240,7 +268,10 @@ class FittedEdits:
         number, own = powers_of(node)
         sizes = self.vocabulary.sizes
         still = [n for n in own if not isinstance(n, Sym) or n in sizes] + calls_in(equation) + self._bare_angles(equation)
-        lacked = Monomials(self.values, dict.fromkeys((*still, *sizes, *self._resolved)), (), self.blur).powers(factor)
+        likely = [n for n in sizes if n in self.vocabulary.letters or n in equation.symbols]
+        ways = ((*still, *sizes), (*still, *likely, *self._more_bases(equation), *sizes))
+        found = (Monomials(self.values, dict.fromkeys(bases), (), self.blur).powers(factor) for bases in ways)
+        lacked = next(filter(None, found), None)
         if not lacked or max(map(abs, lacked.values())) > _HIGHEST_POWER:
             return
         rest = self._constant(factor / sampled(written(1.0, lacked), self.values))
@@ -259,13 +290,19 @@ class FittedEdits:
             plain = powered(node, rest, lacked) if min(lacked.values()) > 0 else None
             size = sum(map(abs, lacked.values())) + (abs(rest - 1) > _SAME)
             size += any(n > 0 and own.get(base) for base, n in lacked.items()) and min(lacked.values()) < 0  # r²/h for r/cos φ
-            yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1))
+            if _is_share(lacked):
+                yield Edit.at(equation, "share", node, new)
+                return
+            taken = _TAKEN * (min(lacked.values()) < 0)  # a factor is rather forgotten than one too many
+            yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1) + taken)
 
-    @cached_property
-    def _resolved(self) -> list[Fn]:
-        """Sines and cosines of angles that are given, with which something is resolved along a direction."""
-        given = [n for n in self.vocabulary.angles if n in self.vocabulary.parameters]
-        return [Fn(name, (angle,)) for angle in given for name in ("cos", "sin")]
+    def _more_bases(self, equation: Equation) -> list[Node]:
+        """Sines and cosines of angles that are given, or that it has, with which something is resolved along a direction; the mass of several."""
+        within = [n.args[0] for n in calls_in(equation) if n.name in ("sin", "cos") and isinstance(n.args[0], Sym)]
+        angles = [*within, *(n for n in self.vocabulary.angles if n in self.vocabulary.parameters)]
+        calls = [Fn(name, (angle,)) for angle in dict.fromkeys(angles) for name in ("cos", "sin")]
+        masses = [n for n, its in self.vocabulary.parameters.items() if its == MASS][:_MOST_MASSES]
+        return [*calls, *(Add(some) for count in (2, 3) for some in combinations(masses, count))]
 
     def _bare_angles(self, equation: Equation) -> list[Sym]:
         """Angles that stand in an equation as lengths do, as that of a spiral."""
@@ -389,6 +426,14 @@ class FittedEdits:
                     )
                     cost = _TWO_TERMS + 0.02 * sum(map(depth, lost)) + _UNDONE * again
                     yield Edit("missing term", None, Add(tuple(lost)), after, cost)
+
+
+def _is_share(powers: Mapping[Node, int]) -> bool:
+    """Whether powers make the share of one mass in several: m/(m + M)."""
+    sums = [
+        base for base, n in powers.items() if n == -1 and isinstance(base, Add) and all(isinstance(t, Sym) for t in base.terms)
+    ]
+    return len(powers) == 2 and any(powers.get(mass) == 1 for whole in sums for mass in whole.terms)
 
 
 def _is_linear_for_angular(old: Node, new: Sym) -> bool:

@@ -162,8 +162,12 @@ class Likelihood:
 
     def _opens(self, edit: Edit) -> float:
         """Of what brings a reaction or another coordinate into an equation of motion of one alone, which can be solved by itself; more where the
-        acceleration is exchanged."""
-        new = edit.after.symbols - self.its.said - {*self.vocabulary.parameters} if self.its.is_closed else ()
+        acceleration is exchanged, or where a speed or an energy was given in numbers of the model alone."""
+        new = edit.after.symbols - self.its.said - {*self.vocabulary.parameters}
+        if self.its.is_integrated:
+            return _ODD * bool(new)
+        if not self.its.is_closed:
+            return 0.0
         exchanged = edit.kind == "symbol" and any(n.dots == 2 for n in new)
         return _ODD if exchanged else _OPENED * bool(new)
 
@@ -236,7 +240,9 @@ class Likelihood:
         size += _NEW_RATE * any(
             self.vocabulary.is_rate(n) and n in self.vocabulary.parameters for n in term.symbols - self.its.said
         )
-        size += _ODD * (kind == "missing term" and abs(powers_of(term)[0]) > _MOST_TIMES)
+        number = abs(powers_of(term)[0])
+        of_body = bool(number) and np.isclose(1 / number, _OF_BODIES).any()  # 12 m d²/L²
+        size += _ODD * (kind == "missing term" and number > _MOST_TIMES and not of_body)
         size += _TAKEN_OUT * (self.its.moves_as_one and any(map(self.its.is_reaction, term.symbols - self.its.said)))
         accelerates = any(map(self.its.is_acceleration, term.symbols - {*self.vocabulary.parameters}))
         size -= _STATICS * (kind == "missing term" and self.its.is_static and accelerates)

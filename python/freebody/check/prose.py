@@ -16,6 +16,7 @@ from .idioms import usual
 from .language.glyphs import CONDITION
 from .language.tokens import CALLS
 from .pieces import RATE
+from .sentences import is_of
 from .wording import OF_WHAT
 
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
@@ -236,7 +237,18 @@ def plainly(
     said = _LETTER.sub(lambda found: told(found, "the letter of a question"), said)
     said = _THUS.sub(lambda found: found[0] if {*re.findall(r"\w+", found[0])} & {*known} else " ", said)
     said = _CALLED.sub(lambda found: found[0] if {*found[2].split()} & {*known} else "initially: " * bool(found[1]), said)
-    return arranged(said, known, OF_WHAT, bodies), tuple(passed)
+    return arranged(_given_first(said, fixed), known, OF_WHAT, bodies), tuple(passed)
+
+
+def _given_first(text: str, fixed: Collection[str]) -> str:
+    """A statement with what its label says of parameters alone as its condition: ``period of small swings, p n = M a: τ = …``."""
+    label, colon, said = text.rpartition(":")
+    parts = [part.strip(" $") for part in label.split(",")]
+    given = [part for part in parts[1:] if part.count("=") == 1 and is_of(part, fixed)]
+    if not given or "=" in parts[0] or re.match(CONDITION, parts[0]):
+        return text
+    others = ", ".join(part for part in parts if part not in given)
+    return f"if {', '.join(given)}: {others}{colon}{said}"
 
 
 def _is_comment(words: str, known: Collection[str], measured: bool) -> bool:

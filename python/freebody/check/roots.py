@@ -45,7 +45,8 @@ def _rooted_in_part(node: Node, factor: Array, values: Mapping[str, Array]) -> I
     """A product in which some of what stands there is below a root: v √(k m) for v k m."""
     number, powers = powers_of(node)
     bases = list(powers) if len(powers) <= _MOST_FACTORS else []
-    for some in (some for count in range(1, len(bases)) for some in combinations(bases, count)):
+    parts = (some for count in range(1, len(bases)) for some in combinations(bases, count))
+    for some in (some for some in parts if any(powers[base] % 2 for base in some)):  # √(r²) is r
         rest = {base: n for base, n in powers.items() if base not in some}
         for inside, before in ((1.0, number), (abs(number), math.copysign(1.0, number))):
             below = written(inside, {base: powers[base] for base in some})

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from freebody.symbolic.dimensions import NUMBER_ONLY, TIME
 from freebody.symbolic.errors import StatementError
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import Add, Node, Num, Sym, exchange, is_zero, substitute, unsigned, walk
@@ -63,7 +64,9 @@ _LITTLE = 0.01  # of the least term: what is left there of one that is no slip
 _LIMIT = 1e-5  # what is left of a true equation where a parameter is as large as it can be
 _OF_RUN = 1e-9  # what is left of a true equation at a moment to which a motion was followed
 _BLUR = 1e3  # of what is lacking there, beside round-off
+_SPIN = NUMBER_ONLY.times(TIME, -1)
 _SAME = 1e-9  # rad: below it two angles are one
+_BLUR_OF_RUN = 1e2  # the same where a motion was followed from its start
 _ROUND_OFF = 1e-12  # of the terms of a part, below which it is 0
 _KINEMATIC = 1e-8  # what is left of an equation that holds though no balance does
 _SWAPPED = ("missing factor", "symbol", "other term")
@@ -110,9 +113,9 @@ class Search:
             equation, self.vocabulary.parameters, self.given, (self.other, self.free), family.at_start, self._residual
         )
         self.lasts = partial(case.budget.lasts, part=part + _CONFIRMING)
-        self.fits = FittedEdits(
-            self.values, self.vocabulary, self.within, _BLUR if family.small or family.scaled else 1.0, bool(family.small)
-        )
+        near = bool(family.small or family.scaled)
+        blur, followed = _BLUR if near else _BLUR_OF_RUN if family.since else 1.0, bool(family.since) and not near
+        self.fits = FittedEdits(self.values, self.vocabulary, self.within, blur, bool(family.small), followed)
         self.differentiated = DerivativeEdits(case, equation, self.values, self.fits)
         self.holds, self._near = (
             (_LIMIT, _LIMIT)
@@ -160,9 +163,8 @@ class Search:
 
     def within(self, found: Iterable[T]) -> Iterator[T]:
         """What there is, as long as there is time for this search."""
-        for each in found:
-            if not self.case.budget.lasts(self._part):
-                return
+        every = iter(found)
+        while self.case.budget.lasts(self._part) and (each := next(every, None)) is not None:
             yield each
 
     def other_terms(self) -> Iterator[Found]:
@@ -270,9 +272,13 @@ class Search:
 
     @cached_property
     def _same_angles(self) -> dict[Sym, Sym]:
-        """Angles with that of the same value which is given, or else comes first."""
-        angles = [n for n in self.vocabulary.angles if isinstance(n, Sym) and n.key in self.values]
-        angles.sort(key=lambda n: n not in self.vocabulary.parameters)
+        """Angles, and at a moment rates of them, with that of the same value which is given, or else comes first."""
+        known = self.vocabulary
+        angles = [n for n in known.angles if isinstance(n, Sym) and n.key in self.values]
+        if self.case.sampler.moment:
+            rates = [*(n for n in known.letters if known.dimension(n) == _SPIN), *(Sym(n.name, 1) for n in known.angular)]
+            angles += [n for n in rates if n.key in self.values and self.values[n.key].ndim == 1]
+        angles.sort(key=lambda n: n not in {*known.parameters, *known.letters})
         first = {n: next(one for one in angles if self._are_one(one, n)) for n in angles}
         return {n: one for n, one in first.items() if one != n}
 

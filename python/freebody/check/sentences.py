@@ -125,7 +125,7 @@ def sentence(text: str, known: Collection[str], fixed: Collection[str] = ()) -> 
 def _claimed(relations: Sequence[_Relation], fixed: Collection[str]) -> list[int]:
     """Which of some relations are claimed: those that nothing makes a condition; else the last that might be one."""
     outer = [i for i, relation in enumerate(relations) if not relation.aside and relation.role < _Role.CONDITION]
-    outer = [i for i in outer if not _is_of(relations[i].text, fixed)] or outer
+    outer = [i for i in outer if not is_of(relations[i].text, fixed)] or outer
     ways = (
         [i for i in outer if not (relations[i].role or (relations[i].is_value and not relations[i].leads))],
         [i for i in outer if not relations[i].is_value][-1:],
@@ -137,7 +137,7 @@ def _claimed(relations: Sequence[_Relation], fixed: Collection[str]) -> list[int
     return sorted({*found, *pairs})
 
 
-def _is_of(text: str, names: Collection[str]) -> bool:
+def is_of(text: str, names: Collection[str]) -> bool:
     """Whether a relation is between some names alone, and no rates of them."""
     said = [folded(word) for word in re.findall(r"\\?[^\W\d]\w*", _GLYPHS.sub("", text))]
     return "'" not in text and bool(names) and {*said} <= {*map(folded, names), *_FUNCTIONS}

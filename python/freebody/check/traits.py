@@ -128,6 +128,22 @@ class Traits:
     def parts(self) -> set[Node]:
         return {*walk(self.equation)}
 
+    @cached_property
+    def is_integrated(self) -> bool:
+        """Whether it says of a place, a speed, a time or an energy what that is in parameters alone."""
+        one, other = self.equation.left, self.equation.right
+        asked = one.base if isinstance(one, Pow) else one
+        if (
+            not isinstance(asked, Sym)
+            or asked in self.vocabulary.parameters
+            or not other.symbols <= {*self.vocabulary.parameters}
+        ):
+            return False
+        first = asked.dots < 2 and Sym(asked.name) in self.vocabulary.coordinates
+        return bool(other.symbols) and (
+            first or asked.name == "t" or asked in self.vocabulary.energies or self.vocabulary.is_rate(asked)
+        )
+
     def is_beside_square(self, square: Pow) -> bool:
         """Whether the square of a rate is added to others, as in an energy."""
         is_square = lambda n: isinstance(n, Pow) and isinstance(n.base, Sym) and self.vocabulary.is_rate(n.base)
