@@ -33,6 +33,8 @@ SAID = [
     ("driven", "in the steady state, small x: X = F0/√((k − m Ω²)² + 4 c² Ω²)", Kind.WRONG),
     ("driven", "in the steady state, for small c: the amplitude of x = F0/|k − m Ω²|", Kind.TRUE),
     ("driven", "in the steady state, for small c: the amplitude of x = F0/|k − 2 m Ω²|", Kind.WRONG),
+    ("driven", "in the steady state: tan φ = c Ω/(k − m Ω²)", Kind.TRUE),
+    ("driven", "in the steady state: tan φ = c Ω/(m Ω² − k)", Kind.WRONG),
     ("undamped", "steady-state amplitude: X = F0/(k − m Ω²)", Kind.TRUE),
     ("undamped", "steady-state amplitude: X = F0/(k − 2 m Ω²)", Kind.WRONG),
     ("free", "amplitude: X = √(x0² + m v0²/k)", Kind.TRUE),
@@ -56,6 +58,19 @@ forces: {spring: {type: law, along: x, value: "-k*(x - h*cos(Ω*t))"}}
 initial: {x: 0.01 m}
 """
 )
+BASE = """
+freebody: 1
+parameters: {m: 2.3 kg, k: 410 N/m, c: 11 N*s/m, h: 0.02 m, Ω: 17 1/s}
+gravity: none
+ground: {lines: {level: {through: O, angle: 0}}}
+bodies: {block: {shape: particle, mass: m}, base: {shape: particle, mass: m}}
+joints:
+  rail: {type: slot, along: ground.level, point: block.centre, coordinate: x}
+  track: {type: slot, along: ground.level, point: base.centre, coordinate: y}
+forces: {spring: {type: spring, along: x - y, stiffness: k, damping: c}}
+motions: {shake: {of: y, is: h*sin(Ω*t)}}
+initial: {x: 0.01 m}
+"""
 ROD = """
 freebody: 1
 parameters: {m: 1.3 kg, l: 0.62 m, g: 9.81 m/s^2, F0: 21 N, Ω: 5.3 1/s}
@@ -105,4 +120,17 @@ def test_amplitudes_of_small_forced_vibrations(says, kind):
 @pytest.mark.parametrize(("says", "kind"), [("c_c = 2 √(k m)", Kind.TRUE), ("critical damping: c_cr = √(k m)", Kind.WRONG)])
 def test_critical_damping(says, kind):
     checker = Checker(Mechanism.loads(f"{MASS}forces: {{{FORCES['driven']}}}\n"))
+    assert checker.check(says).kind is kind
+
+
+@pytest.mark.parametrize(
+    ("says", "kind"),
+    [
+        ("steady state: tan φ = m c Ω³/(k (k − m Ω²) + (c Ω)²)", Kind.TRUE),  # Thomson 3.5: behind the base, and not its force
+        ("steady state: tan φ = c Ω/(k − m Ω²)", Kind.WRONG),
+    ],
+)
+def test_a_phase_is_that_behind_what_drives(says, kind):
+    checker = Checker(Mechanism.loads(BASE))
+    checker.correcting = False
     assert checker.check(says).kind is kind

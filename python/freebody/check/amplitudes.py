@@ -6,8 +6,10 @@ import re
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from freebody.symbolic.symbols import folded
+
 from .hypotheses import SMALL_MOTIONS
-from .user_symbols import AMPLITUDE
+from .user_symbols import AMPLITUDE, LAG
 from .usual_names import ENERGIES
 from .verdict import NO_AMPLITUDE, Kind
 
@@ -27,6 +29,7 @@ _LIMIT = re.compile(r"limit: ?(.+) as ([^:]+)", re.S)
 _REPEATS = "in the steady state"
 _STEADY = re.compile(rf"if ([^:]*\b{_REPEATS}\b[^:]*): ?([^:]+)", re.S)
 _MOST = re.compile(r"([^\W\d]\w*?)_\{?(?:\\(?:text|mathrm|operatorname)?\{?)?max\b")
+_TANGENT = re.compile(rf"\\?tan\s*[({{]?\s*({_SYMBOL})")
 _NAME = "amp"
 """What it is called that has no letter of its own."""
 _WORDS = re.compile(r"\s*(?:(?:in|for|the|its|resulting|steady|state|motion|vibrations?|oscillations?)\b[\s,]*)*")
@@ -54,6 +57,11 @@ def of_amplitudes(checker: Checker, declared: Declared, claim: str) -> Verdict |
     if not steady and not (limited and _REPEATS in limited[2]):
         return None
     conditions, statement = (steady[1], steady[2]) if steady else (limited[2], limited[1])
+    if lags := _lags(checker, declared, statement):
+        (of,) = {*lags.values()}
+        given = {**declared, **dict.fromkeys(lags, f"{LAG}{of}")}
+        limits = conditions.replace(SMALL_MOTIONS, f"{of} -> 0") if limited else f"{_REPEATS}, {of} -> 0"
+        return checker.check(f"limit: {statement} as {limits}", given)
     named = _capitals(checker, declared, statement) | ({} if steady else _most(checker, declared, statement))
     given = {**declared, **{name: f"{AMPLITUDE}{of}" for name, of in named.items()}}
     return (_judged if steady else _in_limit)(checker, given, conditions, statement) if named else None
@@ -109,6 +117,14 @@ def _capitals(checker: Checker, declared: Declared, statement: str) -> dict[str,
         if meaning and meaning.kind in ("coordinate", "gauge", "declared"):
             found[name.removeprefix("\\")] = meaning.texts[0]
     return found
+
+
+def _lags(checker: Checker, declared: Declared, statement: str) -> dict[str, str]:
+    """The letter of an angle without a meaning of its own of which a tangent is taken, with the only coordinate that is free, if something drives it."""
+    known, prescribed = checker.symbols(declared), {motion["of"] for motion in checker.sampler.spec["motions"]}
+    names = [name for name in checker.sampler.names if name not in prescribed]
+    found = {folded(name): name for name in _TANGENT.findall(statement) if known.spelt(name) is None}
+    return {name.removeprefix("\\"): names[0] for name in found.values()} if len(names) == 1 and checker.vibration.drive else {}
 
 
 def _most(checker: Checker, declared: Declared, statement: str) -> dict[str, str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -14,17 +16,21 @@ if TYPE_CHECKING:
 
 _TIMES = np.array([0.13, 0.71, 1.6, 2.3, 3.7, 4.1, 5.9, 7.7])
 """When accelerations are looked at, in times typical of the model: at no even spacing, so that no harmonic is taken for another."""
+_HARMONIC = re.compile(r"\b(sin|cos)\(\s*[^\W\d]\w*\s*\*\s*t\s*\)")
+_SHIFTED = re.compile(r"\b(?:sin|cos)\([^()]*\bt\s*[-+]")
+"""``sin(Ω*t)``, and what is ahead of it or behind."""
 _PART = 1e-3  # of the drive, by which its slope is taken, to fourth order
 _PURE = 1e-8  # of the harmonic, that may be left beside it
 
 
-def forced_amplitudes(
+def forced_vibrations(
     model: AskedModel, rest: State, a: Array, free: Sequence[str], values: Mapping[str, float], drive: str
-) -> dict[str, float]:
+) -> dict[str, complex]:
     """The amplitudes of the ``free`` coordinates, in m or rad, in the steady state about a place of ``rest``, to first order in the
-    parameter ``drive``, at the ``values`` of all: |(iΩ − A)⁻¹ (0, f)|, where d(x, ẋ)/dt = A (x, ẋ), shape (2n, 2n), are the linear
+    parameter ``drive``, at the ``values`` of all: X = (iΩ − A)⁻¹ (0, f), where d(x, ẋ)/dt = A (x, ẋ), shape (2n, 2n), are the linear
     equations at rest and f e^{iΩt}, f of shape (n,), are the accelerations that the drive gives there. Ω is the parameter with which these
-    are harmonic, beside a mean; nothing is returned where none is."""
+    are harmonic, beside a mean; nothing is returned where none is. The phase of each, negative where it lags, is that from what drives: the
+    sine or cosine in the model, or else its force."""
 
     def at(part: float, late: float) -> State:
         p = model.core.bind({**model.free_parameters, **values, drive: part * values[drive]})
@@ -47,4 +53,17 @@ def forced_amplitudes(
     if left > _PURE * np.abs(force).max():
         return {}
     found = np.linalg.solve(1j * frequency * np.eye(len(a)) - a, np.concatenate([np.zeros(len(free)), force]))[: len(free)]
-    return dict(zip(free, np.abs(found).tolist(), strict=True))
+    return dict(zip(free, (found / (_phase(model) or _direction(force))).tolist(), strict=True))
+
+
+def _phase(model: AskedModel) -> complex | None:
+    """e^{iα} of the only function cos(Ωt + α) in a model, a sine or a cosine; None where there are others."""
+    written = json.dumps([model.spec[part] for part in ("forces", "motions")], ensure_ascii=False)
+    named = {*_HARMONIC.findall(written)}
+    return {"cos": 1.0 + 0j, "sin": -1j}[named.pop()] if len(named) == 1 and not _SHIFTED.search(written) else None
+
+
+def _direction(force: Array) -> complex:
+    """The phase of the largest force, as a number of size 1."""
+    largest = force[np.abs(force).argmax()]
+    return complex(largest / abs(largest))

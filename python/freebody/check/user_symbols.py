@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from freebody.core.compiled import BEFORE
 from freebody.model.errors import ModelProblem
 from freebody.model.names import spell, suggestion
-from freebody.symbolic.dimensions import ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
+from freebody.symbolic.dimensions import ANGLE, ENERGY, FORCE, LENGTH, MASS, NUMBER_ONLY, TIME, Dimension
 
 from .rates import derivative
 
@@ -102,6 +102,8 @@ LARGEST, LEAST = "the largest", "the least"
 """How one begins of what a quantity has along the motion from the start."""
 AMPLITUDE = "the amplitude of "
 """How one begins of half of what a quantity goes to and fro from a state on."""
+LAG = "the phase lag of "
+"""How one begins of the angle by which a forced vibration is behind what drives it."""
 OF_START = re.compile("⟦(.+?)⟧")
 """A part of a text whose value where the motion starts is asked, or at a moment that stands behind it."""
 OF_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
@@ -144,6 +146,8 @@ class Reader:
         if phrase.startswith(AMPLITUDE):
             text, dimension = self.measured(phrase.removeprefix(AMPLITUDE))
             return Meaning("amplitude", (f"{AMPLITUDE}{text}",), dimension)
+        if phrase.startswith(LAG):
+            return Meaning("amplitude", (f"{LAG}{self.measured(phrase.removeprefix(LAG))[0]}",), ANGLE)
         if asked := _AT_MOMENT.fullmatch(phrase):
             text, dimension = self.measured(asked[1])
             return Meaning("initial", (f"⟦{text}{self.at_moment(asked[2])}⟧",), dimension)

@@ -21,9 +21,9 @@ from freebody.symbolic.symbols import folded
 
 from .arrangement import arranged
 from .families import Family, NoMotion
-from .forced import forced_amplitudes
+from .forced import forced_vibrations
 from .linear_equations import NOTHING, linear_equations, of_several, squares_of, swings
-from .user_symbols import AMPLITUDE, Masses, Meaning, Values
+from .user_symbols import AMPLITUDE, LAG, Masses, Meaning, Values
 
 if TYPE_CHECKING:
     from .motion_sampler import MotionSampler
@@ -113,6 +113,7 @@ class Vibration:
         dimensions |= {
             AMPLITUDE + c["name"]: NUMBER_ONLY if c["dimension"] == "rad" else LENGTH for c in self.sampler.coordinates
         }
+        dimensions |= {LAG + name: NUMBER_ONLY for name in self.sampler.names}
         return {
             name: OfVibration("vibration", (what,), dimensions.get(what, per_second), of=self)
             for name, what in (found.items() if found and self.rest else ())
@@ -328,12 +329,14 @@ class Vibration:
             return {**out, "period": 2 * np.pi / natural, "damped period": 2 * np.pi / damped}
 
     def _forced(self, a: Array | None, rest: State | None, row: Array) -> dict[str, float]:
-        """The amplitudes of what moves freely."""
+        """The amplitudes of what moves freely, and how far they lag behind."""
         values = dict(zip(self.parameters, row.tolist(), strict=True))
         free = linear_equations(self.sampler.core, self.rest).free
         if a is None or rest is None or not self.drive or len(a) != 2 * len(free):
             return {}
-        return {f"{AMPLITUDE}{name}": x for name, x in forced_amplitudes(self.sampler, rest, a, free, values, self.drive).items()}
+        found = forced_vibrations(self.sampler, rest, a, free, values, self.drive)
+        amplitudes = {f"{AMPLITUDE}{name}": abs(x) for name, x in found.items()}
+        return amplitudes | {f"{LAG}{name}": float(-np.angle(x)) for name, x in found.items()}
 
     def _part(self, a: Array) -> Array | None:
         """The rows of linear equations that are of one coordinate alone; None where others have to do with it, or it does not swing."""
