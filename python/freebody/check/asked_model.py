@@ -19,7 +19,7 @@ from freebody.model.errors import ModelProblem
 from freebody.model.start import Start, evaluate, initial_state
 from freebody.run.moments import START, state_of
 from freebody.solve.perturbed_states import independent
-from freebody.symbolic.dimensions import LENGTH, Dimension
+from freebody.symbolic.dimensions import LENGTH, NUMBER_ONLY, Dimension
 
 from .families import NoMotion
 from .integrals import EXACT
@@ -94,9 +94,24 @@ class AskedModel:
         own = [*self.spec["parameters"], *({"name": z["name"], "value": z["start"]} for z in self.spec["states"])]
         numbers = {p["name"]: p["value"] for p in own if isinstance(p["value"], int | float)}
         counts = {name for name in mechanism.model.parameters if f".. {name}]" in text or f"..{name}]" in text}
+        units = self.start.parameters
+        counts |= {name for name in self.switched if units.get(name) in (None, NUMBER_ONLY)}  # on or off
         changed = {name: evaluate(value, {}) for name, value in self.changes.items() if name in self.start.parameters}
         self.free_parameters = {name: float(value) for name, value in (numbers | changed).items() if name not in counts}
-        """Parameters and states that are plain numbers in the model, with those; the others follow from them, or count items."""
+        """Parameters and states that are plain numbers in the model, with those; the others follow from them, count items, or are on or off."""
+
+    @cached_property
+    def switched(self) -> list[str]:
+        """The parameters that events set."""
+        done = (action for event in self.spec["events"] for action in event["then"] if isinstance(action, dict))
+        return [*dict.fromkeys(name for action in done for name in action.get("set", ()))]
+
+    def bound(self, values: Mapping[str, float], state: State) -> Array:
+        """The parameters with other values, those that events set as they are in a state."""
+        p = self.core.bind(values)
+        for k, given in enumerate(self.metadata["parameters"]):
+            p[k] = state.p[k] if given["name"] in self.switched else p[k]
+        return p
 
     def _parametrised_gravity(self) -> str | None:
         """A gravity that is a plain number becomes a parameter, so that nothing is true by the number 9.81."""

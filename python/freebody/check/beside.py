@@ -109,7 +109,7 @@ class Letters:
 
     def __init__(self, case: Case, equation: Equation, table: Mapping[str, Mapping[str, Any]]) -> None:
         self._table = table
-        self.samples = case.sampler.admissible.samples(count=len(next(iter(case.admissible.values()))))
+        self.samples = case.admissible_samples()
         said, known = [Sym(n.name) for n in symbols_in(equation)], case.meaning.symbols
         gauges = {gauge["name"]: gauge["value"] for gauge in case.sampler.spec["gauges"]}
         self._own: dict[Sym, Node] = {}

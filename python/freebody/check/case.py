@@ -330,8 +330,12 @@ class Case:
     def admissible(self) -> Mapping[str, Array]:
         """The symbols on states at which no balance holds; none where there are no such states."""
         with suppress(NoMotion, Unreached, ModelProblem, ModelError, MotionError, StatementError):
-            return self.meaning.values(self.sampler.admissible.samples(ALL, _ADMISSIBLE))
+            return self.meaning.values(self.admissible_samples())
         return {}
+
+    def admissible_samples(self) -> Samples:
+        """States at which no balance holds. Raises ``NoMotion``."""
+        return self.sampler.admissible.samples(ALL, _ADMISSIBLE)
 
     def is_kinematic(self, equation: Equation) -> bool:
         """Whether an equation holds whatever the balances say."""

@@ -13,7 +13,7 @@ MOTION = r"(?:(?:first )?hop|turn|fall|swing|rise|run|climb|jump|dive|stroke|pul
 _WORDS: tuple[tuple[str, str], ...] = (
     (r"(?:[a-z]+ )*?(?:standing|hanging|lying|resting|sitting) still at (\S+ ?= ?\S+)", r"in equilibrium, \1"),
     (
-        r"(?:the )?((?:recovery|coasting|rebound|(?:free )?flight|(?:second|next|later|last|final) (?:phase|stage|part|stretch|stroke))"
+        r"(?:the )?((?:recovery|coasting|braking|rebound|(?:free )?flight|(?:second|next|later|last|final) (?:phase|stage|part|stretch|stroke))"
         r"(?: (?:of|on|with|by) [a-z ]+)?)",
         r"during \1",
     ),

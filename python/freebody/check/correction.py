@@ -70,9 +70,9 @@ def _of_row(
     least = np.inf
     for step in steps:
         if step is Search.other_terms and not case.sampler.moment:  # while there is time
-            late = [each for each in _from_start(case, row, families, part, (Search.singles,)) if each.size <= LIKELIEST]
+            late = _from_start(case, row, families, part, (Search.singles,))
         if step is Search.pairs:
-            late = late or _from_start(case, row, families, part, (*_SINGLE, Search.together))
+            late = _from_start(case, row, families, part, (*_SINGLE, Search.together)) or late
             if late and late[0].size + _OF_START < least:
                 yield from late
                 return

@@ -31,7 +31,8 @@ _WAYS = {
     "down": ("-vy", r"down(?:wards?|hill)?|fall(?:s|ing)|sink(?:s|ing)|descend(?:s|ing)"),
 }
 """Which way a body moves: the component of its velocity that is above 0 then, and words for it."""
-_ALL = re.compile(r"\b(?:both|all|they)\b")
+_IT = re.compile(r"\bit\b")
+_ALL = re.compile(r"\b(?:both|all|they)\b(?! the (?:way|time)\b)")
 _GREATEST = r"(?:greatest|largest|biggest|highest|farthest|longest|maximal|maximum|max\.?|most|fastest|fullest|full)"
 _LEAST = r"(?:least|smallest|lowest|shortest|minimal|minimum|min\.?|slowest)"
 _EXTREME = re.compile(rf"\b(?:(?P<greatest>{_GREATEST}|top(?!\s+of\b))|(?P<least>{_LEAST}|bottom(?!\s+of\b)))(?!\w)")
@@ -67,14 +68,29 @@ def described(words: str, checker: Checker, declared: Declared) -> Family | None
 
 def way_of(words: str, checker: Checker) -> str:
     """Which way something moves by words, in words that say nothing else; none where they do not tell."""
-    way, body = _which_way(words), _body(words, checker)
-    return f"{body} moves {way}" if way and body else ""
+    way = _which_way(words)
+    body = _mover(words, way, checker) if way else None
+    return f"{body} moves {way}" if body else ""
 
 
 def _which_way(words: str) -> str:
     found = [way for way, (_, said) in _WAYS.items() if re.search(rf"\b(?:{said})\b", words)]
     moving = _MOVING.search(words) or re.search(r"\b(?:ris|fall|sink|climb|ascend|descend)(?:s|es|ing)\b", words)
     return found[0] if len(found) == 1 and moving else ""
+
+
+def _mover(words: str, way: str, checker: Checker) -> str | None:
+    """The body that moves one way by words: that which they name, else the only one that moves along there."""
+    if (body := _body(words, checker)) or not _IT.search(words):
+        return body
+    run, bodies = checker.happens.run, [body["name"] for body in checker.sampler.spec["bodies"]]
+    times = np.linspace(run.t[0], float(run.outcome.t), _LOOKS)[1:-1]
+    moves = lambda name: (
+        np.abs(run.evaluate(f"{_WAYS[way][0]}({quote(name)}.G)", times)).max()
+        > _STILL * checker.sampler.length * checker.sampler.rate
+    )
+    found = [name for name in bodies if moves(name)]
+    return found[0] if len(found) == 1 else None
 
 
 def place_of(words: str, checker: Checker) -> str:
@@ -97,8 +113,9 @@ def place_of(words: str, checker: Checker) -> str:
 def _way(words: str, checker: Checker) -> Family | None:
     """Motions of a body one way, or of all of them."""
     every = [body["name"] for body in checker.sampler.spec["bodies"]] if _ALL.search(words) else []
-    bodies, way = every or list(filter(None, [_body(words, checker)])), _which_way(words)
-    if not (bodies and way):
+    way = _which_way(words)
+    bodies = (every or list(filter(None, [_mover(words, way, checker)]))) if way else []
+    if not bodies:
         return None
     moving = (f"{_WAYS[way][0]}({quote(body)}.G)" for body in bodies)
     return replace(checker.hypothesis, above=(*checker.hypothesis.above, *moving))

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from freebody.symbolic.dimensions import ENERGY, FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY
+from freebody.symbolic.dimensions import FORCE, INERTIA, LENGTH, MASS, NUMBER_ONLY
 from freebody.symbolic.evaluate import Array, sampled
 from freebody.symbolic.tree import (
     Add,
@@ -32,17 +32,17 @@ from freebody.symbolic.tree import (
 
 from .coefficients import more, multiplied, powered, recognised, snapped
 from .edits import Edit, depth
-from .inertia_edits import about_another_point, mass_centres, of_whole, shares, wheels
+from .inertia_edits import about_another_point, shares
 from .known_terms import KnownTerms, calls_in
 from .language.dimensions import dimension
-from .language.statements import Equation, symbols_in, terms, without_ones
+from .language.statements import Equation, symbols_in, without_ones
 from .monomials import Monomials
 from .powers import powers_of, written
 from .residual import HOLDS, magnitude
 from .roots import on_the_way, other_sides, resultants, rooted
 from .shared_ratios import shared_ratios
 from .solve_for_term import RequiredTerm, is_asked, required_terms
-from .spans import proportional, spanning
+from .spans import proportional
 from .square_edits import SquareEdits
 from .sum_edits import SumEdits
 from .throughout import throughout
@@ -55,10 +55,7 @@ _FAR_FETCHED = 0.9  # by which a term is less likely that stands for a wrong sig
 _HIGHEST_POWER = 4  # that a factor may be wrong by
 _MOST_MASSES = 4  # of which sums are thought of
 _MOST_TERMS = 4  # of sums of which two are thought of together
-_TWO_TERMS = 0.6  # by which two missing terms are more than one: they mostly are components of one force or acceleration
 _PART = 0.3  # for a letter that is a part of what it stands for
-_UNDONE = 0.3  # more, where one of them takes away what is said, or doubles it
-_AS_ONE = 0.1  # for several inertias that turn as one
 _NO_ANSWER = 0.25  # for a denominator where an equation is not solved for something
 _TAKEN = 0.1  # for powers that are taken away
 _WHOLE = 0.3  # for all that a letter is said to be
@@ -293,6 +290,11 @@ class FittedEdits:
             if _is_share(lacked):
                 yield Edit.at(equation, "share", node, new)
                 return
+            if _is_share({base: -n for base, n in lacked.items()}):  # one mass for several
+                lost = next(base.terms for base, n in lacked.items() if n > 0 and isinstance(base, Add))
+                others = [mass for mass in lost if mass not in lacked]
+                yield Edit("missing term", None, Add(tuple(others)) if others[1:] else others[0], exchange(equation, node, new))
+                return
             taken = _TAKEN * (min(lacked.values()) < 0)  # a factor is rather forgotten than one too many
             yield Edit.at(equation, "missing factor", node, plain or new, 0.2 * (size - 1) + taken)
 
@@ -381,51 +383,6 @@ class FittedEdits:
         first = unsigned(term.top if isinstance(term, Quotient) else term)
         its = self.terms.dimension_of(equation)
         return (its is None or its.mass != 0) and bool(new) and isinstance(first, Mul) and first.factors[0] == Num(2.0)
-
-    def _longer_side(self, equation: Equation) -> RequiredTerm | None:
-        """The first side that is no symbol alone."""
-        sides = (each for each in required_terms(equation, self.values) if each.node in (equation.left, equation.right))
-        return next((each for each in sides if not isinstance(each.node, Sym)), None)
-
-    def as_one(self, equation: Equation) -> Iterator[Edit]:
-        """A side that lacks several inertias that turn as one."""
-        with np.errstate(all="ignore"):
-            required = self._longer_side(equation)
-            if required is not None and required.missing.ndim == 1:
-                for term in self.within(of_whole(equation, required.missing, self.vocabulary, self.values)):
-                    after = exchange(equation, required.node, more(required.node, term))
-                    yield Edit("missing term", None, term, after, _AS_ONE)
-
-    def two_missing(self, equation: Equation) -> Iterator[Edit]:
-        """A side that lacks two terms."""
-        with np.errstate(all="ignore"):
-            required = self._longer_side(equation) or next(required_terms(equation, self.values), None)
-            if required is None or required.missing.ndim != 1 or not np.isfinite(required.missing).all():
-                return
-            nodes, rows = self.terms.dictionary(equation, NUMBER_ONLY)
-            arms, of_arms = [], rows[:0]
-            if (its := self.terms.dimension_of(equation)) == FORCE:
-                turning, of_turning = wheels(equation, self.vocabulary, self.values)
-                nodes, rows = [*turning, *nodes], np.concatenate([of_turning, rows])
-            if its in (FORCE, ENERGY):
-                turning = [n for n in self.vocabulary.accelerations if not self.terms.has_number(n)]
-                arms, of_arms = mass_centres(self.vocabulary, self.values, turning, its == ENERGY)
-            said = np.array(
-                [sampled(term, self.values) * np.ones(len(required.missing)) for term in terms(equation, expand=True)]
-            )
-            made = [*spanning(of_arms, required.missing, self.within)]
-            nodes, rows = (arms, of_arms) if made else (nodes, rows)
-            for pair in self.within(made or spanning(rows, required.missing, self.within)):
-                sizes, *_ = np.linalg.lstsq(rows[[*pair]].T, required.missing, rcond=None)
-                lost = [multiplied(nodes[k], float(size)) for k, size in zip(pair, sizes, strict=True)]
-                if None not in lost:
-                    after = exchange(equation, required.node, more(required.node, *lost))
-                    again = any(
-                        np.isclose(np.abs(said), np.abs(size * rows[k])).all(axis=1).any()
-                        for k, size in zip(pair, sizes, strict=True)
-                    )
-                    cost = _TWO_TERMS + 0.02 * sum(map(depth, lost)) + _UNDONE * again
-                    yield Edit("missing term", None, Add(tuple(lost)), after, cost)
 
 
 def _is_share(powers: Mapping[Node, int]) -> bool:

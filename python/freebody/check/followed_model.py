@@ -13,7 +13,7 @@ from freebody.model.errors import ModelProblem
 from freebody.solve.perturbed_states import independent, same_mode
 
 from .arrangement import NOTHING, arranged
-from .asked_model import AskedModel
+from .asked_model import AskedModel, does
 from .families import BEFORE, Family, Samples
 from .integrals import EXACT
 from .moments import Moments, Switch, switches
@@ -112,7 +112,9 @@ class FollowedModel(AskedModel):
         if until <= start.t:
             return Course([], self.core.free_bodies(start))
         motion = self.run(start, by * (until - start.t), EXACT)
-        return Course(switches(motion), self.core.free_bodies(motion.end))
+        setting = [event["name"] for event in self.spec["events"] if does(event, "set")]
+        done = [("event", (event.name,), ()) for event in motion.events if event.name in setting]
+        return Course([*switches(motion), *done], self.core.free_bodies(motion.end))
 
     def _stays(self, text: str, motion: Trajectory, begins: float, ends: float) -> bool:
         """Whether an expression is 0 on all of a stretch."""

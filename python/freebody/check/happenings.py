@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _ENDS = re.compile(r"\b(?:instant|moment) of\b|\b(?:begin|start|end|stop|cease)s?\b")
 """Words that say of something that it happens."""
 _BLOW = re.compile(BLOW)
+_ON, _OFF = re.compile(r"\b(?:on|under)\b"), re.compile(r"\boff\b")
 _ARTICLE = re.compile(r"\A(?:the|an?)\s+")
 _SAME_TIME = 1e-6  # of a run: by less the moments of two runs of one motion differ
 
@@ -152,6 +153,14 @@ class Happenings:
         """The only impact on the model's own run, else the only event that changes the model; None where there are several."""
         events = [event["name"] for event in self._events if event["then"] not in ([], ["stop"])]
         return self.only_impact or (events[0] if len(events) == 1 and not self._sampler.moment else None)
+
+    def ending(self, words: str) -> str | None:
+        """The event that ends what words say is on, ``power on`` where one is called ``power off``; None where something is called as they say."""
+        names = [event["name"] for event in self._events]
+        if not _ON.search(words) or any(_ON.search(name) for name in called(names, re.findall(r"\w+", words))):
+            return None
+        ends = called([name for name in names if _OFF.search(name)], re.findall(r"[^\W\d]{3,}", words))
+        return ends[0] if len(ends) == 1 else None
 
     def event(self, words: str) -> str | None:
         """The only event to whose name one of several words is alike and that changes nothing in the model, so that there is one state

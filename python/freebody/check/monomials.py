@@ -13,6 +13,7 @@ from freebody.symbolic.tree import Node, Quotient
 from .coefficients import multiplied, product, snapped
 from .powers import power_of
 
+_SPARE = 4  # states more than bases, at least
 _MOST_SHAPES = 4000
 _SAME = 1e-7  # of a logarithm: below it two values are one
 _WHOLE = 1e-2  # off a whole number, below which a power is one: whether it is shows beside the values
@@ -38,7 +39,7 @@ class Monomials:
         for node in bases:
             with np.errstate(all="ignore"):
                 column = np.log(np.abs(sampled(node, values)))
-            if column.ndim != 1 or not np.isfinite(column).all() or len(columns) > count // 2:
+            if column.ndim != 1 or not np.isfinite(column).all() or len(columns) > count - _SPARE:
                 continue
             rest = column - basis @ (basis.T @ column)
             rest -= basis @ (basis.T @ rest)  # once more: the first leaves round-off of what is nearly dependent

@@ -176,7 +176,7 @@ class MotionSampler(FollowedModel):
         else:
             found = self.released(values, family) if family.at_start else self._anywhere(rng, values, family, reach)
         start = found if family.at_start else start
-        comes = "after" in self.moment or (family.since == BEFORE and "before" in self.moment)
+        comes = "after" in self.moment or ("before" in self.moment and (family.at_start or family.since == BEFORE))
         if found and start and comes and not self._came_as_usual(family, values, start):
             return None
         start = self.started(values) if family.since == BEFORE else start
@@ -247,7 +247,7 @@ class MotionSampler(FollowedModel):
         near = self.started(values) if self.loops and family.scaled else self.first
         place = near.q + reach * move * rng.uniform(-1, 1, len(move))
         rates, t = self._rates(rng, family), 3 * rng.random() / self.rate
-        state = self.moved(near, place, rates, t=t, p=self.core.bind(values))
+        state = self.moved(near, place, rates, t=t, p=self.bound(values, near))
         made = arranged(self, self._conditions(rng, family), state, rates, family, values, self._adjustable(family))
         return self._judging(made, family) if self._is_small(family, made) else None
 
@@ -378,7 +378,7 @@ class MotionSampler(FollowedModel):
             if not (random or family.at_rest):
                 rates = {name: there[name] for name in rates}
                 late = 0.0 if family.vanishing or family.small else _NEAR * rng.random() / self.rate
-            state = self.moved(own, q, rates, p=self.core.bind(values))
+            state = self.moved(own, q, rates, p=self.bound(values, own))
             free = self._adjustable(family)
             state = arranged(self, self._conditions(rng, family), state, rates, family, values, free)
         if "before" in self.moment:

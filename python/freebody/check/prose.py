@@ -16,7 +16,7 @@ from .idioms import usual
 from .language.glyphs import CONDITION
 from .language.tokens import CALLS
 from .pieces import RATE
-from .sentences import is_of
+from .sentences import MUCH_LESS, is_of
 from .wording import OF_WHAT
 
 _MOVES = r"(?:start(?:s|ed|ing)?|released|let go|dropped|begin(?:s|ning)?|falls|falling|moves|moving)"
@@ -213,6 +213,7 @@ def plainly(
     said = _EXTREME.sub(lambda found: f"_{{{found[1] or found[2] or found[3]}}}", said)
     said = _LIMITS.sub(r"∫_{\1}^{\2}", said)
     said = _LIMITLESS.sub(lambda found: f"∫_0^t {found[1]}", said)
+    said = MUCH_LESS.sub(r"small \1", said)
     said = _THEN.sub(r"\1: ", _JUST_IT.sub(r"\1: ", said))
     said = _AT_ONCE.sub(r"\1: ", _WAY.sub(lambda found: told(found, "a remark, and not judged"), said))
     said = _WHERE_WHAT.sub(lambda found: told(found, "a remark, and not judged"), said)

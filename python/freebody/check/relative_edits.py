@@ -11,6 +11,7 @@ from freebody.symbolic.dimensions import FORCE, LENGTH, NUMBER_ONLY, TIME
 from freebody.symbolic.tree import Add, Negative, Node, Num, Pow, Quotient, Sym, addends, exchange, substitute, walk
 
 from .edits import Edit
+from .language.dimensions import dimension
 from .language.spelling import spell
 from .language.statements import Equation, symbols_in
 from .vocabulary import Vocabulary
@@ -80,8 +81,8 @@ def _from_natural_length(equation: Equation, vocabulary: Vocabulary) -> Iterator
     lengths = [n for n, its in vocabulary.parameters.items() if its == LENGTH]
     for stiffness in (n for n, its in vocabulary.parameters.items() if its == _STIFFNESS):
         elastic = [term for side in (equation.left, equation.right) for _, term in addends(side) if stiffness in term.symbols]
-        of_lengths = (n for term in elastic for n in walk(term) if isinstance(n, Pow) and isinstance(n.base, Sym))
-        squares = [n for n in of_lengths if vocabulary.dimension(n.base) == LENGTH]
+        squared = (n for term in elastic for n in walk(term) if isinstance(n, Pow))
+        squares = [n for n in squared if dimension(n.base, vocabulary.dimensions) == LENGTH and not isinstance(n.base, Add)]
         for natural in lengths if len(squares) > 1 else ():
             mended = equation
             for square in (n for n in squares if n.base != natural):

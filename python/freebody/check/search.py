@@ -33,6 +33,7 @@ from .marks import Marks
 from .momentum_edits import momentum_edits
 from .relative_edits import seen_from_elsewhere
 from .residual import HOLDS, OFTEN, REACH, Edited, Residual, magnitude, residual, unreached
+from .several_terms import as_one, two_missing
 from .slips import why
 from .stated import Correction, stated
 from .subject import Subject
@@ -176,10 +177,10 @@ class Search:
         """All terms that it lacks of an energy, or all inertias that turn as one; the components of two forces; two terms."""
         found = list(self._promising(energy_edits(self.case, self.equation, self.family)))
         components = component_edits(self.equation, self.few, self.vocabulary)
-        others = self._promising(chain(() if found else self.fits.as_one(self.equation), components))
+        others = self._promising(chain(() if found else as_one(self.equation, self.fits.terms), components))
         yield from (Found((edit,)) for edit in chain(found, others))
         if not found:
-            yield from (Found((edit,)) for edit in self._promising(self.fits.two_missing(self.equation)))
+            yield from (Found((edit,)) for edit in self._promising(two_missing(self.equation, self.fits.terms)))
 
     def pairs(self) -> Iterator[Found]:
         """Pairs of the edits that bring it nearest, and of one of them and what is then lacking."""

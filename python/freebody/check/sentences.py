@@ -39,7 +39,7 @@ _BLANK = re.compile(r"\\(?:(?:q?quad|textstyle|displaystyle)(?![A-Za-z])|[,;:!> 
 _IMPLIES = re.compile(
     r"⇒|⟹|⟺|⇔|∴|=>|\\(?:Rightarrow|Longrightarrow|implies|therefore|iff|Leftrightarrow)(?![A-Za-z])|(?:→|\\to\b)(?=(?:[^→=,;:()]|\([^()]*\))*=)"
 )
-_SMALL = re.compile(r"([^\s,;:()=]+)\s*(?:≪|<<|\\ll(?![a-z]))\s*1(?![\d.])")
+MUCH_LESS = re.compile(r"([^\s,;:()=]+)\s*(?:≪|<<|\\ll(?![a-z]))\s*1(?![\d.])")
 _ENDS = re.compile(rf"(?<=[\w)}}²³'′″%{_EDGE}])\s*[.?!]\s+(?=[A-Z\\({_EDGE}])|;\s+|\n+")
 """Where a sentence ends."""
 _LAST = re.compile(r"\s*[.!]\s*\Z")
@@ -149,7 +149,7 @@ def is_of(text: str, names: Collection[str]) -> bool:
 def _plain(text: str) -> str:
     """Sentences with marks where formulas are set apart; a consequence ends a sentence, too."""
     said = _SET_APART.sub(f" {_EDGE} ", _TEXT.sub(lambda found: f" {_EDGE} {found[1] or found[2] or ''} {_EDGE} ", text))
-    return plain_words(_SMALL.sub(r"small \1", _IMPLIES.sub(f" ; {_HENCE} ", _BLANK.sub(" ", said))))
+    return plain_words(MUCH_LESS.sub(r"small \1", _IMPLIES.sub(f" ; {_HENCE} ", _BLANK.sub(" ", said))))
 
 
 def _asides(text: str, known: Collection[str]) -> Iterator[tuple[str, bool]]:

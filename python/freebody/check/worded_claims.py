@@ -64,6 +64,9 @@ def labelled(checker: Checker, declared: Declared, words: str, statement: str, p
         verdict = checker.check(f"at {place}: {statement}", declared, correcting=checker.correcting)
         return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as at {place}."))
     lasts, said = LASTS.match(words) is not None, _is_plain(words)
+    if said and (ending := checker.happens.ending(words)):
+        verdict = _until(checker, declared, ending, statement)
+        return replace(verdict, notes=(*verdict.notes, f"`{words}` is read as before {ending}."))
     if not lasts and not _CONDITION.match(statement) and (event := checker.happens.event(words)):
         return timed_claims.at(checker, declared, event, statement)
     if IN_WORDS.fullmatch(words) and (found := phase(checker, words)):
@@ -175,7 +178,7 @@ def _described(checker: Checker, declared: Declared, given: Family, words: str, 
     sampler = checker.sampler
     soon = sampler.run(sampler.own, _SOON / sampler.rate).end
     begins_so = not given.since and sampler.are_above(given.above, soon)
-    if not verdict.ok and begins_so and checker.at_first().check(statement, declared, correcting=False).ok:
+    if not verdict.ok and begins_so and _judged_at(checker, declared, ("", "", ""), statement, False).ok:
         return None
     goes_later = given.above != checker.hypothesis.above and not (
         given.since or begins_so
